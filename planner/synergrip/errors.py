@@ -1,0 +1,144 @@
+"""Everything that can be refused, with the place, the reason and what to try.
+
+One root, `SynergripError`. `InputError` carries any number of `Issue`s, so that a
+file is judged as a whole; the refusals of the statics carry the physical object
+that explains them (a free twist, a contact component, a direction).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+@dataclass(frozen=True)
+class Issue:
+    """One thing that is wrong with an input, and where it stands."""
+
+    message: str
+    """What was found and what was expected, without the key in front."""
+    key: str = ""
+    """Dotted key with indices, for example ``contact[1].model``."""
+    file: str = ""
+    line: int = 0
+    """1-based line, 0 when unknown."""
+    column: int = 0
+    """1-based column, 0 when unknown."""
+    length: int = 1
+    """Number of characters to underline."""
+    source: str = ""
+    """The line of the file, to be shown under the message."""
+    on_key: bool = False
+    """True when the key itself is at fault and not its value."""
+
+    def __str__(self) -> str:
+        """Return one line: file, place, key, message."""
+        place = f"{self.file}:{self.line}:{self.column}: " if self.line else f"{self.file}: " if self.file else ""
+        return f"{place}{self.key}: {self.message}" if self.key else f"{place}{self.message}"
+
+
+class SynergripError(Exception):
+    """Root of all errors that synergrip raises on purpose."""
+
+    exit_code = 2
+
+
+class InputError(SynergripError):
+    """Bad input: nothing was solved. Carries every issue found, in file order."""
+
+    def __init__(self, issues: Sequence[Issue]) -> None:
+        """Carry `issues`, of which there is at least one."""
+        self.issues = tuple(issues)
+        super().__init__("\n".join(str(issue) for issue in self.issues))
+
+    @classmethod
+    def at(cls, key: str, message: str, *, on_key: bool = False) -> InputError:
+        """Return the error with one issue at `key`."""
+        return cls([Issue(message, key=key, on_key=on_key)])
+
+    def located(self, locate: Callable[[Issue], Issue]) -> InputError:
+        """Return the same error with each issue completed by `locate`."""
+        return type(self)([locate(issue) for issue in self.issues])
+
+    def under(self, prefix: str) -> InputError:
+        """Return the same error with `prefix` in front of every key."""
+        joined = [replace(i, key=".".join(part for part in (prefix, i.key) if part)) for i in self.issues]
+        return type(self)(joined)
+
+
+class RigidContactError(InputError):
+    """Some contact direction is rigid everywhere: the force along it is undetermined."""
+
+    def __init__(self, issues: Sequence[Issue], contact: str = "", component: str = "") -> None:
+        """Name the contact and the force component ("n", "t", "o" or "m")."""
+        super().__init__(issues)
+        self.contact, self.component = contact, component
+
+    def located(self, locate: Callable[[Issue], Issue]) -> RigidContactError:
+        """Return the same error with each issue completed by `locate`."""
+        return type(self)([locate(issue) for issue in self.issues], self.contact, self.component)
+
+
+class Refusal(SynergripError):
+    """A well-posed question whose answer is no, proven before any program is solved."""
+
+    exit_code = 1
+    stage = ""
+
+
+class NotRestrainedError(Refusal):
+    """The contacts leave the object a motion that no contact force resists: null(G') is not 0."""
+
+    stage = "restraint"
+
+    def __init__(self, message: str, free_twists: np.ndarray, unsupported: np.ndarray) -> None:
+        """Carry the free twists, shape (6, k), and the unsupported part of w_0, shape (6,)."""
+        super().__init__(message)
+        self.free_twists, self.unsupported = free_twists, unsupported
+
+
+class MotionCountError(Refusal):
+    """More independent motions are asked for than the hand has synergies (Theorem 1, Remark 3)."""
+
+    stage = "count"
+
+    def __init__(self, message: str, asked: int, available: int, directions: np.ndarray) -> None:
+        """Carry the number asked for, n_z, and the directions asked for, shape (6, asked)."""
+        super().__init__(message)
+        self.asked, self.available, self.directions = asked, available, directions
+
+
+class MotionDirectionError(Refusal):
+    """The wanted motion leaves Gamma_ucs, the rigid motions the synergies can produce."""
+
+    stage = "direction"
+
+    def __init__(self, message: str, residual: np.ndarray, time_s: float, share: float, size: float) -> None:
+        """Carry the residual twist (6,), when it is largest, its share of the wish and its size in metres."""
+        super().__init__(message)
+        self.residual, self.time_s, self.share, self.size = residual, time_s, share, size
+
+
+class SelfCheckError(SynergripError):
+    """The program's own answer failed the program's own check: a defect of synergrip."""
+
+    exit_code = 4
+
+
+def suggest(word: str, valid: Iterable[str]) -> str:
+    """Return ``; did you mean 'x'?`` for the nearest valid word, or an empty string."""
+    close = get_close_matches(str(word), list(valid), n=1, cutoff=0.6)
+    return f"; did you mean '{close[0]}'?" if close else ""
+
+
+def one_of(word: object, valid: Iterable[str]) -> str:
+    """Return the message for a word that is none of the `valid` ones."""
+    names = list(valid)
+    listed = ", ".join(f"'{name}'" for name in names[:-1])
+    listed = f"{listed} or '{names[-1]}'" if listed else f"'{names[-1]}'" if names else "(none)"
+    return f"{word!r} is not {'one of ' if len(names) > 1 else ''}{listed}{suggest(str(word), names)}"

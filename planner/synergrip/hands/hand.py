@@ -1,0 +1,96 @@
+"""What the robot is: joints, compliance, synergies, pads. The paper's left-hand side of (9) and (10)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from synergrip.errors import InputError, one_of
+from synergrip.linalg import Array
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """Where a point of a link is, and how it moves with the joints, in the palm frame."""
+
+    position: Array
+    """(3,) position of the point [m]."""
+    rotation: Array
+    """(3, 3) orientation of its link: link coordinates to palm coordinates."""
+    jacobian: Array
+    """(6, n_q) rows v (point velocity), omega, for unit joint rates [m or 1, rad or rad/m]."""
+
+
+class Kinematics(Protocol):
+    """The one thing asked of a kinematics library."""
+
+    def at(self, q: Array, points: Sequence[tuple[str, Array]]) -> tuple[PointMotion, ...]:
+        """Return the motion of each (link name, point in link coordinates [m]) at joint values `q` (n_q,)."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One joint, in the order of q."""
+
+    name: str
+    kind: str
+    """"hinge" (rad, N m) or "slide" (m, N)."""
+    lower: float  # [rad] or [m]
+    upper: float  # [rad] or [m]
+    torque_limit: float
+    """|tau| allowed [N m] or [N]; infinity when the hand states none."""
+
+
+@dataclass(frozen=True)
+class Pad:
+    """A place on a link that is made to touch things."""
+
+    name: str
+    link: str
+    point: Array
+    """(3,) in link coordinates [m]."""
+    normal: Array
+    """(3,) unit outward normal in link coordinates: the direction in which the pad pushes."""
+
+
+@dataclass(frozen=True)
+class SynergySet:
+    """A named synergy matrix S (9)."""
+
+    name: str
+    title: str
+    synergies: tuple[str, ...]
+    """Name of each column."""
+    S: Array  # (n_q, n_z)
+    offset: Array
+    """(n_q,) joint values at z = 0: q = S z + offset."""
+    effort_limits: Array
+    """(n_z,) |sigma| allowed; infinity where the hand states none."""
+
+
+@dataclass(frozen=True)
+class Hand:
+    """A robot hand as data."""
+
+    name: str
+    title: str
+    joints: tuple[Joint, ...]
+    C_q: Array  # (n_q, n_q) [rad/(N m)]
+    pads: Mapping[str, Pad]
+    synergy_sets: Mapping[str, SynergySet]
+    """The first one is the default; every hand also has "joints" (S = I)."""
+    postures: Mapping[str, Array]
+    """Named joint values (n_q,)."""
+    kinematics: Kinematics
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints in the order of q."""
+        return tuple(joint.name for joint in self.joints)
+
+    def pad(self, name: str, key: str = "") -> Pad:
+        """Return a pad by name or raise an `InputError` that lists the pads."""
+        if name not in self.pads:
+            raise InputError.at(key, one_of(name, self.pads))
+        return self.pads[name]

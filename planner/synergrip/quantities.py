@@ -1,0 +1,85 @@
+"""Quantities as people write them ("10 mm", "0.5 N"), in SI units inside.
+
+One closed table of units. Angles count as dimensionless radians, except that a key
+that wants an angle says so and refuses a length.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from synergrip.errors import InputError, suggest
+
+UNITS: dict[str, dict[str, float]] = {
+    "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
+    "angle": {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180},
+    "mass": {"kg": 1.0, "g": 1e-3},
+    "time": {"s": 1.0, "ms": 1e-3, "min": 60.0},
+    "force": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
+    "torque": {"N m": 1.0, "N mm": 1e-3, "mN m": 1e-3},
+    "stiffness": {"N/m": 1.0, "N/mm": 1e3},
+    "spin stiffness": {"N m/rad": 1.0, "N mm/rad": 1e-3},
+    "joint compliance": {"rad/(N m)": 1.0, "deg/(N m)": math.pi / 180, "mrad/(N m)": 1e-3},
+    "slide compliance": {"m/N": 1.0, "mm/N": 1e-3},
+}
+"""Unit -> factor to SI, for each kind of quantity."""
+
+EXAMPLES = {
+    "length": "10 mm", "angle": "5 deg", "mass": "200 g", "time": "2 s", "force": "0.5 N", "torque": "1.5 N m",
+    "stiffness": "8 N/mm", "spin stiffness": "2 N m/rad", "joint compliance": "0.025 rad/(N m)",
+    "slide compliance": "0.1 mm/N",
+}  # fmt: skip
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*\Z")
+
+
+def quantity(text: object, kind: str, key: str = "") -> float:
+    """Return the SI value of a quantity such as ``"10 mm"``.
+
+    Args:
+        text: number and unit in one string.
+        kind: a key of `UNITS`.
+        key: where it stands, for the error.
+
+    Raises:
+        InputError: no number, no unit, an unknown unit or a unit of another kind.
+    """
+    units = UNITS[kind]
+    listed = ", ".join(units)
+    article = "an" if kind[0] in "aeiou" else "a"
+    if isinstance(text, bool) or not isinstance(text, str):
+        wrote = f"{text!r} has no unit; " if isinstance(text, int | float) and not isinstance(text, bool) else ""
+        shown = f"{text:g} {next(iter(units))}" if wrote else EXAMPLES[kind]
+        raise InputError.at(key, f'{wrote}expected {article} {kind} such as "{shown}" (units: {listed})')
+    match = _NUMBER.match(text)
+    if match is None:
+        raise InputError.at(key, f'{text!r} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})')
+    number, unit = float(match[1]), " ".join(match[2].split())
+    if not unit:
+        raise InputError.at(key, f'missing unit; write "{match[1]} {next(iter(units))}" (units: {listed})')
+    if unit not in units:
+        other = next((name for name, table in UNITS.items() if unit in table), "")
+        why = f"'{unit}' is a unit of {other}" if other else f"unknown unit '{unit}'"
+        raise InputError.at(key, f"{why}; expected {article} {kind} (units: {listed}){suggest(unit, units)}")
+    value = number * units[unit]
+    if not math.isfinite(value):
+        raise InputError.at(key, f"{text!r} is not finite")
+    return value
+
+
+def ratio(value: object, key: str = "") -> float:
+    """Return a plain number, given as a number or as a fraction in a string such as ``"1/3"``."""
+    if isinstance(value, str):
+        parts = value.split("/")
+        try:
+            result = float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(value)
+        except (ValueError, ZeroDivisionError):
+            raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"') from None
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        result = float(value)
+    else:
+        raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"')
+    if not math.isfinite(result):
+        raise InputError.at(key, f"{value!r} is not finite")
+    return result
