@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 
 from synergrip.errors import InputError, suggest
 
@@ -54,7 +55,9 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         raise InputError.at(key, f'{wrote}expected {article} {kind} such as "{shown}" (units: {listed})')
     match = _NUMBER.match(text)
     if match is None:
-        raise InputError.at(key, f'{text!r} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})')
+        raise InputError.at(
+            key, f'{text!r} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})'
+        )
     number, unit = float(match[1]), " ".join(match[2].split())
     if not unit:
         raise InputError.at(key, f'missing unit; write "{match[1]} {next(iter(units))}" (units: {listed})')
@@ -77,7 +80,7 @@ def ratio(value: object, key: str = "") -> float:
         except (ValueError, ZeroDivisionError):
             raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"') from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        result = float(value)
+        result = float(value) if abs(value) < sys.float_info.max else math.inf
     else:
         raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"')
     if not math.isfinite(result):

@@ -1,0 +1,1 @@
+"""What is asked, as a second-order cone program; its solvers; its certificates."""

@@ -1,0 +1,1 @@
+"""Where the hand touches the object: contact kinds, objects, G and J."""

@@ -1,0 +1,1 @@
+"""What the robot is: joints, limits, compliance, synergies, kinematics."""

@@ -1,0 +1,1 @@
+"""Goals, one file each: what is best among the plans that hold."""

@@ -1,0 +1,1 @@
+"""Limits, one file each: what must hold at every knot."""

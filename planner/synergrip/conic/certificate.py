@@ -1,0 +1,73 @@
+"""Answers re-verified from the program's data. NumPy only: this module imports no solver.
+
+Optimal: the slack ``b - A x`` lies in its cone, the multipliers lie in the dual cone, the stationarity
+``P x + q + A'z = 0`` holds, and primal and dual objective agree.
+Infeasible: for y in the dual cone, every x with ``b - A x`` in the cone has ``0 <= y'(b - A x)``; so
+``b'y + |A'y|' box < 0`` leaves no x in the box. An inexact ray proves it all the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.cones import distance_to_cones, project_on_dual
+from synergrip.conic.program import Program
+from synergrip.linalg import Array, frozen
+
+PRIMAL_TOLERANCE = 1e-7
+"""Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
+DUAL_TOLERANCE = 1e-6
+GAP_TOLERANCE = 1e-6
+ROUNDING = 1e-12
+"""Relative rounding allowance when the sign of a sum decides a proof."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A claim about a program with the numbers that bear it out, or do not."""
+
+    kind: str
+    """"optimal", "infeasible" or "none"."""
+    verified: bool
+    primal_residual: float = np.inf
+    """Optimal: distance of the slack from its cone. Infeasible: the largest entry of |A'y|."""
+    dual_residual: float = np.inf
+    """Optimal: largest entry of the stationarity residual. Infeasible: how far y had to be moved into the dual cone."""
+    gap: float = np.inf
+    """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
+    y: Array | None = None
+    """(m,) the proof of infeasibility, scaled to b'y = -1."""
+
+
+def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
+    """Judge the claim that x (n,) is optimal, with multipliers z (m,) of the rows."""
+    if not (np.all(np.isfinite(x)) and np.all(np.isfinite(z))):
+        return Certificate("optimal", False)
+    primal = max(distance_to_cones(program, program.b - program.A @ x), float((np.abs(x) - program.box).max(initial=0.0)))
+    moved = project_on_dual(program, z)
+    stationarity = program.P @ x + program.q + program.A.T @ moved
+    size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(program.P @ x).max(initial=0.0)))
+    dual = float(np.abs(stationarity).max(initial=0.0)) / size
+    quadratic = float(x @ (program.P @ x))
+    value, bound = quadratic / 2 + float(program.q @ x), -quadratic / 2 - float(program.b @ moved)
+    gap = abs(value - bound) / max(1.0, abs(value), abs(bound))
+    verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
+    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
+
+
+def judge_infeasible(program: Program, y: Array) -> Certificate:
+    """Judge the claim that no x in the box satisfies the program, with the ray y (m,)."""
+    if not np.all(np.isfinite(y)) or not np.any(y):
+        return Certificate("infeasible", False)
+    inside = project_on_dual(program, y)
+    drop = -float(program.b @ inside)
+    if not drop > 0:
+        return Certificate("infeasible", False)
+    ray = inside / drop
+    moved = float(np.abs(ray - y / drop).max())
+    leak = np.abs(program.A.T @ ray)
+    allowance = ROUNDING * float(np.abs(program.b) @ np.abs(ray))
+    sign = -1.0 + float(leak @ program.box) + allowance
+    return Certificate("infeasible", sign < 0, float(leak.max(initial=0.0)), moved, sign, frozen(ray))

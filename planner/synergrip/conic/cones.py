@@ -1,0 +1,50 @@
+"""Distances to cones, and projections on their duals, for all cones of a program at once. NumPy only."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.conic.program import Program
+from synergrip.conic.rows import Kind
+from synergrip.linalg import Array
+
+
+def distance_to_cones(program: Program, s: Array) -> float:
+    """Return how far s (m,) is outside the program's cones: the largest over the cones, 0 inside."""
+    worst = 0.0
+    for block, rows in program.slices():
+        part = s[rows].reshape(-1, block.dim)
+        if part.size == 0:
+            continue
+        if block.kind is Kind.ZERO:
+            outside = np.abs(part)
+        elif block.kind is Kind.NONNEGATIVE:
+            outside = -part
+        else:
+            outside = np.linalg.norm(part[:, 1:], axis=1) - part[:, 0]
+        worst = max(worst, float(outside.max()))
+    return worst
+
+
+def project_on_dual(program: Program, y: Array) -> Array:
+    """Return the point of the dual cone nearest to y (m,): free, nonnegative and second-order parts."""
+    result = np.array(y, dtype=float)
+    for block, rows in program.slices():
+        if block.kind is Kind.NONNEGATIVE:
+            result[rows] = np.maximum(result[rows], 0.0)
+        elif block.kind is Kind.SECOND_ORDER:
+            result[rows] = _project_second_order(result[rows].reshape(-1, block.dim)).ravel()
+    return result
+
+
+def _project_second_order(points: Array) -> Array:
+    """Project rows (k, d) on the cone ``||x_1..|| <= x_0``, which is its own dual."""
+    heads, tails = points[:, 0], points[:, 1:]
+    lengths = np.linalg.norm(tails, axis=1)
+    inside, opposite = lengths <= heads, lengths <= -heads
+    onto = np.where(inside, heads, np.where(opposite, 0.0, (heads + lengths) / 2))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        factor = np.where(inside, 1.0, np.where(lengths > 0, onto / lengths, 0.0))
+    # the head is taken from the tail it belongs to, so that rounding cannot leave the point outside
+    shrunk = tails * factor[:, None]
+    return np.column_stack([np.maximum(onto, np.linalg.norm(shrunk, axis=1)), shrunk])

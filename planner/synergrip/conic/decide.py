@@ -1,0 +1,61 @@
+"""From a program to a verified answer: solve, verify, try again differently, and admit it when nothing verifies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal
+from synergrip.conic.program import Program
+from synergrip.conic.solution import Claim, Settings, Solution
+
+Solver = Callable[[Program, Settings], Solution]
+
+ATTEMPTS = (
+    Settings(),
+    Settings(equilibrate=False),
+    Settings(tolerance=1e-8, regularisation=1e-7),
+    Settings(tolerance=1e-11, regularisation=1e-10, max_iterations=400),
+)
+"""The retry chain. The first nearly always settles it."""
+
+
+@dataclass(frozen=True)
+class Decision:
+    """A solver's last claim with its certificate; the verdict is the certificate's."""
+
+    program: Program
+    solution: Solution
+    certificate: Certificate
+    attempts: int
+
+    @property
+    def optimal(self) -> bool:
+        """True when an optimum was found and verified."""
+        return self.certificate.verified and self.certificate.kind == "optimal"
+
+    @property
+    def infeasible(self) -> bool:
+        """True when infeasibility was found and verified."""
+        return self.certificate.verified and self.certificate.kind == "infeasible"
+
+
+def decide(program: Program, solver: Solver) -> Decision:
+    """Solve a program until a claim verifies, or the retry chain ends (then the certificate is not verified)."""
+    for count, settings in enumerate(ATTEMPTS, start=1):
+        solution = solver(program, settings)
+        certificate = judge(program, solution)
+        if certificate.verified:
+            break
+    return Decision(program, solution, certificate, count)
+
+
+def judge(program: Program, solution: Solution) -> Certificate:
+    """Judge a claim. A solver that claims nothing is heard on both counts."""
+    if solution.claim is Claim.UNBOUNDED:
+        return Certificate("none", False)
+    if solution.claim is not Claim.INFEASIBLE:
+        optimal = judge_optimal(program, solution.x, solution.z)
+        if optimal.verified or solution.claim is Claim.OPTIMAL:
+            return optimal
+    return judge_infeasible(program, solution.z)

@@ -1,0 +1,29 @@
+"""The largest slip margin that all contacts keep at all knots."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Objective
+from synergrip.conic.limits.friction_cone import friction_rows
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Situation
+
+
+@dataclass(frozen=True)
+class LargestMargin:
+    """Maximise s with ``slip margin >= s`` everywhere. It stands in the place of the friction-cone limit."""
+
+    name: str = "largest margin"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return the friction cones with s in the margin's place."""
+        return friction_rows(situation, 0.0, -1.0, "limits.margin")
+
+    def objective(self, situation: Situation) -> Objective:
+        """Return -s."""
+        n = situation.n_v
+        return Objective(np.zeros((n, n)), np.zeros((situation.knots, n)), -1.0)

@@ -1,0 +1,34 @@
+"""The smallest peak normal force, for fragile objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Objective
+from synergrip.conic.limits.normal_force import normal_selection
+from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import frozen
+
+
+@dataclass(frozen=True)
+class LeastPeak:
+    """Minimise s with ``normal force <= s`` at all contacts and knots."""
+
+    name: str = "least peak normal force"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return ``s - n >= 0`` for every contact."""
+        contacts = situation.response.grasp.contacts
+        value = situation.force.after(-normal_selection(situation) / situation.force_unit)
+        names = tuple(contact.name for contact in contacts)
+        ones = frozen(np.ones(len(contacts)))
+        return [Rows("goal.minimise", Kind.NONNEGATIVE, 1, names, value.matrix, value.constant, ones)]
+
+    def objective(self, situation: Situation) -> Objective:
+        """Return s."""
+        n = situation.n_v
+        return Objective(np.zeros((n, n)), np.zeros((situation.knots, n)), 1.0)

@@ -1,0 +1,34 @@
+"""|sigma| within the limit of every synergy actuator, sigma = S' tau."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class ActuatorEffort:
+    """One bound for each of them; infinity for none."""
+
+    limit: Array
+    key: str = "limits.actuator_effort"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return two bounds for each, in units of the limit."""
+        return symmetric_rows(self.key, situation.response.grasp.synergies, situation.effort, self.limit)
+
+    def bounded(self, situation: Situation) -> tuple[Affine, Array]:
+        """Return them and their limits."""
+        return situation.effort, self.limit
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the values that the motion reaches."""
+        items = situation.response.grasp.synergies
+        return symmetric_usage("actuator effort", "synergy units", items, motion.efforts, self.limit, motion.times)

@@ -1,0 +1,71 @@
+"""Every contact force inside its friction cone, with a slip margin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import frozen
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class FrictionCone:
+    """``mu n - ||(t, o)|| >= margin`` and its soft and frictionless kin, at every contact."""
+
+    margin: float = 0.0  # [N]
+    key: str = "limits.margin"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return one second-order cone per contact (a plain bound for a frictionless one)."""
+        return friction_rows(situation, self.margin, 0.0, self.key)
+
+    def bounded(self, situation: Situation) -> None:
+        """Return nothing: a cone alone bounds no force."""
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the slip margins, by the contacts' own formula."""
+        grasp = situation.response.grasp
+        margins = slip_margins(situation, motion)
+        count = grasp.n_c
+        return Usage(
+            "slip margin", "N", tuple(c.name for c in grasp.contacts), margins,
+            np.full(count, self.margin), np.full(count, np.inf), np.full(count, situation.force_unit), motion.times,
+        )  # fmt: skip
+
+
+def slip_margins(situation: Situation, motion: Motion) -> np.ndarray:
+    """Return the slip margin (T, n_c) [N] of every contact."""
+    grasp = situation.response.grasp
+    pairs = zip(grasp.contacts, grasp.rows, strict=True)
+    return np.column_stack([contact.slip_margin(motion.forces[:, rows]) for contact, rows in pairs])
+
+
+def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:
+    """Return rows ``W lambda - (margin - epigraph s) e_1`` in the cone, contacts of one size together.
+
+    Args:
+        situation: the task.
+        margin: required margin [N].
+        epigraph: coefficient of the goal's scalar in the margin's place, in force units.
+        key: what asks for it.
+    """
+    grasp, unit = situation.response.grasp, situation.force_unit
+    result = []
+    for size in sorted({len(c.cone) for c in grasp.contacts}):
+        chosen = [(c, rows) for c, rows in zip(grasp.contacts, grasp.rows, strict=True) if len(c.cone) == size]
+        W = np.zeros((len(chosen) * size, grasp.n_l))
+        for i, (contact, rows) in enumerate(chosen):
+            W[i * size : (i + 1) * size, rows] = contact.cone
+        first = np.tile(np.eye(size)[0], len(chosen))
+        value = situation.force.after(W / unit)
+        kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
+        names = tuple(contact.name for contact, _ in chosen)
+        constant = frozen(value.constant - first * margin / unit)
+        result.append(Rows(key, kind, size, names, value.matrix, constant, frozen(epigraph * first)))
+    return result

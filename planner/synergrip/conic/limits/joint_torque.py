@@ -1,0 +1,34 @@
+"""|tau| within the limit of every joint (6)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class JointTorque:
+    """One bound for each of them; infinity for none."""
+
+    limit: Array
+    key: str = "limits.joint_torque"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return two bounds for each, in units of the limit."""
+        return symmetric_rows(self.key, situation.response.grasp.joints, situation.torque, self.limit)
+
+    def bounded(self, situation: Situation) -> tuple[Affine, Array]:
+        """Return them and their limits."""
+        return situation.torque, self.limit
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the values that the motion reaches."""
+        items = situation.response.grasp.joints
+        return symmetric_usage("joint torque", "N m", items, motion.torques, self.limit, motion.times)

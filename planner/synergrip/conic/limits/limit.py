@@ -1,0 +1,55 @@
+"""What every limit is: rows for the program, and the same said once more in physical terms for the check."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class Usage:
+    """How much of a limit a motion uses, computed from physical quantities and not from the program."""
+
+    title: str
+    unit: str
+    items: tuple[str, ...]
+    value: Array  # (T, m)
+    lower: Array  # (m,) -inf where there is none
+    upper: Array  # (m,) +inf where there is none
+    scale: Array  # (m,) size against which an excess is small or large
+    times: Array  # (T,)
+
+    @property
+    def excess(self) -> Array:
+        """(T, m) how far the value is beyond its bounds; negative inside."""
+        return np.maximum(self.value - self.upper, self.lower - self.value)
+
+    def worst(self) -> tuple[int, int]:
+        """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""
+        flat = int(np.argmax(self.excess / self.scale))
+        return flat // len(self.items), flat % len(self.items)
+
+
+class Limit(Protocol):
+    """Something that must hold at every knot. A new limit is one file here and one line where plans list them."""
+
+    @property
+    def key(self) -> str:
+        """Key in the problem file."""
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return the rows it adds to the program."""
+
+    def bounded(self, situation: Situation) -> tuple[Affine, Array] | None:
+        """Return quantities and the sizes (m,) that this limit alone keeps them within; None when it keeps none."""
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return what a motion makes of it, from the motion alone."""

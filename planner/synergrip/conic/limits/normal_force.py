@@ -1,0 +1,53 @@
+"""Normal force of every contact within a range."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.rows import Rows, within
+from synergrip.conic.situation import Situation
+from synergrip.linalg import Array
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class NormalForce:
+    """``lower <= n <= upper`` at every contact."""
+
+    lower: float  # [N]
+    upper: float  # [N], infinity for none
+    key: str = "limits.normal_force"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return two bounds per contact, in force units."""
+        grasp = situation.response.grasp
+        value = situation.force.after(normal_selection(situation))
+        bounds = (np.full(grasp.n_c, self.lower), np.full(grasp.n_c, self.upper))
+        return within(self.key, _names(situation), value, *bounds, np.full(grasp.n_c, situation.force_unit))
+
+    def bounded(self, situation: Situation) -> None:
+        """Return nothing: the normal force alone bounds no tangential force (see `box`)."""
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the normal forces."""
+        starts = [rows.start for rows in situation.response.grasp.rows]
+        count = len(starts)
+        scale = np.full(count, max(self.upper if np.isfinite(self.upper) else 0.0, situation.force_unit))
+        return Usage(
+            "normal force", "N", _names(situation), motion.forces[:, starts],
+            np.full(count, self.lower), np.full(count, self.upper), scale, motion.times,
+        )  # fmt: skip
+
+
+def normal_selection(situation: Situation) -> Array:
+    """Return (n_c, n_l): the normal component of each contact."""
+    grasp = situation.response.grasp
+    return np.eye(grasp.n_l)[[rows.start for rows in grasp.rows]]
+
+
+def _names(situation: Situation) -> tuple[str, ...]:
+    return tuple(contact.name for contact in situation.response.grasp.contacts)

@@ -1,0 +1,51 @@
+"""|change of dz_r| between knots within a rate for every synergy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.symmetric import symmetric_usage
+from synergrip.conic.rows import Rows, nonnegative
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array, frozen
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class SynergyRate:
+    """One bound [synergy units / s] for each synergy; infinity for none. The first knot is not bounded by it."""
+
+    limit: Array
+    key: str = "limits.synergy_rate"
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return two bounds for each synergy and step, in units of the limit."""
+        if situation.knots < 2:
+            return []
+        keep = np.isfinite(self.limit)
+        names = [name for name, kept in zip(situation.response.grasp.synergies, keep, strict=True) if kept]
+        steps = np.diff(situation.times)[:, None] * self.limit[keep]
+        moved = np.diff(situation.reference.constant[:, keep], axis=0) / steps
+        # one matrix serves all steps, so the steps are compared in the unit of the longest
+        unit = steps.max(axis=0)
+        matrix = situation.reference.matrix[keep] / unit[:, None]
+        result = []
+        for side, sign in ((" (falling)", 1.0), (" (rising)", -1.0)):
+            value = Affine(frozen(sign * matrix), frozen((1.0 + sign * moved) * steps / unit))
+            items = tuple(name + side for name in names)
+            result.append(nonnegative(self.key, items, value, previous=frozen(-sign * matrix)))
+        return result
+
+    def bounded(self, situation: Situation) -> None:
+        """Return nothing: a rate bounds no value."""
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the rates, each at the knot where its step ends."""
+        rates = np.zeros_like(motion.dz_r)
+        rates[1:] = np.diff(motion.dz_r, axis=0) / np.diff(motion.times)[:, None]
+        items = situation.response.grasp.synergies
+        return symmetric_usage("synergy rate", "synergy units/s", items, rates, self.limit, motion.times)

@@ -1,0 +1,105 @@
+"""The convex program, as data: minimise ``x'P x / 2 + q'x`` with ``b - A x`` in a product of cones."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from synergrip.conic.rows import Kind
+from synergrip.files import atomic_path
+from synergrip.linalg import Array, frozen
+
+
+@dataclass(frozen=True)
+class Block:
+    """Consecutive rows that come from one limit: for each knot, for each item, one cone."""
+
+    limit: str
+    kind: Kind
+    dim: int
+    items: tuple[str, ...]
+    first_knot: int
+    knots: int
+
+    @property
+    def cones(self) -> int:
+        """Number of cones."""
+        return self.knots * len(self.items)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self.cones * self.dim
+
+
+@dataclass(frozen=True)
+class Program:
+    """A second-order cone program with a quadratic objective, and what its rows mean.
+
+    The unknowns are the knots' v_k one after the other, then the goal's scalar when it has one.
+    """
+
+    P: sparse.csc_matrix  # (n, n) symmetric, whole
+    q: Array  # (n,)
+    A: sparse.csc_matrix  # (m, n)
+    b: Array  # (m,)
+    blocks: tuple[Block, ...]
+    knots: int
+    n_v: int
+    """Unknowns at each knot."""
+    box: Array
+    """(n,) every unknown is also bounded by |x| <= box, which the limits imply or no plan exceeds."""
+
+    @property
+    def has_epigraph(self) -> bool:
+        """True when the last unknown is the goal's scalar."""
+        return len(self.q) > self.knots * self.n_v
+
+    def slices(self) -> Iterator[tuple[Block, slice]]:
+        """Yield each block with its rows."""
+        start = 0
+        for block in self.blocks:
+            yield block, slice(start, start + block.rows)
+            start += block.rows
+
+    def unknowns(self, x: Array) -> Array:
+        """Return v (T, n_v) of a solution x (n,)."""
+        return np.asarray(x[: self.knots * self.n_v]).reshape(self.knots, self.n_v)
+
+    def objective(self, x: Array) -> float:
+        """Return the value of the objective at x (n,)."""
+        return float(x @ (self.P @ x) / 2 + self.q @ x)
+
+    def save(self, path: Path) -> None:
+        """Write the exact program to an .npz file, atomically."""
+        header = {"knots": self.knots, "n_v": self.n_v, "blocks": [asdict(b) for b in self.blocks]}
+        arrays = {"q": self.q, "b": self.b, "box": self.box, "header": np.array(json.dumps(header))}
+        for name, matrix in (("P", self.P), ("A", self.A)):
+            arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
+        with atomic_path(path) as temporary, temporary.open("wb") as stream:
+            np.savez_compressed(stream, allow_pickle=False, **arrays)
+
+    @classmethod
+    def load(cls, path: Path) -> Program:
+        """Read a program written by `save`."""
+        with np.load(path, allow_pickle=False) as stored:
+            header: dict[str, Any] = json.loads(str(stored["header"]))
+            n, m = len(stored["q"]), len(stored["b"])
+            blocks = tuple(
+                Block(b["limit"], Kind(b["kind"]), b["dim"], tuple(b["items"]), b["first_knot"], b["knots"])
+                for b in header["blocks"]
+            )
+            matrices = [
+                sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
+                for k, shape in (("P", (n, n)), ("A", (m, n)))
+            ]
+            return cls(
+                matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
+                header["knots"], header["n_v"], frozen(stored["box"]),
+            )  # fmt: skip

@@ -1,0 +1,167 @@
+"""The types of the keys in problem and hand files: quantities with units, numbers, tables."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, model_validator
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from synergrip.documents import LARGEST_NUMBER
+from synergrip.errors import InputError, Issue
+from synergrip.quantities import EXAMPLES, UNITS, quantity, ratio
+from synergrip.validation import refusing, shown
+
+Schema = dict[str, Any]
+
+SCHEMA_VERSION = 1  # of problem and grasp files
+
+NUMBER: Schema = {"type": "number"}
+POSITIVE: Schema = {"type": "number", "exclusiveMinimum": 0}
+
+
+class Table(BaseModel):
+    """A table of a file: unknown keys are refused, values cannot be changed."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def issues(self) -> Iterable[Issue]:
+        """Return what is wrong between the keys of this table; their keys are relative to it."""
+        return ()
+
+    @model_validator(mode="after")
+    def _judge(self) -> Table:
+        found = tuple(self.issues())
+        if found:
+            raise PydanticCustomError("issues", "see issues", {"issues": found})
+        return self
+
+
+@dataclass(frozen=True)
+class Written:
+    """A type by the function that reads it from the file, and by its JSON Schema."""
+
+    read: Callable[[Any], Any]
+    schema: Schema = field(hash=False)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Validate with `read`."""
+        return core_schema.no_info_plain_validator_function(refusing(self.read))
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> Schema:
+        """Describe with `schema`."""
+        return dict(self.schema)
+
+
+def number(value: object, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
+    """Return a finite number of the file; ``true`` and texts are none.
+
+    Raises:
+        InputError: no number, not finite, not greater than `above` or less than `at_least`.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError.at("", f"expected a number, got {shown(value)}")
+    if not math.isfinite(value):
+        raise InputError.at("", f"{value} is not a finite number")
+    return bounded(float(value), shown(value), above=above, at_least=at_least)
+
+
+def bounded(value: float, text: str, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
+    """Return `value`, written as `text`, when it is greater than `above` and not less than `at_least`."""
+    if abs(value) > LARGEST_NUMBER:
+        raise InputError.at("", f"{text} is too large")
+    if not value > above:
+        raise InputError.at("", f"must be greater than {above:g}, got {text}")
+    if not value >= at_least:
+        raise InputError.at("", f"must be at least {at_least:g}, got {text}")
+    return value
+
+
+def listed(
+    read: Callable[[Any], Any], value: object, length: int | None = None, of: str = "numbers"
+) -> tuple[Any, ...]:
+    """Return the entries of a list, each read by `read`, with all their issues at once."""
+    if not isinstance(value, list | tuple):
+        raise InputError.at("", f"expected a list of {length or 'one or more'} {of}, got {shown(value)}")
+    if (len(value) != length) if length is not None else not value:
+        raise InputError.at("", f"expected {length or 'one or more'} {of}, got {len(value)}")
+    return _each(read, [(f"[{index}]", entry) for index, entry in enumerate(value)])
+
+
+def named(read: Callable[[Any], Any], value: dict[str, Any]) -> dict[str, Any]:
+    """Return a table of names, each value read by `read`, with all their issues at once."""
+    return dict(zip(value, _each(read, list(value.items())), strict=True))
+
+
+def _each(read: Callable[[Any], Any], entries: list[tuple[str, Any]]) -> tuple[Any, ...]:
+    results, issues = [], list[Issue]()
+    for key, entry in entries:
+        try:
+            results.append(read(entry))
+        except InputError as error:
+            issues += error.under(key).issues
+    if issues:
+        raise InputError(issues)
+    return tuple(results)
+
+
+def with_unit(kind: str, *, above: float = -math.inf, at_least: float = -math.inf) -> Callable[[Any], float]:
+    """Return the function that reads a quantity of `kind` (a key of `UNITS`) in SI units."""
+    return lambda value: bounded(quantity(value, kind), shown(value), above=above, at_least=at_least)
+
+
+def unit_schema(kind: str) -> Schema:
+    """Return the JSON Schema of a quantity of `kind`."""
+    units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in UNITS[kind])
+    pattern = rf"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*({units})\s*$"
+    return {"type": "string", "pattern": pattern, "examples": [EXAMPLES[kind]]}
+
+
+def _axis(value: object) -> tuple[float, ...]:
+    if isinstance(value, str):
+        if value not in ("x", "y", "z"):
+            raise InputError.at("", f"{value!r} is not 'x', 'y', 'z' or a list of 3 numbers")
+        return tuple(float(value == name) for name in "xyz")
+    direction: tuple[float, ...] = listed(number, value, 3)
+    size = math.hypot(*direction)
+    if size == 0:
+        raise InputError.at("", "an axis needs a direction; all 3 numbers are 0")
+    return tuple(part / size for part in direction)
+
+
+def _version(value: object) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise InputError.at("", f"expected {SCHEMA_VERSION}, got {shown(value)}")
+    if value > SCHEMA_VERSION:
+        message = f"written for schema {value}; this synergrip reads schema {SCHEMA_VERSION}: upgrade synergrip"
+        raise InputError.at("", message)
+    return value
+
+
+def array_of(schema: Schema, length: int | None = None) -> Schema:
+    """Return the JSON Schema of a list."""
+    count = {"minItems": 1} if length is None else {"minItems": length, "maxItems": length}
+    return {"type": "array", "items": schema, **count}
+
+
+Text = Annotated[str, Field(min_length=1)]
+Whole = Annotated[int, Field(strict=True)]
+Number = Annotated[float, Written(number, NUMBER)]
+Positive = Annotated[float, Written(lambda value: number(value, above=0), POSITIVE)]
+Version = Annotated[int, Written(_version, {"const": SCHEMA_VERSION})]
+Ratio = Annotated[float, Written(ratio, {"anyOf": [NUMBER, {"type": "string", "examples": ["1/3"]}]})]
+Vector = Annotated[tuple[float, ...], Written(lambda value: listed(number, value, 3), array_of(NUMBER, 3))]
+Axis = Annotated[tuple[float, ...], Written(_axis, {"anyOf": [{"enum": ["x", "y", "z"]}, array_of(NUMBER, 3)]})]
+
+Length = Annotated[float, Written(with_unit("length"), unit_schema("length"))]
+Size = Annotated[float, Written(with_unit("length", above=0), unit_schema("length"))]
+Angle = Annotated[float, Written(with_unit("angle"), unit_schema("angle"))]
+Mass = Annotated[float, Written(with_unit("mass", above=0), unit_schema("mass"))]
+Time = Annotated[float, Written(with_unit("time", above=0), unit_schema("time"))]
+Force = Annotated[float, Written(with_unit("force", at_least=0), unit_schema("force"))]
+Torque = Annotated[float, Written(with_unit("torque"), unit_schema("torque"))]
+JointCompliance = Annotated[float, Written(with_unit("joint compliance", at_least=0), unit_schema("joint compliance"))]

@@ -1,0 +1,208 @@
+"""A grasp given as matrices (grasp.json): contacts, G, J, S and the compliances, read and judged as a whole."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from synergrip.documents import Document, parse, read_document
+from synergrip.errors import InputError, Issue, one_of
+from synergrip.fields import NUMBER, Number, Positive, Table, Text, Vector, Version, Written, array_of
+from synergrip.grasps.kinds import KINDS
+from synergrip.grasps.matrix_reading import Count, MatrixReader
+from synergrip.linalg import Array, frozen
+from synergrip.validation import shown
+
+MOST_CONTACTS = 500
+UNIT = 1e-6  # how far the length of a normal may be from 1
+BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative
+
+
+@dataclass(frozen=True, eq=False)
+class ContactData:
+    """One contact of a grasp given as matrices."""
+
+    name: str
+    kind: str
+    """A name of `grasps.kinds.KINDS`."""
+    friction: float
+    """Coulomb coefficient; 0 for a frictionless contact."""
+    spin_friction: float  # m
+    """Spin moment carried for each newton of normal force; 0 unless soft."""
+    point: Array | None  # m
+    """(3,) position, if known."""
+    normal: Array | None
+    """(3,) unit vector toward the object, if known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Matrices:
+    """The statics of a grasp, in SI units; contact rows (n, t, o [, moment about n]), normals toward the object."""
+
+    title: str
+    contacts: tuple[ContactData, ...]
+    G: Array
+    """(6, n_l) grasp matrix."""
+    J: Array
+    """(n_l, n_q) hand Jacobian."""
+    S: Array
+    """(n_q, n_z) synergy matrix."""
+    C_s: Array
+    """(n_l, n_l) contact compliance."""
+    C_q: Array
+    """(n_q, n_q) joint compliance."""
+    C_z: Array
+    """(n_z, n_z) synergy compliance."""
+    lambda_0: Array | None
+    """(n_l,) initial contact forces of the hand on the object, if given."""
+    w_0: Array | None
+    """(6,) initial external wrench, if given."""
+    expect: dict[str, Any]
+    """The expected answers, as they stand in the file."""
+
+
+def _kind(value: object) -> str:
+    if not isinstance(value, str) or value not in KINDS:
+        raise InputError.at(
+            "", one_of(value, KINDS) if isinstance(value, str) else f"expected a kind, got {shown(value)}"
+        )
+    return value
+
+
+class ContactFile(Table):
+    """A contact as it stands in the file."""
+
+    name: Text = Field(description="name of the contact")
+    kind: Annotated[str, Written(_kind, {"enum": list(KINDS)})] = Field(description="hard, soft or frictionless")
+    friction: Number | None = Field(default=None, description="coefficient of friction; not for a frictionless contact")
+    spin_friction_m: Positive | None = Field(
+        default=None, description="moment about the normal per normal force, for soft contacts, in metres"
+    )
+    point_m: Vector | None = Field(default=None, description="position in metres")
+    normal: Vector | None = Field(default=None, description="unit normal toward the object")
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse a friction that the kind of contact cannot have, and a normal that is no unit vector."""
+        if self.friction is None and self.kind != "frictionless":
+            yield Issue(f"missing key 'friction' (a {self.kind} contact needs it)", key="friction", on_key=True)
+        elif self.friction is not None and (self.friction < 0 or (self.friction == 0 and self.kind != "frictionless")):
+            hint = "; for no friction use kind 'frictionless'" if self.kind != "frictionless" else ""
+            yield Issue(f"must be greater than 0, got {self.friction:g}{hint}", key="friction")
+        if self.kind == "soft" and self.spin_friction_m is None:
+            yield Issue("missing key 'spin_friction_m' (a soft contact needs it)", key="spin_friction_m", on_key=True)
+        if self.normal is not None and abs(math.hypot(*self.normal) - 1) > UNIT:
+            yield Issue(f"expected a unit vector, got length {math.hypot(*self.normal):.9g}", key="normal")
+
+    def data(self) -> ContactData:
+        """Return the contact as plain values."""
+        return ContactData(
+            name=self.name,
+            kind=self.kind,
+            friction=0.0 if self.kind == "frictionless" else self.friction or 0.0,
+            spin_friction=(self.spin_friction_m or 0.0) if self.kind == "soft" else 0.0,
+            point=None if self.point_m is None else frozen(self.point_m),
+            normal=None if self.normal is None else frozen(self.normal),
+        )
+
+
+Raw = Annotated[Any, Written(lambda value: value, array_of(array_of(NUMBER)))]
+RawVector = Annotated[Any, Written(lambda value: value, array_of(NUMBER))]
+RawCompliance = Annotated[Any, Written(lambda value: value, {"anyOf": [NUMBER, array_of(array_of(NUMBER))]})]
+
+
+class GraspFile(Table):
+    """The file as it stands; the matrices are judged together, by `read_matrices`."""
+
+    version: Version = Field(alias="schema", description="version of the file format: 1")
+    title: str = Field(default="", description="what the grasp is")
+    source: str = Field(default="", description="where the numbers come from")
+    contacts: Annotated[tuple[ContactFile, ...], Field(min_length=1, max_length=MOST_CONTACTS)] = Field(
+        description="the contacts, in the order of the rows of J"
+    )
+    G: Raw = Field(description="grasp matrix, 6 x n_l")
+    J: Raw = Field(description="hand Jacobian, n_l x n_q")
+    S: Raw = Field(description="synergy matrix, n_q x n_z")
+    C_s: RawCompliance = Field(description="contact compliance, matrix or number")
+    C_q: RawCompliance = Field(default=0, description="joint compliance, matrix or number")
+    C_z: RawCompliance = Field(default=0, description="synergy compliance, matrix or number")
+    lambda_0: RawVector = Field(default=None, description="initial contact forces, n_l numbers")
+    w_0: RawVector = Field(default=None, description="initial external wrench, 6 numbers")
+    expect: dict[str, Any] = Field(default_factory=dict, description="expected answers")
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse a name that two contacts have."""
+        names = [contact.name for contact in self.contacts]
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                first = names.index(name)
+                yield Issue(f"two contacts have the name '{name}' (first contacts[{first}])", f"contacts[{index}].name")
+
+
+def read_matrices(path: Path) -> Matrices:
+    """Read and judge a grasp given as matrices.
+
+    Raises:
+        InputError: all the issues of the file, each with its place.
+    """
+    document = read_document(path, "grasp file")
+    issues: list[Issue] = []
+    contacts: tuple[ContactFile, ...] | None = None
+    try:
+        contacts = parse(document, GraspFile).contacts
+    except InputError as error:
+        issues += error.issues
+        if any(issue.key == "schema" for issue in issues):  # another version may mean anything
+            raise
+    reader = MatrixReader()
+    matrices = _read(document, contacts, reader)
+    issues += [document.locate(issue) for issue in reader.issues]
+    if issues or matrices is None:
+        raise InputError(sorted(issues, key=lambda issue: (issue.line, issue.column)))
+    return matrices
+
+
+def _read(document: Document, contacts: tuple[ContactFile, ...] | None, reader: MatrixReader) -> Matrices | None:
+    data = document.data
+    n_l = None if contacts is None else _rows(contacts)
+    given = {key: data[key] for key in ("G", "J", "S") if key in data}  # what is missing has been noted
+    G = reader.matrix("G", given["G"], Count(6), n_l) if "G" in given else None
+    J = reader.matrix("J", given["J"], n_l, None) if "J" in given else None
+    n_q = None if J is None else Count(J.shape[1], "n_q is the number of columns of J")
+    S = reader.matrix("S", given["S"], n_q, None) if "S" in given else None
+    n_z = None if S is None else Count(S.shape[1], "n_z is the number of columns of S")
+    C_s = reader.compliance("C_s", data["C_s"], n_l) if "C_s" in data else None
+    C_q = reader.compliance("C_q", data.get("C_q", 0), n_q)
+    C_z = reader.compliance("C_z", data.get("C_z", 0), n_z)
+    lambda_0 = reader.vector("lambda_0", data["lambda_0"], n_l) if "lambda_0" in data and n_l else None
+    w_0 = reader.vector("w_0", data["w_0"], Count(6)) if "w_0" in data else None
+    if contacts is None or G is None or J is None or S is None or C_s is None or C_q is None or C_z is None:
+        return None
+    if lambda_0 is not None and w_0 is not None:
+        _judge_balance(G, lambda_0, w_0, reader)
+    touching = tuple(contact.data() for contact in contacts)
+    return Matrices(data.get("title", ""), touching, G, J, S, C_s, C_q, C_z, lambda_0, w_0, data.get("expect", {}))
+
+
+def _rows(contacts: tuple[ContactFile, ...]) -> Count:
+    counts = Counter(contact.kind for contact in contacts)
+    number = sum(len(KINDS[kind].components) * count for kind, count in counts.items())
+    parts = " and ".join(f"{count} {kind}" for kind, count in counts.items())
+    plural = "s" if len(contacts) > 1 else ""
+    return Count(number, f"n_l = {number} follows from {parts} contact{plural}")
+
+
+def _judge_balance(G: Array, lambda_0: Array, w_0: Array, reader: MatrixReader) -> None:
+    residual = w_0 + G @ lambda_0
+    size = np.linalg.norm(w_0) + np.linalg.norm(np.abs(G) @ np.abs(lambda_0))
+    if np.linalg.norm(residual) > BALANCE * size:
+        worst = int(np.argmax(np.abs(residual)))
+        name = ("f_x", "f_y", "f_z", "m_x", "m_y", "m_z")[worst]
+        unit = "N" if worst < 3 else "N m"
+        reader.refuse("w_0", f"w_0 = -G lambda_0 does not hold: {name} is off by {residual[worst]:.6g} {unit}")

@@ -1,0 +1,60 @@
+"""The length that makes newtons and newton metres, metres and radians comparable.
+
+Ranks and norms must depend neither on the units nor on where the user put the object frame
+(theory.md, section 3). So moments and rotations are scaled by the mean distance of the contacts
+from their centroid, and twists and wrenches are taken about that centroid.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Scaled coordinates, marked ~: ``u~ = motion u``, ``w~ = motion^-T w``, ``lambda~ = force lambda``."""
+
+    length: float
+    """Characteristic length [m]."""
+    centroid: Array
+    """(3,) centroid of the contacts from B [m]."""
+    motion: Array
+    """(6, 6): velocity of the centroid, and rotation times length [m]."""
+    force: Array
+    """(n_l,) diagonal: 1 for forces, 1 / length for spin moments."""
+
+    def wrench(self, w: Array) -> Array:
+        """Return wrenches (..., 6) in scaled coordinates [N]."""
+        return np.asarray(np.linalg.solve(self.motion.T, np.asarray(w).T).T)
+
+    def twist(self, u: Array) -> Array:
+        """Return twists (..., 6) in scaled coordinates [m]."""
+        return np.asarray(np.asarray(u) @ self.motion.T)
+
+
+def scale_of(grasp: Grasp) -> Scale:
+    """Return the scale of a grasp, read from G alone, so that it also serves grasps given as matrices."""
+    points = np.array([_contact_point(grasp.G[:, rows], contact.kind.components)
+                       for rows, contact in zip(grasp.rows, grasp.contacts, strict=True)])  # fmt: skip
+    centroid = points.mean(axis=0)
+    length = float(np.linalg.norm(points - centroid, axis=1).mean())
+    if not length > 0:
+        length = 1.0  # all contacts on one spot: no length to speak of
+    motion = np.eye(6)
+    x, y, z = centroid
+    motion[:3, 3:] = -np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    motion[3:] *= length
+    force = [1.0 / length if component == "m" else 1.0 for _, component in grasp.components]
+    return Scale(length, frozen(centroid), frozen(motion), frozen(force))
+
+
+def _contact_point(columns: Array, components: tuple[str, ...]) -> Array:
+    """Return the point p with ``p x f = m`` for every force column (f, m), least norm where it is free."""
+    forces = [column for column, component in zip(columns.T, components, strict=True) if component != "m"]
+    system = np.vstack([[[0.0, f[2], -f[1]], [-f[2], 0.0, f[0]], [f[1], -f[0], 0.0]] for f in forces])
+    return np.asarray(np.linalg.lstsq(system, np.concatenate([f[3:] for f in forces]), rcond=None)[0])

@@ -1,0 +1,118 @@
+"""``KEY=VALUE`` texts that change single values of a document, as in ``--set limits.margin="0.3 N"``."""
+
+from __future__ import annotations
+
+import copy
+import re
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from synergrip.errors import InputError, Issue
+from synergrip.positions import KeyPath, dotted
+
+_PART = re.compile(r"""(?:"([^"]+)"|'([^']+)'|([^.\[\]"'\s=]+))((?:\[\d{1,9}\])*)(\.(?=.)|\Z)""")
+
+
+@dataclass(frozen=True)
+class Override:
+    """A value to put in place of another."""
+
+    text: str
+    """As the user wrote it."""
+    path: KeyPath
+    value: Any
+
+    @property
+    def key(self) -> str:
+        """The dotted key."""
+        return dotted(self.path)
+
+
+def parse_override(text: str) -> Override:
+    """Return the key and the value of ``KEY=VALUE``.
+
+    The key is dotted, with list indices (``contact[1].friction``) and quotes around parts that hold dots.
+    The value is read as TOML (``21``, ``true``, ``["0 N", "20 N"]``); what is not TOML is a string (``0.3 N``).
+
+    Raises:
+        InputError: no ``=`` or no such key can exist.
+    """
+    key, equals, value = _split(text)
+    if not equals:
+        raise _refuse(text, "expected KEY=VALUE, for example limits.margin=0.3 N")
+    path: list[str | int] = []
+    position = 0
+    while position < len(key) or not path:
+        part = _PART.match(key, position)
+        if part is None:
+            raise _refuse(text, f"{key!r} is not a key such as task.knots or contact[1].friction")
+        path.append(part[1] or part[2] or part[3])
+        path.extend(int(index) for index in re.findall(r"\d+", part[4]))
+        position = part.end()
+    return Override(text, tuple(path), _value(value.strip()))
+
+
+def apply_overrides(data: dict[str, Any], texts: Sequence[str]) -> tuple[dict[str, Any], tuple[Override, ...]]:
+    """Return a copy of `data` with every override put in, and the overrides.
+
+    Raises:
+        InputError: all the texts that cannot be applied.
+    """
+    changed = copy.deepcopy(data)
+    applied: list[Override] = []
+    issues: list[Issue] = []
+    for text in texts:
+        try:
+            override = parse_override(text)
+            _put(changed, override)
+        except InputError as error:
+            issues += error.issues
+        else:
+            applied.append(override)
+    if issues:
+        raise InputError(issues)
+    return changed, tuple(applied)
+
+
+def _split(text: str) -> tuple[str, str, str]:
+    match = re.match(r"""((?:"[^"]*"|'[^']*'|[^="'])*)(=)(.*)\Z""", text, re.DOTALL)
+    return (match[1].strip(), match[2], match[3]) if match else (text, "", "")
+
+
+def _value(text: str) -> Any:
+    try:
+        table = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    return table["value"] if len(table) == 1 else text
+
+
+def _put(data: dict[str, Any], override: Override) -> None:
+    holder: Any = data
+    for depth, part in enumerate(override.path):
+        here = dotted(override.path[:depth])
+        if isinstance(part, int):
+            _check_index(holder, part, here, override)
+        elif not isinstance(holder, dict):
+            what = f"a list; write {here}[0].{part}" if isinstance(holder, list) else "a value and not a table"
+            raise _refuse(override.text, f"'{here}' is {what}", override.key)
+        if depth == len(override.path) - 1:
+            holder[part] = copy.deepcopy(override.value)
+        else:
+            if isinstance(holder, dict) and part not in holder:
+                holder[part] = {}
+            holder = holder[part]
+
+
+def _check_index(holder: object, index: int, here: str, override: Override) -> None:
+    if not isinstance(holder, list):
+        raise _refuse(override.text, f"'{here}' is not a list", override.key)
+    if index >= len(holder):
+        count = f"{len(holder)} entr{'y' if len(holder) == 1 else 'ies'}, counted from 0"
+        raise _refuse(override.text, f"'{here}' has {count}; there is no [{index}]", override.key)
+
+
+def _refuse(text: str, message: str, key: str = "") -> InputError:
+    return InputError([Issue(message, key=key, file=f"--set {text}")])

@@ -1,0 +1,30 @@
+"""The statics of one grasp, worked out once: response, subspaces, Theorem 1."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """Everything that is true of a grasp before any task."""
+
+    grasp: Grasp
+    response: Response
+    spaces: Subspaces
+    coordinates: Coordinates
+
+
+def analyse(grasp: Grasp) -> Analysis:
+    """Return the analysis of a grasp.
+
+    Raises:
+        NotRestrainedError: the contacts leave the object a free motion.
+        RigidContactError: some contact direction has no compliance at all.
+    """
+    response = respond(grasp)
+    spaces = subspaces(response)
+    return Analysis(grasp, response, spaces, coordinates(response, spaces))

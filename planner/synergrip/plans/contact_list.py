@@ -1,0 +1,124 @@
+"""The contacts of a problem file, each with the defaults filled in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from synergrip.errors import InputError, Issue
+from synergrip.plans.setup_file import ContactEntry, ContactModel, ContactsTable, ContactTable
+
+
+@dataclass(frozen=True)
+class ContactSpec:
+    """One contact, complete."""
+
+    name: str
+    at: str
+    """Pad of the hand."""
+    model: ContactModel
+    friction: float
+    """Coefficient of friction; 0 for a frictionless contact."""
+    spin_friction: float  # m
+    """Moment about the normal per normal force; 0 unless the contact is soft."""
+    stiffness: float  # N/m
+    """Along the normal; infinite when rigid."""
+    tangential_stiffness: float  # N/m
+    spin_stiffness: float  # N m/rad
+    """About the normal; 0 unless the contact is soft."""
+    normals: Literal["object", "pad"]
+    key: str
+    """The key of the file that names the pad."""
+
+
+def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]) -> tuple[ContactSpec, ...]:
+    """Return the contacts: the pads of ``contacts.at``, then the ``[[contact]]`` entries on other pads.
+
+    An entry on a pad that ``contacts.at`` lists changes that contact; values it does not give are the defaults.
+
+    Raises:
+        InputError: no contact, a name or a pad twice, a value that the contact's model needs or refuses.
+    """
+    shared = defaults or ContactsTable()
+    by_pad = {entry.at: index for index, entry in enumerate(entries)}
+    issues = list(_repeated(shared, entries))
+    if not shared.at and not entries:
+        issues.append(Issue("no contacts; name the pads that touch the object", key="contacts.at", on_key=True))
+    sources = [(pad, f"contacts.at[{i}]", by_pad.get(pad)) for i, pad in enumerate(shared.at)]
+    sources += [(entry.at, f"contact[{i}].at", i) for i, entry in enumerate(entries) if entry.at not in shared.at]
+    contacts = []
+    for pad, key, index in sources:
+        entry = ContactEntry(at=pad) if index is None else entries[index]
+        table = "contacts" if index is None else f"contact[{index}]"
+        found = list(_judge(shared, entry, table))
+        if not found:
+            contacts.append(_complete(shared, entry, key))
+        issues += [issue for issue in found if issue not in issues]
+    issues += _same_names(contacts)
+    if issues:
+        raise InputError(issues)
+    return tuple(contacts)
+
+
+def _given(shared: ContactTable, entry: ContactTable, name: str, fallback: Any = None) -> Any:
+    own = getattr(entry, name)
+    common = getattr(shared, name)
+    return own if own is not None else common if common is not None else fallback
+
+
+def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactSpec:
+    model: ContactModel = _given(shared, entry, "model", "hard")
+    stiffness = _given(shared, entry, "stiffness")
+    soft = model == "soft"
+    return ContactSpec(
+        name=entry.name or entry.at,
+        at=entry.at,
+        model=model,
+        friction=0.0 if model == "frictionless" else _given(shared, entry, "friction"),
+        spin_friction=_given(shared, entry, "spin_friction") if soft else 0.0,
+        stiffness=stiffness,
+        tangential_stiffness=_given(shared, entry, "tangential_stiffness", stiffness),
+        spin_stiffness=_given(shared, entry, "spin_stiffness") if soft else 0.0,
+        normals=_given(shared, entry, "normals", "object"),
+        key=key,
+    )
+
+
+def _judge(shared: ContactsTable, entry: ContactEntry, table: str) -> Iterator[Issue]:
+    model = _given(shared, entry, "model", "hard")
+    needed = {"stiffness": 'write for example "8 N/mm", or "rigid"'}
+    refused = []
+    if model != "frictionless":
+        needed["friction"] = "write for example 0.6; for no friction use model = \"frictionless\""  # fmt: skip
+    else:
+        refused.append("friction")
+    if model == "soft":
+        needed["spin_friction"] = 'write for example "5 mm"'
+        needed["spin_stiffness"] = 'write for example "2 N m/rad"'
+    else:
+        refused += ["spin_friction", "spin_stiffness"]
+    for name, example in needed.items():
+        if _given(shared, entry, name) is None:
+            yield Issue(f"missing key '{name}'; a {model} contact needs it: {example}", f"{table}.{name}", on_key=True)
+    for name in refused:
+        if getattr(entry, name) is not None:
+            yield Issue(f"a {model} contact has no {name.replace('_', ' ')}", f"{table}.{name}", on_key=True)
+
+
+def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[Issue]:
+    for index, pad in enumerate(shared.at):
+        if pad in shared.at[:index]:
+            yield Issue(f"pad '{pad}' is named twice", f"contacts.at[{index}]")
+    pads = [entry.at for entry in entries]
+    for index, pad in enumerate(pads):
+        if pad in pads[:index]:
+            yield Issue(f"pad '{pad}' is named twice (first in contact[{pads.index(pad)}])", f"contact[{index}].at")
+
+
+def _same_names(contacts: Sequence[ContactSpec]) -> Iterator[Issue]:
+    seen: dict[str, str] = {}
+    for contact in contacts:
+        if contact.name in seen and contact.at != seen[contact.name]:
+            yield Issue(f"two contacts have the name '{contact.name}'", contact.key.removesuffix(".at"))
+        seen.setdefault(contact.name, contact.at)

@@ -1,0 +1,95 @@
+"""What planning ends in: a plan, a proof that there is none, or the admission that neither is certain."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from synergrip.conic.certificate import Certificate
+from synergrip.conic.decide import Decision
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.program import Program
+from synergrip.conic.situation import Situation
+from synergrip.errors import Refusal
+from synergrip.linalg import Array
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class Check:
+    """One statement about a plan, recomputed from the grasp's matrices in SI units."""
+
+    name: str
+    error: float
+    """Size of the violation, relative to what the statement is measured against."""
+    tolerance: float
+
+    @property
+    def passed(self) -> bool:
+        """True when the error is within the tolerance."""
+        return bool(self.error <= self.tolerance)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A verified answer: references to send, and all that follows from them."""
+
+    task: Task
+    analysis: Analysis
+    situation: Situation
+    motion: Motion
+    alpha: Array  # (T, dim E_s) [N]
+    beta: Array  # (T, dim Gamma_ucs) [m]
+    gamma: Array  # (T, dim Gamma_zr)
+    elastic_motion: Array  # (T, 6) what the references move beyond Gamma_ucs beta, sag excluded
+    margins: Array  # (T, n_c) slip margins [N]
+    usages: tuple[Usage, ...]
+    """What the plan uses of every limit, friction cones first."""
+    checks: tuple[Check, ...]
+    decisions: tuple[Decision, ...]
+    """The programs solved, in order; the last one is the plan's."""
+    largest_margin: float | None
+    """The largest margin [N] when it was asked for."""
+
+    verdict = "feasible"
+    exit_code = 0
+
+
+@dataclass(frozen=True)
+class Infeasible:
+    """A proof that no plan exists."""
+
+    task: Task
+    analysis: Analysis | None
+    """None when the grasp does not restrain the object."""
+    stage: str
+    """"restraint", "count", "direction" or "magnitude" (theory.md, section 7)."""
+    why: str
+    refusal: Refusal | None
+    """What was refused before any program was solved."""
+    certificate: Certificate | None
+    """The verified ray, when the program itself is infeasible."""
+    program: Program | None
+    decisions: tuple[Decision, ...]
+    largest_margin: float | None
+    """The largest margin [N] that the other limits allow, when that is what falls short."""
+
+    verdict = "infeasible"
+    exit_code = 1
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """Nothing could be verified either way."""
+
+    task: Task
+    analysis: Analysis
+    why: str
+    decisions: tuple[Decision, ...]
+
+    verdict = "unknown"
+    exit_code = 3
+
+
+Outcome = Plan | Infeasible | Unknown

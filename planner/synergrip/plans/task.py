@@ -1,0 +1,51 @@
+"""What is asked of a grasp: loads and a wanted motion at knots, limits, a goal. Plain values, no file in sight."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.linalg import Array
+
+GoalName = Literal["margin", "effort", "torque", "peak_force"]
+"""Maximise the worst margin, or minimise contact effort, torque effort, or the peak normal force."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """The wanted object motion from the start of the task."""
+
+    kind: Literal["hold", "motion", "modes"]
+    values: Array
+    """(T, 6) displacement about B [m, rad] for "motion", (T, dim Gamma_ucs) beta [m] for "modes", (T, 0) to hold."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task at T knots."""
+
+    times: Array  # (T,) [s]
+    wrench: Array  # (T, 6) external wrench on the object about B, axes of N
+    wanted: Wanted
+    margin: float
+    """Slip margin that every contact keeps [N]."""
+    limits: tuple[Limit, ...]
+    """All limits but the friction cones."""
+    goal: GoalName
+    tolerance: float = 0.0
+    """How far the wanted motion may leave Gamma_ucs before it is refused [m, rotations times length]."""
+
+    @property
+    def watches_references(self) -> bool:
+        """True when some limit looks at the synergy references, so that redundancy matters."""
+        return any(isinstance(limit, SynergyReference | SynergyRate) for limit in self.limits)
+
+
+def still(times: Array) -> Wanted:
+    """Return the wish to hold the object."""
+    return Wanted("hold", np.zeros((len(times), 0)))

@@ -1,0 +1,69 @@
+"""Rigid tracking: beta from the wanted motion, or the refusal that says what leaves Gamma_ucs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.errors import InputError, MotionCountError, MotionDirectionError
+from synergrip.linalg import RANK_TOLERANCE, Array, frozen
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+from synergrip.statics.theorem1 import motion_coordinates
+from synergrip.statics.twists import describe_twist
+
+RIGID_TOLERANCE = 1e-6
+"""Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
+
+
+def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
+    """Return beta (T, dim Gamma_ucs) [m] for the wanted motion.
+
+    Raises:
+        MotionCountError: more independent motions are asked for than there are synergies.
+        MotionDirectionError: the motion leaves Gamma_ucs by more than the tolerance.
+        InputError: modes are given with another number of columns than Gamma_ucs has.
+    """
+    dimension = analysis.spaces.Gamma_ucs.shape[1]
+    values = task.wanted.values
+    if task.wanted.kind == "hold":
+        return frozen(np.zeros((len(task.times), dimension)))
+    if task.wanted.kind == "modes":
+        if values.shape[1] != dimension:
+            message = f"{values.shape[1]} columns of beta given, but Gamma_ucs of this grasp has dimension {dimension}"
+            raise InputError.at("task.modes", message)
+        return frozen(values)
+    _count(analysis, values)
+    beta, outside = motion_coordinates(analysis.response, analysis.spaces, values)
+    sizes = np.linalg.norm(analysis.response.scale.twist(outside), axis=1)
+    wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
+    if sizes.max(initial=0.0) > max(RIGID_TOLERANCE * wish, task.tolerance):
+        raise _direction(analysis, task, outside, sizes)
+    return frozen(beta)
+
+
+def _count(analysis: Analysis, values: Array) -> None:
+    """Refuse a motion with more independent directions than the hand has synergies (Remark 3)."""
+    scale, n_z = analysis.response.scale, analysis.grasp.n_z
+    _, sizes, directions = np.linalg.svd(scale.twist(values), full_matrices=False)
+    asked = int(np.sum(sizes > RANK_TOLERANCE * max(float(sizes[0]), 1e-300))) if len(sizes) else 0
+    if asked > n_z:
+        message = (
+            f"the task asks for {asked} independent object motions, the hand has n_z = {n_z} "
+            f"{'synergy' if n_z == 1 else 'synergies'} for motions, internal forces and redundancy together (34)"
+        )
+        twists = np.linalg.solve(scale.motion, directions[:asked].T)
+        raise MotionCountError(message, asked, n_z, frozen(twists))
+
+
+def _direction(analysis: Analysis, task: Task, outside: Array, sizes: Array) -> MotionDirectionError:
+    scale, values = analysis.response.scale, task.wanted.values
+    k = int(np.argmax(sizes))
+    share = float(sizes[k] / np.linalg.norm(scale.twist(values[k])))
+    dimension, n_z = analysis.spaces.Gamma_ucs.shape[1], analysis.grasp.n_z
+    motion = describe_twist(outside[k], analysis.grasp.contacts, scale.length)
+    message = (
+        f"{share:.0%} of the wanted motion lies outside Gamma_ucs, the rigid motions that these {n_z} synergies can "
+        f"produce (dimension {dimension}): at t = {task.times[k]:.3g} s a {motion} of {1e3 * sizes[k]:.3g} mm "
+        f"(rotations times {1e3 * scale.length:.3g} mm) would have to come from deforming the contacts"
+    )
+    return MotionDirectionError(message, frozen(outside[k]), float(task.times[k]), share, float(sizes[k]))

@@ -1,0 +1,27 @@
+"""Sizes that bring the unknowns of a task near 1 before solving; they change no answer."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.conic.situation import Units
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+from synergrip.statics.motion import forces_at_start
+
+
+def units_of(analysis: Analysis, task: Task) -> Units:
+    """Return the force unit (the load, as the contacts feel it) and the reference unit of a task."""
+    response = analysis.response
+    change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
+    load = float(np.abs((forces_at_start(response) - change) * response.scale.force).max(initial=0.0))
+    force = max(load, task.margin)
+    reference = 1.0
+    for limit in task.limits:
+        if isinstance(limit, NormalForce) and np.isfinite(limit.upper) and task.goal == "margin":
+            force = max(force, limit.upper)
+        elif isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
+            reference = float(np.max(limit.limit[np.isfinite(limit.limit)]))
+    return Units(force if force > 0 else 1.0, reference)

@@ -1,0 +1,87 @@
+"""From unknowns to a plan, and the plan judged as physics: nothing here looks at the program."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.conic.decide import Decision
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.situation import Situation
+from synergrip.errors import SelfCheckError
+from synergrip.linalg import Array, frozen
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.outcome import Check, Plan
+from synergrip.plans.task import Task
+from synergrip.statics.motion import Motion, forces_at_start, forward
+
+EXACT = 1e-8
+"""Relative tolerance of the identities: equilibrium, internal force, forward maps."""
+LIMIT = 1e-6
+"""Relative tolerance of the limits, against the load or the limit itself."""
+
+
+def verified_plan(
+    task: Task, analysis: Analysis, situation: Situation, decisions: tuple[Decision, ...], largest: float | None
+) -> Plan:
+    """Return the plan of the last decision.
+
+    Raises:
+        SelfCheckError: a check of the plan fails.
+    """
+    v = decisions[-1].program.unknowns(decisions[-1].solution.x)
+    alpha, gamma = situation.alpha_gamma(v)
+    motion = forward(analysis.response, task.times, situation.references(v), task.wrench)
+    usages = limit_usages(task, situation, motion)
+    checks = (*identities(analysis, motion, (alpha, situation.beta, gamma)), *limit_checks(usages))
+    failed = [f"{c.name}: {c.error:.2e} exceeds {c.tolerance:.0e}" for c in checks if not c.passed]
+    if failed:
+        raise SelfCheckError("the plan fails its own check (" + "; ".join(failed) + "); please report this problem")
+    rigid = situation.beta @ analysis.spaces.Gamma_ucs.T
+    return Plan(
+        task, analysis, situation, motion, frozen(alpha), situation.beta, frozen(gamma),
+        frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, decisions, largest,
+    )  # fmt: skip
+
+
+def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usage, ...]:
+    """Return what a motion uses of every limit of a task, friction cones first."""
+    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.limits)
+    return tuple(limit.usage(situation, motion) for limit in limits)
+
+
+def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
+    """Return one check per limit: the largest excess, relative to the limit's size."""
+    return tuple(Check(u.title, max(float((u.excess / u.scale).max(initial=-np.inf)), 0.0), LIMIT) for u in usages)
+
+
+def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, Array]) -> tuple[Check, ...]:
+    """Return the checks of equilibrium (7), internal force (13) and the forward maps of Theorem 1 (35).
+
+    Args:
+        analysis: of the grasp.
+        motion: what the references do.
+        wanted: alpha, beta, gamma that the references are meant to produce.
+    """
+    response, grasp = analysis.response, analysis.grasp
+    balance = response.scale.wrench(motion.forces @ grasp.G.T + motion.wrench)
+    start = forces_at_start(response) + (motion.wrench - grasp.w_0) @ response.dlambda_dw.T
+    internal = response.scale.wrench((motion.forces - start) @ grasp.G.T)
+    size = max(float(np.abs(motion.forces * response.scale.force).max(initial=0.0)), 1e-12)
+    expected = analysis.coordinates.references(*wanted)
+    got = analysis.coordinates.coordinates(motion.dz_r)
+    moved = [_relative(g - w, w) for g, w in zip(got, wanted, strict=True)]
+    produced = start + wanted[0] @ analysis.spaces.E_s.T - motion.forces
+    return (
+        Check("equilibrium", float(np.abs(balance).max(initial=0.0)) / size, EXACT),
+        Check("internal force", float(np.abs(internal).max(initial=0.0)) / size, EXACT),
+        Check("references", _relative(motion.dz_r - expected, expected), EXACT),
+        Check("forward maps", max(moved), EXACT),
+        Check("forces from alpha", float(np.abs(produced * response.scale.force).max(initial=0.0)) / size, EXACT),
+    )
+
+
+def _relative(difference: Array, reference: Array) -> float:
+    size = float(np.abs(reference).max(initial=0.0))
+    error = float(np.abs(difference).max(initial=0.0))
+    return error / size if size > 0 else error

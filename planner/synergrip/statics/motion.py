@@ -1,0 +1,55 @@
+"""Forward maps: what synergy references and a wrench profile do to forces, torques and motions, knot by knot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.linalg import Array, frozen
+from synergrip.statics.response import Response
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Forces and small displacements at T knots, from the start of the task; SI units."""
+
+    times: Array  # (T,) [s]
+    dz_r: Array  # (T, n_z) synergy references
+    wrench: Array  # (T, 6) external wrench on the object
+    forces: Array
+    """(T, n_l) lambda: force of the hand on the object at each contact, the whole of it [N, N m]."""
+    torques: Array  # (T, n_q) tau = J' lambda (6) [N m]
+    efforts: Array  # (T, n_z) sigma = S' tau
+    du: Array  # (T, 6) object displacement about B, axes of N: all of it, sag included
+    sag: Array  # (T, 6) the part of du that the change of the external wrench causes
+    dq: Array  # (T, n_q) joint displacement
+    dz: Array  # (T, n_z) synergy displacement
+
+
+def forces_at_start(response: Response) -> Array:
+    """Return lambda_0 (n_l,): as given, or the elastic reaction ``-G+ w_0`` of the grasp to its load."""
+    given = response.grasp.lambda_0
+    return np.asarray(given) if given is not None else -response.right_inverse @ response.grasp.w_0
+
+
+def forward(response: Response, times: Array, dz_r: Array, wrench: Array) -> Motion:
+    """Apply the forward maps (26)-(28) and the response to the wrench.
+
+    Args:
+        response: of the grasp.
+        times: (T,) [s].
+        dz_r: (T, n_z) synergy references, from those at the start.
+        wrench: (T, 6) external wrench on the object [N, N m].
+    """
+    dw = wrench - response.grasp.w_0
+    change = dz_r @ response.dlambda_dzr.T + dw @ response.dlambda_dw.T
+    forces = forces_at_start(response) + change
+    torques = forces @ response.grasp.J
+    sag = dw @ response.du_dw.T
+    d_effort = change @ response.grasp.J @ response.grasp.S
+    return Motion(
+        frozen(times), frozen(dz_r), frozen(wrench), frozen(forces), frozen(torques),
+        frozen(torques @ response.grasp.S), frozen(dz_r @ response.du_dzr.T + sag), frozen(sag),
+        frozen(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), frozen(dz_r - d_effort @ response.grasp.C_z.T),
+    )  # fmt: skip

@@ -1,0 +1,38 @@
+"""Is the object held at all? The assumption null(G') = 0 of Theorem 1, and the refusal when it fails."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.errors import NotRestrainedError
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Scale
+from synergrip.linalg import RANK_TOLERANCE, Decision, canonical, frozen, split
+from synergrip.statics.twists import describe_twist
+
+
+def restraint(grasp: Grasp, scale: Scale) -> Decision:
+    """Return the rank decision on G' (6 when restrained).
+
+    Raises:
+        NotRestrainedError: a motion of the object moves no contact; it carries the free twists and
+            the part of w_0 that no contact force can balance.
+    """
+    scaled = grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None]
+    found = split(scaled)
+    if found.null_space.shape[1] == 0:
+        return found.decision
+    free = canonical(found.null_space)
+    twists = np.linalg.solve(scale.motion, free)
+    unsupported = scale.motion.T @ free @ (free.T @ scale.wrench(grasp.w_0))
+    raise NotRestrainedError(_message(grasp, scale, twists, unsupported), frozen(twists), frozen(unsupported))
+
+
+def _message(grasp: Grasp, scale: Scale, twists: np.ndarray, unsupported: np.ndarray) -> str:
+    described = "; ".join(describe_twist(twist, grasp.contacts, scale.length) for twist in twists.T)
+    count = twists.shape[1]
+    text = f"the contacts do not restrain the object: {count} free motion{'s' if count > 1 else ''} ({described})"
+    if np.linalg.norm(scale.wrench(unsupported)) > RANK_TOLERANCE * float(np.linalg.norm(scale.wrench(grasp.w_0))):
+        force = ", ".join(f"{x + 0.0:.3g}" for x in unsupported)
+        text += f", and the load has a part that no contact force can balance ({force}) N, N m"
+    return text + "; add a contact, or make one a soft finger"
