@@ -83,18 +83,19 @@ class Document:
         return self.path.parent / name
 
 
-def read_document(path: Path, kind: str = "file") -> Document:
+def read_document(path: Path, kind: str = "file", key: str = "") -> Document:
     """Read a ``.toml`` or ``.json`` file whose top level is a table.
 
     Args:
         path: the file.
         kind: what it is to the user ("problem file"), for messages.
+        key: the key of another file that names this one; see `read_text`.
 
     Raises:
         InputError: no such file, not UTF-8, a syntax error, a key written twice, a number that is not
             finite; with the place where it stands.
     """
-    text = read_text(path, kind)
+    text = read_text(path, kind, key)
     suffix = path.suffix.lower()
     if suffix not in (".toml", ".json"):
         raise InputError([Issue(f"the name of a {kind} ends in .toml or .json", file=str(path))])

@@ -114,7 +114,7 @@ class _Walk:
                 self.table(node, counts)
 
     def table(self, node: Node, counts: dict[str, int]) -> None:
-        head = node.named_children[0]
+        head = _without_comments(node)[0]
         span = self.span(head)
         path: KeyPath = ()
         names = list(_names(head))
@@ -135,18 +135,18 @@ class _Walk:
                 self.pair(child, path)
 
     def pair(self, node: Node, path: KeyPath) -> None:
-        key, value = node.named_children[0], node.named_children[-1]
+        key, *values = _without_comments(node)
         names = list(_names(key))
         span = self.span(key)
         for name in names[:-1]:
             path = (*path, name)
             self.found.imply(path, span)
-        self.value(value, (*path, names[-1]), span)
+        self.value(values[0] if values else key, (*path, names[-1]), span)
 
     def value(self, node: Node, path: KeyPath, key: Span | None = None) -> None:
         if path:
             self.found.add(path, Place(self.span(node), key))
-        children = [child for child in node.named_children if child.type not in ("comment", "ERROR")]
+        children = _without_comments(node)
         if node.type == "array":
             for index, child in enumerate(children):
                 self.value(child, (*path, index))
@@ -154,6 +154,11 @@ class _Walk:
             for child in children:
                 if child.type == "pair":
                     self.pair(child, path)
+
+
+def _without_comments(node: Node) -> list[Node]:
+    """Return the named children that are keys and values; a comment may stand anywhere between them."""
+    return [child for child in node.named_children if child.type not in ("comment", "ERROR")]
 
 
 def _names(node: Node) -> Iterator[str]:

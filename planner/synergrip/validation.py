@@ -107,7 +107,8 @@ def _message(kind: str, value: object, context: Mapping[str, Any]) -> str:
     if kind in ("too_short", "too_long"):
         few = kind == "too_short"
         limit = context["min_length" if few else "max_length"]
-        return f"expected at {'least' if few else 'most'} {limit} entr{'y' if limit == 1 else 'ies'}, got {context['actual_length']}"
+        bound = f"{'least' if few else 'most'} {limit} entr{'y' if limit == 1 else 'ies'}"
+        return f"expected at {bound}, got {context['actual_length']}"
     if kind == "string_too_short":
         return "must not be empty"
     return _expected(value, _WANTED.get(kind.removesuffix("_type").removesuffix("_parsing"), "another value"))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.conic.box import LARGEST, box
@@ -13,7 +14,9 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Situation
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
+
+Triplets = tuple[NDArray[np.intp], NDArray[np.intp], Array]
 
 
 def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
@@ -21,32 +24,48 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     rows = [part for limit in limits for part in limit.rows(situation)] + list(goal.rows(situation))
     cost = goal.objective(situation)
     extra = 0 if cost.epigraph is None else 1
-    T = situation.knots
-    n = T * situation.n_v + extra
-    P = sparse.block_diag([sparse.kron(sparse.eye(T), cost.quadratic), sparse.csc_matrix((extra, extra))], format="csc")
-    q = np.concatenate([np.asarray(cost.linear).ravel(), [cost.epigraph] if cost.epigraph is not None else []])
-    A = sparse.vstack([_coefficients(part, T, extra) for part in rows], format="csc") if rows else _nothing(n)
-    b = np.concatenate([part.constant.ravel() for part in rows]) if rows else np.zeros(0)
-    blocks = tuple(_block(part, T) for part in rows)
-    bounds = frozen(np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)]))
-    return Program(sparse.csc_matrix(P), frozen(q), sparse.csc_matrix(A), frozen(b), blocks, T, situation.n_v, bounds)
+    T, n_v = situation.knots, situation.n_v
+    n, m = T * n_v + extra, sum(part.constant.size for part in rows)
+    P = _sparse([_repeated(np.asarray(cost.quadratic), np.arange(T), 0, 0)], (n, n))
+    A = _sparse([triplets for part, top in _tops(rows) for triplets in _entries(part, top, T, n - 1)], (m, n))
+    q = np.concatenate([np.asarray(cost.linear).ravel(), [] if cost.epigraph is None else [cost.epigraph]])
+    b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
+    bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
+    blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
+    return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds))
 
 
-def _coefficients(rows: Rows, knots: int, extra: int) -> sparse.csc_matrix:
-    """Return A for one contribution: ``value = b - A x``, hence the signs."""
-    here = sparse.csr_matrix(sparse.kron(sparse.eye(knots), sparse.csr_matrix(rows.matrix)))
+def _tops(rows: Sequence[Rows]) -> Iterator[tuple[Rows, int]]:
+    """Yield each contribution with its first row in the program."""
+    top = 0
+    for part in rows:
+        yield part, top
+        top += part.constant.size
+
+
+def _entries(rows: Rows, top: int, knots: int, last: int) -> Iterator[Triplets]:
+    """Yield the entries of A for one contribution: its value is ``b - A x``, hence the signs."""
+    count = len(rows.constant)
+    steps = np.arange(count)
+    yield _repeated(-rows.matrix, steps, top, knots - count)
     if rows.previous is not None:
-        here = here + sparse.csr_matrix(sparse.kron(sparse.eye(knots, k=-1), sparse.csr_matrix(rows.previous)))
-        here = here[len(rows.matrix) :]
-    if not extra:
-        return sparse.csc_matrix(-here)
-    column = sparse.csc_matrix(np.tile(rows.epigraph, len(rows.constant))[:, None])
-    return sparse.csc_matrix(sparse.hstack([-here, -column]))
+        yield _repeated(-rows.previous, steps, top, 0)
+    used = np.flatnonzero(rows.epigraph)
+    where = (top + steps[:, None] * len(rows.epigraph) + used).ravel()
+    yield where, np.full(where.size, last), np.tile(-rows.epigraph[used], count)
 
 
-def _block(rows: Rows, knots: int) -> Block:
-    return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - len(rows.constant), len(rows.constant))
+def _repeated(matrix: Array, steps: NDArray[np.intp], top: int, first: int) -> Triplets:
+    """Return the entries of one dense block repeated down the diagonal, from row `top` and knot `first` on."""
+    i, j = np.nonzero(matrix)
+    height, width = matrix.shape
+    rows = top + steps[:, None] * height + i
+    columns = (first + steps[:, None]) * width + j
+    return rows.ravel(), columns.ravel(), np.tile(matrix[i, j], len(steps))
 
 
-def _nothing(n: int) -> sparse.csc_matrix:
-    return sparse.csc_matrix((0, n))
+def _sparse(entries: Sequence[Triplets], shape: tuple[int, int]) -> sparse.csc_matrix:
+    if not entries:
+        return sparse.csc_matrix(shape)
+    rows, columns, values = (np.concatenate(column) for column in zip(*entries, strict=True))
+    return sparse.csc_matrix((values, (rows.astype(np.intp), columns.astype(np.intp))), shape=shape)

@@ -24,6 +24,8 @@ ATTEMPTS = (
 class Decision:
     """A solver's last claim with its certificate; the verdict is the certificate's."""
 
+    goal: str
+    """Name of the goal."""
     program: Program
     solution: Solution
     certificate: Certificate
@@ -40,14 +42,14 @@ class Decision:
         return self.certificate.verified and self.certificate.kind == "infeasible"
 
 
-def decide(program: Program, solver: Solver) -> Decision:
+def decide(goal: str, program: Program, solver: Solver) -> Decision:
     """Solve a program until a claim verifies, or the retry chain ends (then the certificate is not verified)."""
     for count, settings in enumerate(ATTEMPTS, start=1):
         solution = solver(program, settings)
         certificate = judge(program, solution)
         if certificate.verified:
             break
-    return Decision(program, solution, certificate, count)
+    return Decision(goal, program, solution, certificate, count)
 
 
 def judge(program: Program, solution: Solution) -> Certificate:

@@ -145,13 +145,18 @@ class GraspFile(Table):
                 yield Issue(f"two contacts have the name '{name}' (first contacts[{first}])", f"contacts[{index}].name")
 
 
-def read_matrices(path: Path) -> Matrices:
+def read_matrices(path: Path, key: str = "") -> Matrices:
     """Read and judge a grasp given as matrices.
+
+    Args:
+        path: the JSON file.
+        key: the key of the problem file that names it. When it is given, the issue of a file that is not
+            there has no place, for the problem's `Document.locate` to fill in.
 
     Raises:
         InputError: all the issues of the file, each with its place.
     """
-    document = read_document(path, "grasp file")
+    document = read_document(path, "grasp file", key)
     issues: list[Issue] = []
     contacts: tuple[ContactFile, ...] | None = None
     try:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from synergrip.errors import InputError, one_of
@@ -70,6 +70,16 @@ class SynergySet:
 
 
 @dataclass(frozen=True)
+class Coupling:
+    """A joint moved by another joint: q_follower = ratio q_joint + offset."""
+
+    joint: str
+    """The driver."""
+    ratio: float
+    offset: float = 0.0  # [rad] or [m]
+
+
+@dataclass(frozen=True)
 class Hand:
     """A robot hand as data."""
 
@@ -83,6 +93,8 @@ class Hand:
     postures: Mapping[str, Array]
     """Named joint values (n_q,)."""
     kinematics: Kinematics
+    couplings: Mapping[str, Coupling] = field(default_factory=dict)
+    """Follower -> its driver; already in every synergy set but "joints"."""
 
     @property
     def joint_names(self) -> tuple[str, ...]:

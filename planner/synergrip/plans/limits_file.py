@@ -114,15 +114,15 @@ class GoalTable(Table):
     )
 
     @property
-    def name(self) -> str:
+    def name(self) -> Literal["margin", "effort", "torque", "peak_force"]:
         """The quantity that is maximised or minimised."""
-        return self.maximise or self.minimise or ""
+        return self.maximise or self.minimise or "effort"
 
     def issues(self) -> Iterable[Issue]:
         """Refuse none and both."""
         if self.maximise and self.minimise:
             yield Issue("a plan has one goal: maximise or minimise, not both", key="minimise", on_key=True)
-        if not self.name:
+        if not (self.maximise or self.minimise):
             yield Issue('give one goal: maximise = "margin", or minimise = "effort", "torque" or "peak_force"')
 
 

@@ -68,8 +68,8 @@ class Infeasible:
     why: str
     refusal: Refusal | None
     """What was refused before any program was solved."""
-    certificate: Certificate | None
-    """The verified ray, when the program itself is infeasible."""
+    certificate: Certificate
+    """The verified proof: a free twist, a direction outside Gamma_ucs, or the ray of the program."""
     program: Program | None
     decisions: tuple[Decision, ...]
     largest_margin: float | None

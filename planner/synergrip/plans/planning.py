@@ -17,11 +17,14 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.situation import Situation, situate
-from synergrip.errors import NotRestrainedError, Refusal
+from synergrip.conic.solution import Claim
+from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.limits_table import unbounded
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import SOLVERS, Answerer, Question, ask
+from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
@@ -41,11 +44,11 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     try:
         analysis = analyse(grasp)
     except NotRestrainedError as refusal:
-        return _refused(task, None, refusal)
+        return _refused(grasp, task, None, refusal)
     try:
         beta = rigid_coordinates(analysis, task)
     except Refusal as refusal:
-        return _refused(task, analysis, refusal)
+        return _refused(grasp, task, analysis, refusal)
     situation = situate(
         analysis.response, analysis.spaces, analysis.coordinates,
         times=task.times, wrench=task.wrench, beta=beta,
@@ -54,8 +57,11 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     return _Planner(task, analysis, situation, solver).outcome()
 
 
-def _refused(task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
-    return Infeasible(task, analysis, refusal.stage, str(refusal), refusal, None, None, (), None)
+def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
+    certificate = refusal_certificate(grasp, task, analysis, refusal)
+    if not certificate.verified:
+        raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
+    return Infeasible(task, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
 
 
 class _Planner:
@@ -80,6 +86,8 @@ class _Planner:
     def _largest_margin(self) -> Outcome:
         first = self._ask(self.task.limits, LargestMargin())
         if not first.optimal:
+            if first.solution.claim is Claim.UNBOUNDED:
+                raise unbounded()
             return self._no_optimum(first)
         largest = float(first.solution.x[-1]) * self.situation.force_unit
         if largest < self.task.margin - SLACK * self.situation.force_unit:

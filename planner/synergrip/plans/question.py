@@ -56,4 +56,4 @@ def answerer(name: str) -> Answerer:
 def ask(situation: Situation, limits: Sequence[Limit], goal: Goal, solver: Answerer) -> Decision:
     """Build the program of a question, have it solved and verified."""
     question = Question(situation, tuple(limits), goal)
-    return decide(question.program(), lambda program, settings: solver(question, program, settings))
+    return decide(goal.name, question.program(), lambda program, settings: solver(question, program, settings))

@@ -55,7 +55,7 @@ class _Reader:
                 yield number, line
 
 
-def read_table(path: Path, columns: Sequence[str] | str, key: str = "") -> Table:
+def read_table(path: Path, columns: Sequence[str] | str, key: str = "", *, others: bool = False) -> Table:
     """Read a CSV file with a header line, a column ``t_s`` and one number in every cell.
 
     Args:
@@ -64,6 +64,7 @@ def read_table(path: Path, columns: Sequence[str] | str, key: str = "") -> Table
             prefix (`MODES`, `REFERENCES`) for any number of columns ``beta_1, beta_2, ...``.
         key: the key of the problem file that names this file, for messages. When it is given, the issue of a
             file that is not there has no place, for `Document.locate` to fill in.
+        others: whether further columns are passed over instead of refused.
 
     Raises:
         InputError: no such file, wrong header, ragged lines, cells that are no finite number, times that
@@ -73,7 +74,7 @@ def read_table(path: Path, columns: Sequence[str] | str, key: str = "") -> Table
     rows = reader.rows()
     number, header = next(rows, (1, ""))
     cells = list(_cells(header, number))
-    order = _order(reader, cells, columns)
+    order = _order(reader, cells, columns, others)
     if reader.issues:
         raise InputError(reader.issues)
     numbers = [_numbers(reader, number, line, len(cells)) for number, line in rows]
@@ -94,7 +95,7 @@ def _cells(line: str, number: int) -> Iterator[_Cell]:
         column += len(text) + 1
 
 
-def _order(reader: _Reader, header: list[_Cell], columns: Sequence[str] | str) -> list[int]:
+def _order(reader: _Reader, header: list[_Cell], columns: Sequence[str] | str, others: bool) -> list[int]:
     """Return the position of ``t_s`` and of every wanted column in the header."""
     names = [cell.text for cell in header]
     if isinstance(columns, str):
@@ -107,7 +108,7 @@ def _order(reader: _Reader, header: list[_Cell], columns: Sequence[str] | str) -
         reader.refuse("cells are separated by commas, not by semicolons or tabs", header[0])
     else:
         for index, cell in enumerate(header):
-            if cell.text not in wanted:
+            if cell.text not in wanted and not others:
                 missing = [name for name in wanted if name not in names]
                 reader.refuse(f"unknown column '{cell.text}'{suggest(cell.text, missing)}", cell)
             elif cell.text in names[:index]:

@@ -20,9 +20,12 @@ GoalName = Literal["margin", "effort", "torque", "peak_force"]
 class Wanted:
     """The wanted object motion from the start of the task."""
 
-    kind: Literal["hold", "motion", "modes"]
+    kind: Literal["hold", "motion", "modes", "mode moves"]
     values: Array
-    """(T, 6) displacement about B [m, rad] for "motion", (T, dim Gamma_ucs) beta [m] for "modes", (T, 0) to hold."""
+    """(T, 6) displacement about B [m, rad] for "motion"; (T, dim Gamma_ucs) beta [m] for "modes"; the same for
+    "mode moves", where columns that are not there stand for zero; (T, 0) to hold."""
+    key: str = ""
+    """Key in the problem file."""
 
 
 @dataclass(frozen=True)

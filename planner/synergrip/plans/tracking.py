@@ -27,11 +27,12 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
     values = task.wanted.values
     if task.wanted.kind == "hold":
         return frozen(np.zeros((len(task.times), dimension)))
-    if task.wanted.kind == "modes":
-        if values.shape[1] != dimension:
-            message = f"{values.shape[1]} columns of beta given, but Gamma_ucs of this grasp has dimension {dimension}"
-            raise InputError.at("task.modes", message)
-        return frozen(values)
+    if task.wanted.kind in ("modes", "mode moves"):
+        asked = values.shape[1]
+        if asked > dimension or (task.wanted.kind == "modes" and asked < dimension):
+            message = f"the motion is given in {asked} coordinates, but Gamma_ucs of this grasp has dimension {dimension}"
+            raise InputError.at(task.wanted.key, message)
+        return frozen(np.pad(values, ((0, 0), (0, dimension - asked))))
     _count(analysis, values)
     beta, outside = motion_coordinates(analysis.response, analysis.spaces, values)
     sizes = np.linalg.norm(analysis.response.scale.twist(outside), axis=1)

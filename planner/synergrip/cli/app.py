@@ -1,0 +1,38 @@
+"""The verbs, listed. A new verb is one file and one line here."""
+
+from __future__ import annotations
+
+import typer
+
+from synergrip import __version__
+from synergrip.cli.analyse import analyse
+from synergrip.cli.check import check
+from synergrip.cli.lists import hands, problems, schema
+from synergrip.cli.plan import plan
+from synergrip.cli.validate import validate
+
+app = typer.Typer(
+    name="synergrip",
+    help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers.",
+    epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
+    "130 interrupted.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for verb in (plan, analyse, check, validate, problems, hands, schema):
+    app.command()(verb)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"synergrip {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="Print the version."),
+) -> None:
+    """Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers."""

@@ -1,0 +1,33 @@
+"""``synergrip check``: judge a plan, from here or from elsewhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+
+
+def check(
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="A plan folder, .json, .npz, or CSV with t_s,zr_1,...")],
+    problem: ProblemArgument,
+    form: FormatOption = Format.TEXT,
+    overrides: SetOption = None,
+) -> None:
+    """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
+    with answering(form):
+        from synergrip.errors import SynergripError
+        from synergrip.plans.check import judge_references
+        from synergrip.plans.problem import load_problem, located
+        from synergrip.plans.references import read_references
+        from synergrip.reports.text_check import judgement_document, judgement_text
+
+        loaded = load_problem(problem, overrides or [])
+        try:
+            judgement = judge_references(loaded.grasp, loaded.task, read_references(plan, loaded.grasp.n_z))
+        except SynergripError as error:
+            raise located(loaded, error) from None
+        show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
+    raise typer.Exit(judgement.exit_code)

@@ -1,0 +1,49 @@
+"""``synergrip plan``: the main job."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+
+
+def plan(
+    problem: ProblemArgument,
+    form: FormatOption = Format.TEXT,
+    overrides: SetOption = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go (default out/PROBLEM).")
+    ] = None,
+    solver: Annotated[
+        str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation of the same problem.")
+    ] = "clarabel",
+    save_program: Annotated[
+        Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
+    ] = None,
+) -> None:
+    """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
+    with answering(form):
+        from synergrip.errors import SynergripError
+        from synergrip.plans.planning import plan as make
+        from synergrip.plans.problem import load_problem, located
+        from synergrip.plans.question import answerer
+        from synergrip.reports.json_plan import outcome_document
+        from synergrip.reports.plan_files import FORMATS, write_outcome
+        from synergrip.reports.text_plan import outcome_text
+
+        answers = answerer(solver)
+        loaded = load_problem(problem, overrides or [])
+        try:
+            outcome = make(loaded.grasp, loaded.task, answers)
+        except SynergripError as error:
+            raise located(loaded, error) from None
+        document = outcome_document(loaded.title, loaded.grasp, outcome)
+        folder = output or Path("out") / loaded.name
+        written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
+        if save_program and outcome.decisions:
+            outcome.decisions[-1].program.save(save_program)
+        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()), lambda: document)
+    raise typer.Exit(outcome.exit_code)

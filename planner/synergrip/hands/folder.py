@@ -1,0 +1,220 @@
+"""From a folder with hand.toml and a URDF to a `Hand`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from synergrip.documents import parse, read_document
+from synergrip.errors import InputError, Issue, one_of, suggest
+from synergrip.files import bundled
+from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
+from synergrip.hands.hand_file import HandFile, JointTable, PadTable, PostureTable, SynergyTable
+from synergrip.hands.kinematics import kinematics
+from synergrip.hands.synergies import (
+    ALL,
+    JOINTS,
+    at,
+    coupling_map,
+    joint_posture,
+    joint_set,
+    joint_vector,
+    outside_limits,
+    override,
+)
+from synergrip.hands.urdf import Urdf, read_urdf
+from synergrip.linalg import Array, frozen
+from synergrip.quantities import quantity
+
+FILE = "hand.toml"
+
+Given = TypeVar("Given")
+Value = TypeVar("Value")
+
+
+def bundled_hands() -> tuple[str, ...]:
+    """Return the names of the hands that come with synergrip."""
+    folder = bundled("models") / "hands"
+    return tuple(sorted(entry.parent.name for entry in folder.glob(f"*/{FILE}")))
+
+
+def load_hand(
+    name_or_path: str | Path,
+    *,
+    relative_to: Path | None = None,
+    coupling: Mapping[str, float] | float | None = None,
+    key: str = "hand.model",
+) -> Hand:
+    """Return a hand by the name of a bundled one, or by the path of a folder that holds hand.toml.
+
+    Args:
+        name_or_path: a name of `bundled_hands`, or a path.
+        relative_to: the folder a path is relative to; the current one when absent.
+        coupling: ratios that replace those of the hand: one for all followers, or by follower.
+        key: where the name stands, for the error; the coupling stands beside it.
+
+    Raises:
+        InputError: no such hand, a hand.toml or URDF that cannot be used (located in that file), or a coupling
+            that the hand does not have (at the key of the coupling).
+    """
+    folder = _find(name_or_path, relative_to, key)
+    document = read_document(folder / FILE, "hand file")
+    file = parse(document, HandFile)
+    couplings = {name: Coupling(each.joint, each.ratio, each.offset) for name, each in file.couplings.items()}
+    beside = key.rpartition(".")[0]
+    chosen = override(couplings, coupling, f"{beside}.coupling" if beside else "coupling")
+    try:
+        return _hand(folder, file, chosen, judge_postures=coupling is None)
+    except InputError as error:
+        raise error.located(document.locate) from None
+
+
+def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
+    name = str(name_or_path)
+    names = bundled_hands()
+    if name in names:
+        return bundled("models") / "hands" / name
+    path = (relative_to or Path()) / name
+    folder = path.parent if path.name == FILE else path
+    if name and (folder / FILE).is_file():
+        return folder.resolve()
+    listed = ", ".join(names)
+    message = f"{name!r} is neither a bundled hand ({listed}) nor a folder with {FILE}{suggest(name, names)}"
+    raise InputError.at(key, message)
+
+
+def _hand(folder: Path, file: HandFile, couplings: dict[str, Coupling], *, judge_postures: bool) -> Hand:
+    urdf = read_urdf(folder / file.model, "model")
+    names = [table.name for table in file.joint]
+    _check_names(urdf, names)
+    rows = {f"joint[{index}]": table for index, table in enumerate(file.joint)}
+    joints = tuple(_each("", rows, lambda _, table: _joint(urdf, table)).values())
+    compliance = _each("", rows, lambda _, table: _compliance(urdf, table)).values()
+    sets = _synergy_sets(file, names, couplings)
+    postures = _each("postures", file.postures, lambda _, table: _posture(table, sets, names, couplings))
+    if judge_postures:
+        _each("postures", postures, lambda _, q: _within_limits(joints, q))
+    return Hand(
+        name=folder.name,
+        title=file.title,
+        joints=joints,
+        C_q=frozen(np.diag(list(compliance))),
+        pads=_each("pads", file.pads, lambda name, table: _pad(urdf, name, table)),
+        synergy_sets=sets,
+        postures=postures,
+        kinematics=kinematics(urdf, names),
+        couplings=couplings,
+    )
+
+
+def _each(prefix: str, tables: Mapping[str, Given], make: Callable[[str, Given], Value]) -> dict[str, Value]:
+    """Return what `make` makes of each table, or raise the issues of all of them with their keys."""
+    made, issues = dict[str, Value](), list[Issue]()
+    for name, table in tables.items():
+        try:
+            made[name] = make(name, table)
+        except InputError as error:
+            issues += error.under(f"{prefix}.{name}" if prefix else name).issues
+    if issues:
+        raise InputError(issues)
+    return made
+
+
+def _check_names(urdf: Urdf, names: Sequence[str]) -> None:
+    issues = []
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            issues.append(Issue(f"'{name}' is listed twice", key=f"joint[{index}].name"))
+        elif name not in urdf.moving:
+            issues.append(Issue(f"moving joint {one_of(name, urdf.moving)}", key=f"joint[{index}].name"))
+    missing = [name for name in urdf.moving if name not in names]
+    if missing and not issues:
+        listed = ", ".join(f"'{name}'" for name in missing)
+        issues.append(Issue(f"the URDF also moves {listed}; list every moving joint", key="joint"))
+    if issues:
+        raise InputError(issues)
+
+
+def _joint(urdf: Urdf, table: JointTable) -> Joint:
+    joint = urdf.joints[table.name]
+    limit = math.inf
+    if table.torque_limit is not None:
+        limit = quantity(table.torque_limit, "torque" if joint.kind == "hinge" else "force", "torque_limit")
+    if not limit > 0:
+        raise InputError.at("torque_limit", f"must be greater than 0, got {table.torque_limit!r}")
+    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit)
+
+
+def _compliance(urdf: Urdf, table: JointTable) -> float:
+    if table.compliance is None:
+        return 0.0
+    kind = "joint compliance" if urdf.joints[table.name].kind == "hinge" else "slide compliance"
+    value = quantity(table.compliance, kind, "compliance")
+    if value < 0:
+        raise InputError.at("compliance", f"must be at least 0, got {table.compliance!r}")
+    return value
+
+
+def _pad(urdf: Urdf, name: str, table: PadTable) -> Pad:
+    if table.link not in urdf.links:
+        raise InputError.at("link", one_of(table.link, urdf.links))
+    return Pad(name, table.link, frozen(table.point), frozen(table.normal))
+
+
+def _synergy_sets(file: HandFile, names: Sequence[str], couplings: Mapping[str, Coupling]) -> dict[str, SynergySet]:
+    try:
+        coupled = coupling_map(names, couplings)
+    except InputError as error:
+        raise error.under("couplings") from None
+    made = _each("synergies", file.synergies, lambda name, table: _synergies(name, table, names, couplings, coupled))
+    return {**made, JOINTS: joint_set(names)}
+
+
+def _synergies(
+    name: str,
+    table: SynergyTable,
+    names: Sequence[str],
+    couplings: Mapping[str, Coupling],
+    coupled: tuple[Array, Array],
+) -> SynergySet:
+    if name in (JOINTS, ALL):
+        raise InputError.at(
+            "", f"'{name}' is the set of all joints, which every hand has; choose another name", on_key=True
+        )
+    E, e = coupled
+    columns = _each("columns", table.columns, lambda _, weights: joint_vector(names, weights, couplings))
+    offset = _each("", {"offset": table.offset}, lambda _, values: joint_vector(names, values, couplings))["offset"]
+    for each in table.effort_limits:
+        if each not in columns:
+            raise InputError.at(f"effort_limits.{each}", one_of(each, columns), on_key=True)
+    limits = frozen([table.effort_limits.get(each, math.inf) for each in columns])
+    S = E @ np.column_stack(list(columns.values()))
+    return SynergySet(name, table.title, tuple(columns), frozen(S), frozen(E @ offset + e), limits)
+
+
+def _posture(
+    table: PostureTable, sets: Mapping[str, SynergySet], names: Sequence[str], couplings: Mapping[str, Coupling]
+) -> Array:
+    if table.joints is not None:
+        for name in table.joints:
+            if name not in names:
+                raise InputError.at(f"joints.{name}", one_of(name, names), on_key=True)
+        return frozen(joint_posture(names, table.joints, couplings))
+    if table.set is not None and table.set not in sets:
+        raise InputError.at("set", one_of(table.set, sets))
+    chosen = sets[table.set] if table.set else next(iter(sets.values()))
+    values = table.synergies or {}
+    for name in values:
+        if name not in chosen.synergies:
+            raise InputError.at(f"synergies.{name}", one_of(name, chosen.synergies), on_key=True)
+    return at(chosen, values)
+
+
+def _within_limits(joints: Sequence[Joint], q: Array) -> None:
+    issues = outside_limits(joints, q, "")
+    if issues:
+        raise InputError(issues)

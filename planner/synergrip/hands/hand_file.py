@@ -1,0 +1,107 @@
+"""The tables of hand.toml."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated
+
+from pydantic import Field
+
+from synergrip.errors import Issue
+from synergrip.fields import (
+    Angle,
+    Axis,
+    Number,
+    Ratio,
+    Table,
+    Text,
+    Torque,
+    Version,
+    Written,
+    array_of,
+    listed,
+    unit_schema,
+    with_unit,
+)
+
+Point = Annotated[
+    tuple[float, ...],
+    Written(lambda value: listed(with_unit("length"), value, 3, "lengths"), array_of(unit_schema("length"), 3)),
+]
+
+
+class JointTable(Table):
+    """A joint, in the order of q; its limits stand in the URDF."""
+
+    name: Text = Field(description="name of the joint in the URDF")
+    torque_limit: Text | None = Field(
+        default=None, description='largest torque ("1.5 N m"), or force of a slide; none when absent'
+    )
+    compliance: Text | None = Field(
+        default=None, description='yield per torque ("0.025 rad/(N m)"), or per force of a slide; 0 when absent'
+    )
+
+
+class PadTable(Table):
+    """A place that is made to touch things."""
+
+    link: Text = Field(description="name of the link in the URDF")
+    point: Point = Field(description="place in the frame of the link")
+    normal: Axis = Field(description="direction in which the pad pushes, in the frame of the link")
+
+
+class CouplingTable(Table):
+    """What moves a joint that has no actuator of its own."""
+
+    joint: Text = Field(description="name of the joint that is followed")
+    ratio: Ratio = Field(description='rotation per rotation of that joint, such as "1/3"')
+    offset: Angle = Field(default=0.0, description="angle at which the followed joint is at 0")
+
+
+class SynergyTable(Table):
+    """A synergy set."""
+
+    title: str = Field(default="", description="what it is, for people")
+    columns: dict[Text, dict[str, Number]] = Field(
+        min_length=1, description="weight of each joint in each synergy; followers are added through the couplings"
+    )
+    offset: dict[str, Angle] = Field(default_factory=dict, description="joint values when every synergy is at 0")
+    effort_limits: dict[str, Torque] = Field(default_factory=dict, description="largest actuator effort by synergy")
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse an empty column and a limit that is not positive."""
+        for name, column in self.columns.items():
+            if not any(column.values()):
+                yield Issue("a synergy moves at least one joint", key=f"columns.{name}")
+        for name, limit in self.effort_limits.items():
+            if limit <= 0:
+                yield Issue("must be greater than 0", key=f"effort_limits.{name}")
+
+
+class PostureTable(Table):
+    """A posture with a name."""
+
+    title: str = Field(default="", description="what it is, for people")
+    synergies: dict[str, Angle] | None = Field(default=None, description="values of the synergies of a set")
+    set: Text | None = Field(default=None, description="the set; the first one when absent")
+    joints: dict[str, Angle] | None = Field(default=None, description="joint values; instead of synergies")
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse neither and both."""
+        if (self.synergies is None) == (self.joints is None):
+            yield Issue("a posture gives either 'synergies' or 'joints'")
+        elif self.joints is not None and self.set is not None:
+            yield Issue("'set' goes with 'synergies'", key="set", on_key=True)
+
+
+class HandFile(Table):
+    """A whole hand.toml."""
+
+    version: Version = Field(alias="schema", description="1")
+    title: Text = Field(description="name of the hand, for people")
+    model: Text = Field(description="URDF file, relative to hand.toml")
+    joint: tuple[JointTable, ...] = Field(min_length=1, description="every moving joint, in the order of q")
+    pads: dict[str, PadTable] = Field(default_factory=dict, description="places that are made to touch things")
+    couplings: dict[str, CouplingTable] = Field(default_factory=dict, description="joints that follow others")
+    synergies: dict[Text, SynergyTable] = Field(default_factory=dict, description="synergy sets, the default first")
+    postures: dict[Text, PostureTable] = Field(default_factory=dict, description="postures with a name")

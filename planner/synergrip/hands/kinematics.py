@@ -1,0 +1,113 @@
+"""Forward kinematics and Jacobians of a tree of links; the only module that imports MuJoCo."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from synergrip.errors import InputError, one_of
+from synergrip.hands.hand import PointMotion
+from synergrip.hands.urdf import Urdf, UrdfJoint
+from synergrip.linalg import Array, frozen
+
+
+@dataclass(frozen=True, eq=False)
+class MujocoKinematics:
+    """The `Kinematics` of a hand. Calls share nothing that changes."""
+
+    joints: tuple[str, ...]
+    """Names in the order of q."""
+    bodies: Mapping[str, int]
+    """Link name -> number in the model."""
+    model: Any
+    """The compiled `mujoco.MjModel`; the palm stands still in its world frame."""
+    places: tuple[int, ...]
+    """Where each joint of q stands among the coordinates of the model."""
+
+    def at(self, q: Array, points: Sequence[tuple[str, Array]]) -> tuple[PointMotion, ...]:
+        """Return the motion of each (link name, point in link coordinates [m]) at joint values `q` (n_q,).
+
+        Raises:
+            InputError: a link that the hand does not have, `q` not n_q finite numbers or a point not 3.
+        """
+        import mujoco
+
+        values = _finite(q, len(self.joints), "q")
+        for link, _ in points:
+            if link not in self.bodies:
+                raise InputError.at("link", one_of(link, self.bodies))
+        data = mujoco.MjData(self.model)
+        data.qpos[list(self.places)] = values
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+        return tuple(self._motion(data, self.bodies[link], _finite(point, 3, "point")) for link, point in points)
+
+    def _motion(self, data: Any, body: int, point: Array) -> PointMotion:
+        import mujoco
+
+        rotation = data.xmat[body].reshape(3, 3)
+        position = data.xpos[body] + rotation @ point
+        jacobian = np.zeros((6, self.model.nv))
+        mujoco.mj_jac(self.model, data, jacobian[:3], jacobian[3:], position, body)
+        return PointMotion(frozen(position), frozen(rotation), frozen(jacobian[:, list(self.places)]))
+
+
+def kinematics(urdf: Urdf, joints: Sequence[str]) -> MujocoKinematics:
+    """Return the kinematics of `urdf` in its palm frame.
+
+    Args:
+        urdf: the tree of links.
+        joints: the names of all its moving joints, in the order wanted for q.
+
+    Raises:
+        InputError: `joints` is no permutation of the moving joints; under the key ``joints``.
+    """
+    for index, name in enumerate(joints):
+        if name not in urdf.moving:
+            raise InputError.at(f"joints[{index}]", one_of(name, urdf.moving))
+    if sorted(joints) != sorted(urdf.moving):
+        raise InputError.at("joints", f"expected each of {', '.join(urdf.moving)} once")
+    model = _spec(urdf).compile()
+    places = {name: int(model.joint(f"joint:{name}").qposadr[0]) for name in urdf.moving}
+    bodies = {link: int(model.body(f"link:{link}").id) for link in urdf.links}
+    return MujocoKinematics(tuple(joints), bodies, model, tuple(places[name] for name in joints))
+
+
+def _spec(urdf: Urdf) -> Any:
+    """Return the model as a `mujoco.MjSpec`; names get a prefix because "world" is taken there."""
+    import mujoco
+
+    kinds = {"hinge": mujoco.mjtJoint.mjJNT_HINGE, "slide": mujoco.mjtJoint.mjJNT_SLIDE}
+    inertia = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "explicitinertial": True}  # kinematics needs none, MuJoCo does
+    spec = mujoco.MjSpec()
+    bodies = {urdf.root: spec.worldbody.add_body(name=f"link:{urdf.root}", **inertia)}
+    above = {joint.child: joint for joint in urdf.joints.values()}
+    for link in urdf.links[1:]:
+        joint = above[link]
+        place = {"pos": list(joint.xyz), "quat": _quaternion(joint)}
+        bodies[link] = bodies[joint.parent].add_body(name=f"link:{link}", **place, **inertia)
+        if joint.kind != "fixed":
+            bodies[link].add_joint(name=f"joint:{joint.name}", type=kinds[joint.kind], axis=list(joint.axis))
+    return spec
+
+
+def _quaternion(joint: UrdfJoint) -> list[float]:
+    """Return (w, x, y, z) of the rotation Rz(yaw) Ry(pitch) Rx(roll)."""
+    (r, p, y), (sr, sp, sy) = ([f(angle / 2) for angle in joint.rpy] for f in (math.cos, math.sin))
+    return [
+        y * p * r + sy * sp * sr,
+        y * p * sr - sy * sp * r,
+        y * sp * r + sy * p * sr,
+        sy * p * r - y * sp * sr,
+    ]
+
+
+def _finite(values: Array, size: int, key: str) -> Array:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != (size,) or not np.all(np.isfinite(array)):
+        raise InputError.at(key, f"expected {size} finite numbers, got {array.tolist()}")
+    return array

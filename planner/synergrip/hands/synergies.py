@@ -1,0 +1,219 @@
+"""From couplings and columns to S (9), and from what a user asks for to a synergy set and a posture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.errors import InputError, Issue, one_of, suggest
+from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
+from synergrip.linalg import Array, frozen
+
+JOINTS = "joints"
+"""The set every hand has: each joint is its own synergy (S = I)."""
+ALL = "all"
+"""What users call it."""
+LIMIT_SLACK = 1e-9
+"""[rad or m] by which a posture may pass a joint limit, for rounding."""
+
+
+def coupling_map(joints: Sequence[str], couplings: Mapping[str, Coupling]) -> tuple[Array, Array]:
+    """Return E (n_q, n_q) and e (n_q,) such that q = E q_free + e, whatever q_free holds for the followers.
+
+    Raises:
+        InputError: a follower or driver that is no joint, or followers that drive each other; the key is
+            relative to the table of couplings.
+    """
+    index = {name: i for i, name in enumerate(joints)}
+    for follower, coupling in couplings.items():
+        if follower not in index:
+            raise InputError.at(follower, one_of(follower, joints), on_key=True)
+        if coupling.joint not in index:
+            raise InputError.at(f"{follower}.joint", one_of(coupling.joint, joints))
+    E, e = np.eye(len(joints)), np.zeros(len(joints))
+    for follower in couplings:
+        row, constant, ratio = np.zeros(len(joints)), 0.0, 1.0
+        joint, passed = follower, [follower]
+        while joint in couplings:
+            constant += ratio * couplings[joint].offset
+            ratio *= couplings[joint].ratio
+            joint = couplings[joint].joint
+            if joint in passed:
+                raise InputError.at(f"{follower}.joint", f"'{joint}' would follow itself")
+            passed.append(joint)
+        row[index[joint]] = ratio
+        E[index[follower]], e[index[follower]] = row, constant
+    return frozen(E), frozen(e)
+
+
+def joint_vector(joints: Sequence[str], values: Mapping[str, float], followers: Mapping[str, Coupling]) -> Array:
+    """Return (n_q,) with `values` by joint name and 0 elsewhere; followers may not be named.
+
+    Raises:
+        InputError: no joint, or a follower; the key is the name.
+    """
+    result = np.zeros(len(joints))
+    for name, value in values.items():
+        if name not in joints:
+            raise InputError.at(name, one_of(name, joints), on_key=True)
+        if name in followers:
+            raise InputError.at(name, f"'{name}' follows '{followers[name].joint}'; name that one only", on_key=True)
+        result[list(joints).index(name)] = value
+    return result
+
+
+def joint_set(joints: Sequence[str]) -> SynergySet:
+    """Return the fully actuated hand as a synergy set: S = I, no effort limits."""
+    n = len(joints)
+    limits = frozen(np.full(n, math.inf))
+    return SynergySet(JOINTS, "every joint by itself", tuple(joints), frozen(np.eye(n)), frozen(np.zeros(n)), limits)
+
+
+def at(synergies: SynergySet, values: Mapping[str, float]) -> Array:
+    """Return the joint values (n_q,) at the named synergy values; those left out are 0."""
+    z = np.array([values.get(name, 0.0) for name in synergies.synergies])
+    return frozen(synergies.S @ z + synergies.offset)
+
+
+def columns_of(chosen: SynergySet, names: Sequence[str]) -> SynergySet:
+    """Return the set with the named columns only, in that order."""
+    picks = [chosen.synergies.index(name) for name in names]
+    return replace(
+        chosen,
+        synergies=tuple(names),
+        S=frozen(chosen.S[:, picks]),
+        effort_limits=frozen(chosen.effort_limits[picks]),
+    )
+
+
+def select(hand: Hand, wish: int | str | Sequence[str] | None, key: str = "hand.synergies") -> SynergySet:
+    """Return the synergies a user asks for.
+
+    Args:
+        hand: the hand.
+        wish: nothing (the default set), a number K (the first K of the default set), the name of a set,
+            ``"all"`` (every joint) or a list of names of synergies of one set.
+        key: where it stands, for the error.
+
+    Raises:
+        InputError: an unknown name, a number below 1 or above n_z, names of different sets, no name, a name twice.
+    """
+    if wish is None:
+        return next(iter(hand.synergy_sets.values()))
+    if isinstance(wish, str):
+        if wish not in hand.synergy_sets and wish != ALL:
+            raise InputError.at(key, f"synergies {one_of(wish, [*hand.synergy_sets, ALL])}")
+        return hand.synergy_sets[JOINTS if wish == ALL else wish]
+    if isinstance(wish, int):
+        return _first(hand, wish, key)
+    return _named(hand, list(wish), key)
+
+
+def _first(hand: Hand, count: int, key: str) -> SynergySet:
+    default = next(iter(hand.synergy_sets.values()))
+    available = len(default.synergies)
+    if isinstance(count, bool) or not 1 <= count <= available:
+        every = "" if default.name == JOINTS else f'; write "{ALL}" for the {len(hand.joints)} joints'
+        message = f"expected 1 to {available}, the number of synergies of '{default.name}', got {count}{every}"
+        raise InputError.at(key, message)
+    return columns_of(default, default.synergies[:count])
+
+
+def _named(hand: Hand, names: Sequence[str], key: str) -> SynergySet:
+    if not names:
+        raise InputError.at(key, "expected at least one synergy")
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise InputError.at(f"{key}[{index}]", f"'{name}' is listed twice")
+        if not any(name in synergies.synergies for synergies in hand.synergy_sets.values()):
+            known = dict.fromkeys(n for synergies in hand.synergy_sets.values() for n in synergies.synergies)
+            raise InputError.at(f"{key}[{index}]", one_of(name, known))
+    for synergies in hand.synergy_sets.values():
+        if all(name in synergies.synergies for name in names):
+            return columns_of(synergies, names)
+    raise InputError.at(key, f"no synergy set has all of {', '.join(names)}; use names of one set")
+
+
+def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "hand.posture") -> Array:
+    """Return the joint values (n_q,) of a posture.
+
+    Args:
+        hand: the hand.
+        synergies: the chosen set; its names are looked up first.
+        wish: the name of a posture of the hand, or values [rad] by synergy or joint name. Names that are left
+            out are 0; a joint that follows another one follows unless it is named.
+        key: where it stands, for the error.
+
+    Raises:
+        InputError: an unknown name, names of different kinds, a joint outside its limits.
+    """
+    if isinstance(wish, str):
+        if wish not in hand.postures:
+            raise InputError.at(key, f"posture {one_of(wish, hand.postures)}")
+        q = hand.postures[wish]
+    else:
+        q = _values(hand, synergies, wish, key)
+    issues = outside_limits(hand.joints, q, key)
+    if issues:
+        raise InputError(issues)
+    return frozen(q)
+
+
+def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: str) -> Array:
+    if not wish:
+        raise InputError.at(key, "expected the value of at least one synergy or joint")
+    sets = {id(each): each for each in (synergies, *hand.synergy_sets.values())}.values()
+    known = dict.fromkeys(name for each in sets for name in each.synergies)
+    for name in wish:
+        if name not in known:
+            raise InputError.at(f"{key}.{name}", f"synergy or joint {one_of(name, known)}", on_key=True)
+    for each in sets:
+        if each.name != JOINTS and all(name in each.synergies for name in wish):
+            return at(each, wish)
+    if not all(name in hand.joint_names for name in wish):
+        raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
+    return joint_posture(hand.joint_names, wish, hand.couplings)
+
+
+def joint_posture(joints: Sequence[str], values: Mapping[str, float], couplings: Mapping[str, Coupling]) -> Array:
+    """Return the joint values (n_q,) of `values` by joint name; a follower that is not named follows."""
+    following = {name: coupling for name, coupling in couplings.items() if name not in values}
+    E, e = coupling_map(joints, following)
+    return frozen(E @ joint_vector(joints, values, {}) + e)
+
+
+def outside_limits(joints: Sequence[Joint], q: Array, key: str) -> list[Issue]:
+    """Return one issue for each joint that `q` (n_q,) puts outside its range."""
+    issues = []
+    for joint, value in zip(joints, q, strict=True):
+        if not joint.lower - LIMIT_SLACK <= value <= joint.upper + LIMIT_SLACK:
+            factor, unit = (180 / math.pi, "deg") if joint.kind == "hinge" else (1e3, "mm")
+            lower, upper, found = joint.lower * factor, joint.upper * factor, value * factor
+            message = f"joint '{joint.name}' would be at {found:.4g} {unit}, outside {lower:.4g} to {upper:.4g} {unit}"
+            issues.append(Issue(message, key=key))
+    return issues
+
+
+def override(
+    couplings: Mapping[str, Coupling], wish: Mapping[str, float] | float | None, key: str
+) -> dict[str, Coupling]:
+    """Return `couplings` with the ratios a user asks for: one for all followers, or by follower.
+
+    Raises:
+        InputError: a joint that follows none, or a ratio for a hand whose joints follow none; at `key`.
+    """
+    if wish is None:
+        return dict(couplings)
+    if not couplings:
+        raise InputError.at(key, "no joint of this hand follows another one; leave the coupling out", on_key=True)
+    if not isinstance(wish, Mapping):
+        return {name: replace(coupling, ratio=float(wish)) for name, coupling in couplings.items()}
+    for name in wish:
+        if name not in couplings:
+            listed = ", ".join(couplings)
+            message = f"'{name}' follows no other joint (followers: {listed}){suggest(name, couplings)}"
+            raise InputError.at(f"{key}.{name}", message, on_key=True)
+    return {name: replace(each, ratio=float(wish.get(name, each.ratio))) for name, each in couplings.items()}

@@ -1,0 +1,95 @@
+"""Any plan judged against a problem, without optimising: ours, or references from elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.situation import situate
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen
+from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.outcome import Check
+from synergrip.plans.tables import Table
+from synergrip.plans.task import Task, Wanted
+from synergrip.plans.tracking import rigid_coordinates
+from synergrip.plans.units import units_of
+from synergrip.plans.verified import identities, limit_checks, limit_usages
+from synergrip.statics.motion import Motion, forward
+
+TRACKED = 1e-6
+"""How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What becomes of given references in a task."""
+
+    analysis: Analysis
+    motion: Motion
+    margins: Array  # (T, n_c) slip margins [N]
+    usages: tuple[Usage, ...]
+    checks: tuple[Check, ...]
+
+    @property
+    def verdict(self) -> str:
+        """ "feasible" when every check passes."""
+        return "feasible" if all(check.passed for check in self.checks) else "infeasible"
+
+    @property
+    def exit_code(self) -> int:
+        """0 or 1."""
+        return 0 if self.verdict == "feasible" else 1
+
+
+def judge_references(grasp: Grasp, task: Task, references: Table) -> Judgement:
+    """Judge references against a task at the knots of both, linear in between.
+
+    Forces are linear in references and loads and the cones are convex, so what holds at the knots of both
+    holds in between.
+
+    Raises:
+        InputError: the references do not cover the task.
+        Refusal: the grasp does not restrain the object, or the task is impossible by count or direction.
+    """
+    times = _common_times(task, references)
+    task = _at(task, times)
+    dz_r = np.column_stack([np.interp(times, references.times, column) for column in references.values.T])
+    analysis = analyse(grasp)
+    beta = rigid_coordinates(analysis, task)
+    situation = situate(
+        analysis.response, analysis.spaces, analysis.coordinates,
+        times=times, wrench=task.wrench, beta=beta, units=units_of(analysis, task), redundancy=True,
+    )  # fmt: skip
+    motion = forward(analysis.response, times, dz_r, task.wrench)
+    usages = limit_usages(task, situation, motion)
+    reached = analysis.coordinates.coordinates(dz_r)
+    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], beta), *limit_checks(usages))
+    return Judgement(analysis, motion, frozen(usages[0].value), usages, checks)
+
+
+def _tracking(task: Task, reached: Array, wanted: Array) -> Check:
+    error = float(np.linalg.norm(reached - wanted, axis=1).max(initial=0.0))
+    return Check("rigid motion [m]", error, max(task.tolerance, TRACKED))
+
+
+def _common_times(task: Task, references: Table) -> Array:
+    first, last = float(references.times[0]), float(references.times[-1])
+    start, end = float(task.times[0]), float(task.times[-1])
+    slack = 1e-9 * max(end, 1.0)
+    if first > start + slack or last < end - slack:
+        raise InputError.at("PLAN", f"the plan covers {first:g} s to {last:g} s, the task {start:g} s to {end:g} s")
+    inside = references.times[(references.times >= start) & (references.times <= end)]
+    return frozen(np.union1d(task.times, inside))
+
+
+def _at(task: Task, times: Array) -> Task:
+    def resampled(values: Array) -> Array:
+        columns = [np.interp(times, task.times, column) for column in values.T]
+        return frozen(np.column_stack(columns) if columns else np.zeros((len(times), 0)))
+
+    wanted = Wanted(task.wanted.kind, resampled(task.wanted.values), task.wanted.key)
+    return replace(task, times=times, wrench=resampled(task.wrench), wanted=wanted)

@@ -1,0 +1,223 @@
+"""The referee: a second, independently written formulation, solved through CVXPY.
+
+`solve` answers a question in the place of the direct path and returns multipliers of the program's own rows, so that
+the same certificate judges it. `referee` judges a whole task by itself; tests compare plans with it.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.program import Program
+from synergrip.conic.situation import Situation
+from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.errors import SelfCheckError
+from synergrip.linalg import Array, frozen
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.question import Question
+from synergrip.plans.referee_formulas import Wish, friction, write_goal, write_limit
+from synergrip.plans.referee_model import Model, Posed, pose, pose_relaxed, write_model
+from synergrip.plans.task import Task
+from synergrip.statics.motion import forces_at_start
+
+CLAIMS = {
+    "optimal": Claim.OPTIMAL,
+    "optimal_inaccurate": Claim.OPTIMAL,
+    "unbounded": Claim.UNBOUNDED,
+    "unbounded_inaccurate": Claim.UNBOUNDED,
+}
+"""CVXPY's status -> claim. "Infeasible" is claimed when the relaxed problem, which always has an answer, says so."""
+
+TIGHT: Mapping[str, Mapping[str, float]] = {
+    "CLARABEL": {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10},
+    "SCS": {"eps_abs": 1e-9, "eps_rel": 1e-9, "max_iters": 200_000},
+}
+"""Options with which the referee solves; other solvers go by their defaults."""
+
+BAND = 1e-8
+"""Relaxation, in force units and shares of a limit, below which feasible and infeasible are too close to tell."""
+
+OUTSIDE = 1e-6
+"""Share of the wanted motion that may lie outside Gamma_ucs."""
+
+
+@dataclass(frozen=True)
+class RefereeAnswer:
+    """What the referee makes of a task."""
+
+    verdict: str
+    """"feasible", "infeasible" or "unknown"."""
+    status: str
+    """CVXPY's own word, and the least relaxation of all limits with which the task can be done."""
+    largest_margin: float | None = None
+    """[N] for the goal "margin", whether or not it reaches what the task asks."""
+    dz_r: Array | None = None  # (T, n_z)
+    objective: float | None = None
+    """Margin [N], peak force [N], or sum over knots of squares [N^2], moments and torques over the length."""
+
+
+def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> RefereeAnswer:
+    """Judge a task from the grasp's response and the task alone.
+
+    Args:
+        analysis: of the grasp.
+        task: with any limits and goal that have a formula.
+        cvxpy_solver: name of a conic solver that CVXPY knows.
+
+    Raises:
+        NotWrittenError: the task has a limit of a type that has no formula.
+    """
+    beta = _wanted(analysis, task)
+    if beta is None:
+        return RefereeAnswer("infeasible", "the wanted motion leaves Gamma_ucs")
+    unit, options = _force_unit(analysis, task), TIGHT.get(cvxpy_solver, {})
+    model = write_model(
+        analysis.response, analysis.coordinates, times=task.times, wrench=task.wrench, beta=beta,
+        force_unit=unit, reference_unit=1.0, redundancy=task.watches_references,
+    )  # fmt: skip
+    limits = [cone for limit in task.limits for cone in write_limit(model, limit)]
+    asked = [*limits, *friction(model, task.margin / unit)]
+    relaxed, wish, largest = pose_relaxed(model, asked), write_goal(model, GOALS[task.goal]), None
+    relaxed.run(cvxpy_solver, options)
+    relaxation = relaxed.value if relaxed.solved else np.nan
+    if task.goal == "margin":
+        free = pose(model, wish.cost, [*limits, *wish.cones])
+        free.run(cvxpy_solver, options)
+        largest = -free.value * unit if free.solved else None
+    best = pose(model, wish.cost, [*asked, *wish.cones])
+    status = best.run(cvxpy_solver, options)
+    verdict, status = _verdict(status, relaxation), f"{status}, relaxation {relaxation:.3g}"
+    if verdict != "feasible" or not best.solved:
+        return RefereeAnswer(verdict, status, largest)
+    return RefereeAnswer(verdict, status, largest, frozen(model.dz_r.value), _physical(task, best.value, unit))
+
+
+GOALS: Mapping[str, Goal] = {
+    "margin": LargestMargin(),
+    "effort": LeastEffort(),
+    "torque": LeastEffort("torque"),
+    "peak_force": LeastPeak(),
+}
+
+
+def _wanted(analysis: Analysis, task: Task) -> Array | None:
+    """Return beta (T, dim Gamma_ucs), or None when the wanted motion is no motion of Gamma_ucs."""
+    basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
+    if task.wanted.kind != "motion":
+        return task.wanted.values if task.wanted.kind == "modes" else np.zeros((len(task.times), basis.shape[1]))
+    wish = scale.twist(task.wanted.values)
+    beta = np.linalg.lstsq(scale.motion @ basis, wish.T, rcond=None)[0].T
+    outside = np.linalg.norm(wish - scale.twist(beta @ basis.T), axis=1).max(initial=0.0)
+    allowed = max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance)
+    return np.asarray(beta) if outside <= allowed else None
+
+
+def _force_unit(analysis: Analysis, task: Task) -> float:
+    """Return the largest contact force that the load causes by itself, or the margin, or 1 N."""
+    response = analysis.response
+    passive = forces_at_start(response) + (task.wrench - analysis.grasp.w_0) @ response.dlambda_dw.T
+    return max(float(np.abs(passive * response.scale.force).max(initial=0.0)), task.margin) or 1.0
+
+
+def _verdict(status: str, relaxed: float) -> str:
+    """Believe the relaxation, unless it is within the band or the solver's clear word contradicts it."""
+    if relaxed < -BAND and status != "infeasible":
+        return "feasible"
+    if relaxed > BAND and status != "optimal":
+        return "infeasible"
+    return "unknown"
+
+
+def _physical(task: Task, value: float, unit: float) -> float:
+    if task.goal in ("effort", "torque"):
+        return 2 * value * unit**2
+    return value * unit if task.goal == "peak_force" else -value * unit
+
+
+def solve(question: Question, program: Program, settings: Settings) -> Solution:
+    """Answer a question by the second formulation, in the coordinates and with the multipliers of `program`.
+
+    Args:
+        question: limits and goal over a situation.
+        program: the program that the direct path built of it; only the names of its rows are read.
+        settings: how hard to try.
+
+    Raises:
+        NotWrittenError: a limit or the goal is of a type that has no formula.
+    """
+    situation = question.situation
+    model = write_model(
+        situation.response, situation.coordinates, times=situation.times, wrench=situation.wrench,
+        beta=situation.beta, force_unit=situation.force_unit, reference_unit=situation.reference_unit,
+        redundancy=situation.n_v > situation.n_alpha,
+    )  # fmt: skip
+    wish = write_goal(model, question.goal)
+    limits = [cone for limit in question.limits for cone in write_limit(model, limit)]
+    posed = pose(model, wish.cost, [*limits, *wish.cones])
+    status = posed.run("CLARABEL", _options(settings))
+    claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
+    if claim is Claim.NOTHING:
+        # the goal's scalar has no say in feasibility; equalities that hold the forces do
+        held = [cone for cone in wish.cones if cone.equality]
+        posed = pose_relaxed(model, [*limits, *held])
+        posed.run("CLARABEL", _options(settings))
+        claim = Claim.INFEASIBLE if posed.solved and posed.value > 0 else Claim.NOTHING
+        iterations, seconds = iterations + posed.iterations, seconds + posed.seconds
+    x, z = np.zeros(len(program.q)), np.zeros(len(program.b))
+    if posed.solved:
+        x, z = _unknowns(program, situation, model, wish), _multipliers(program, posed)
+    return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
+
+
+def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:
+    """Return x (n,) of the references found."""
+    alpha, _, gamma = situation.coordinates.coordinates(model.dz_r.value)
+    parts = [alpha / situation.force_unit, gamma / situation.reference_unit]
+    x = np.zeros(len(program.q))
+    x[: program.knots * program.n_v] = np.hstack(parts)[:, : program.n_v].ravel()
+    if wish.scalar is not None and wish.scalar.value is not None:
+        x[-1] = float(wish.scalar.value)
+    return x
+
+
+def _multipliers(program: Program, posed: Posed) -> Array:
+    """Return z (m,) in the program's order, matched by key and item; 0 for rows that were not posed."""
+    found: dict[tuple[str, str], list[Array]] = defaultdict(list)
+    for cone, constraint in posed.pairs:
+        for item, values in cone.multipliers(constraint):
+            found[cone.key, item].append(values)
+    z = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        nothing = np.zeros((block.knots, block.dim))
+        # a key that two limits share is served in the order of the limits
+        parts = [found[block.limit, item].pop(0) if found[block.limit, item] else nothing for item in block.items]
+        if parts:
+            z[rows] = np.stack(parts, axis=1).ravel()
+    left = [f"{key} of {item}" for (key, item), values in found.items() if values]
+    if left:
+        raise SelfCheckError(f"the program has no rows for {', '.join(left)}; the two formulations differ")
+    return z
+
+
+def _options(settings: Settings) -> Mapping[str, float]:
+    """Return the settings in the words of CVXPY's interface to Clarabel."""
+    tolerances = ("tol_gap_abs", "tol_gap_rel", "tol_feas", "tol_infeas_abs", "tol_infeas_rel")
+    return dict.fromkeys(tolerances, settings.tolerance) | {
+        "max_iter": settings.max_iterations,
+        "equilibrate_enable": settings.equilibrate,
+        "static_regularization_constant": settings.regularisation,
+    }
+
+
+def _name() -> str:
+    from importlib.metadata import version
+
+    return f"CVXPY {version('cvxpy')} with Clarabel {version('clarabel')}"

@@ -1,0 +1,177 @@
+"""The formulas of the second formulation: what each limit and goal means, written by hand in CVXPY."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.errors import SynergripError, one_of
+from synergrip.linalg import Array
+from synergrip.plans.referee_model import Cone, Expression, Model
+
+
+class NotWrittenError(SynergripError, TypeError):
+    """A limit, goal or contact kind for which the second formulation has no formula."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A goal: what is minimised, in the goal's units, and the cones of its scalar."""
+
+    cost: Expression
+    cones: tuple[Cone, ...] = ()
+    scalar: Expression | None = None
+
+
+def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
+    """Write one limit down by its physical formula.
+
+    Raises:
+        NotWrittenError: there is no formula for this type of limit.
+    """
+    if type(limit) not in LIMITS:
+        raise NotWrittenError(f"the CVXPY formulation knows no limit {type(limit).__name__}; use --solver clarabel")
+    return LIMITS[type(limit)](model, limit)
+
+
+def write_goal(model: Model, goal: Goal) -> Wish:
+    """Write a goal down, in its own units.
+
+    Raises:
+        NotWrittenError: there is no formula for this type of goal.
+    """
+    if type(goal) not in GOALS:
+        raise NotWrittenError(f"the CVXPY formulation knows no goal {type(goal).__name__}; use --solver clarabel")
+    return GOALS[type(goal)](model, goal)
+
+
+def friction(model: Model, margin: Expression, key: str = "limits.margin") -> tuple[Cone, ...]:
+    """Write ``slip margin >= margin`` of every contact down, margin in force units (theory.md, section 6)."""
+    cones = []
+    for contact, rows in zip(model.response.grasp.contacts, model.response.grasp.rows, strict=True):
+        force = model.force[:, rows] / model.force_unit
+        mu, nu = contact.friction, contact.spin_friction
+        if contact.kind.name == "frictionless":
+            cones.append(Cone(key, (contact.name,), force - margin))
+        elif contact.kind.name == "hard":
+            cones.append(Cone(key, (contact.name,), mu * force[:, 0] - margin, force[:, 1:]))
+        elif contact.kind.name == "soft":
+            tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu])
+            cones.append(Cone(key, (contact.name,), mu * force[:, 0] - margin, tail))
+        else:
+            raise NotWrittenError(f"contact.kind: {one_of(contact.kind.name, ('frictionless', 'hard', 'soft'))}")
+    return tuple(cones)
+
+
+def _normals(model: Model) -> Expression:
+    return model.force[:, [rows.start for rows in model.response.grasp.rows]] / model.force_unit
+
+
+def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
+    names = [contact.name for contact in model.response.grasp.contacts]
+    sides = (("lowest", limit.lower, 1.0), ("highest", limit.upper, -1.0))
+    return tuple(
+        Cone(limit.key, tuple(f"{n} ({side})" for n in names), sign * (_normals(model) - bound / model.force_unit))
+        for side, bound, sign in sides
+        if np.isfinite(bound)
+    )
+
+
+def _symmetric(key: str, names: tuple[str, ...], value: Expression, limit: Array) -> tuple[Cone, ...]:
+    keep = np.flatnonzero(np.isfinite(limit))
+    if not len(keep):
+        return ()
+    share = value[:, keep] @ np.diag(1 / limit[keep])
+    low, high = (tuple(f"{names[i]} ({side})" for i in keep) for side in ("lowest", "highest"))
+    return Cone(key, low, 1 + share), Cone(key, high, 1 - share)
+
+
+def _joint_torque(model: Model, limit: JointTorque) -> tuple[Cone, ...]:
+    return _symmetric(limit.key, model.response.grasp.joints, model.torque, limit.limit)
+
+
+def _actuator_effort(model: Model, limit: ActuatorEffort) -> tuple[Cone, ...]:
+    grasp = model.response.grasp
+    return _symmetric(limit.key, grasp.synergies, model.torque @ grasp.S, limit.limit)
+
+
+def _synergy_reference(model: Model, limit: SynergyReference) -> tuple[Cone, ...]:
+    return _symmetric(limit.key, model.response.grasp.synergies, model.dz_r, limit.limit)
+
+
+def _synergy_rate(model: Model, limit: SynergyRate) -> tuple[Cone, ...]:
+    keep = np.flatnonzero(np.isfinite(limit.limit))
+    if len(model.times) < 2 or not len(keep):
+        return ()
+    allowed = np.diff(model.times)[:, None] * limit.limit[keep]
+    unit = allowed.max(axis=0)
+    share = (model.dz_r[1:, keep] - model.dz_r[:-1, keep]) @ np.diag(1 / unit)
+    names = [model.response.grasp.synergies[i] for i in keep]
+    falling, rising = (tuple(f"{n} ({side})" for n in names) for side in ("falling", "rising"))
+    return Cone(limit.key, falling, allowed / unit + share), Cone(limit.key, rising, allowed / unit - share)
+
+
+def _largest_margin(model: Model, goal: LargestMargin) -> Wish:
+    import cvxpy as cp
+
+    margin = cp.Variable()
+    return Wish(-margin, friction(model, margin), margin)
+
+
+def _least_effort(model: Model, goal: LeastEffort) -> Wish:
+    import cvxpy as cp
+
+    scale = model.response.scale
+    if goal.of == "contact":
+        share = model.force @ np.diag(scale.force / model.force_unit)
+    else:
+        share = model.torque / (model.force_unit * scale.length)
+    return Wish(0.5 * cp.sum_squares(share))
+
+
+def _least_peak(model: Model, goal: LeastPeak) -> Wish:
+    import cvxpy as cp
+
+    peak = cp.Variable()
+    names = tuple(contact.name for contact in model.response.grasp.contacts)
+    return Wish(peak, (Cone("goal.minimise", names, peak - _normals(model)),), peak)
+
+
+def _least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
+    import cvxpy as cp
+
+    held = goal.v[:, : model.alpha.shape[1]]
+    names = tuple(f"alpha_{i + 1}" for i in range(held.shape[1]))
+    cones = (Cone("forces", names, model.alpha / model.force_unit - held, equality=True),) if names else ()
+    return Wish(0.5 * cp.sum_squares(model.gamma / model.reference_unit), cones)
+
+
+LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
+    FrictionCone: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
+    NormalForce: _normal_force,
+    JointTorque: _joint_torque,
+    ActuatorEffort: _actuator_effort,
+    SynergyReference: _synergy_reference,
+    SynergyRate: _synergy_rate,
+}
+GOALS: dict[type, Callable[[Model, Any], Wish]] = {
+    LargestMargin: _largest_margin,
+    LeastEffort: _least_effort,
+    LeastPeak: _least_peak,
+    LeastReconfiguration: _least_reconfiguration,
+}

@@ -1,0 +1,173 @@
+"""A question written down a second time, in CVXPY and in the synergy references themselves.
+
+Nothing here is shared with the formulation in `conic`: forces are ``lambda_0 + F dz_r - G+ dw`` (28), beta is
+imposed as the equality ``Gamma_ucs^+ U dz_r = beta`` (35), cones and ranges are the physical formulas. Only the
+units of the rows are the same, so that the multipliers mean the same.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from synergrip.linalg import Array
+from synergrip.statics import Coordinates, Response
+from synergrip.statics.motion import forces_at_start
+
+Expression = Any
+"""A CVXPY expression, variable, constraint or problem: CVXPY has no types to speak of."""
+
+
+@dataclass(frozen=True)
+class Cone:
+    """``head >= 0`` for each item, or ``head >= ||tail||`` for the one item, or ``head = 0``; at every knot."""
+
+    key: str
+    """Key in the problem file of what asks for it."""
+    items: tuple[str, ...]
+    head: Expression  # (T, len(items)), or (T,) with a tail
+    tail: Expression | None = None  # (T, d - 1)
+    equality: bool = False
+
+    def constraint(self, relaxation: Expression = 0.0) -> Expression:
+        """Return the constraint; an inequality is loosened by `relaxation`."""
+        import cvxpy as cp
+
+        if self.equality:
+            return -self.head == 0
+        if self.tail is None:
+            return self.head + relaxation >= 0
+        return cp.SOC(self.head + relaxation, self.tail, axis=1)
+
+    def multipliers(self, constraint: Expression) -> Iterator[tuple[str, Array]]:
+        """Yield each item with its multipliers (T, d); those of an inequality lie in the dual cone."""
+        if self.tail is None:
+            values = np.reshape(constraint.dual_value, self.head.shape)
+            yield from ((item, values[:, [i]]) for i, item in enumerate(self.items))
+        else:
+            head, tail = constraint.dual_value
+            knots = len(np.atleast_1d(head))
+            yield self.items[0], np.column_stack([np.reshape(head, knots), np.reshape(tail, (knots, -1))])
+
+
+@dataclass(frozen=True)
+class Model:
+    """A task as expressions in dz_r; SI units."""
+
+    response: Response
+    times: Array  # (T,) [s]
+    dz_r: Expression  # (T, n_z)
+    force: Expression  # (T, n_l) [N, N m]
+    alpha: Expression  # (T, dim E_s) [N]
+    gamma: Expression  # (T, dim Gamma_zr)
+    tracking: tuple[Cone, ...]
+    """beta as wanted, and gamma = 0 where nothing asks about it."""
+    force_unit: float  # [N]
+    reference_unit: float
+
+    @property
+    def torque(self) -> Expression:
+        """Joint torques J' lambda (T, n_q) (6) [N m]."""
+        return self.force @ self.response.grasp.J
+
+
+def write_model(
+    response: Response, coordinates: Coordinates, *,
+    times: Array, wrench: Array, beta: Array, force_unit: float, reference_unit: float, redundancy: bool,
+) -> Model:  # fmt: skip
+    """Write a task down; the arguments are those of `situate`, the units without `Units`."""
+    import cvxpy as cp
+
+    grasp = response.grasp
+    dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, force_unit)
+    known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
+    n_alpha, n_beta, _ = coordinates.dimensions
+    to_alpha, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
+    gamma = dz_r @ to_gamma.T
+    tracking = []
+    if n_beta:
+        sizes = np.linalg.norm(to_beta, axis=1)
+        tracking.append(_equal("beta", dz_r @ (to_beta / sizes[:, None]).T - beta / sizes))
+    if len(to_gamma) and not redundancy:
+        tracking.append(_equal("gamma", gamma))
+    return Model(
+        response, times, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T, gamma, tuple(tracking),
+        force_unit, reference_unit,
+    )  # fmt: skip
+
+
+def _reference_size(response: Response, force_unit: float) -> float:
+    """Return the references that answer to the force unit; 1 where they make no force."""
+    stiffness = float(np.linalg.norm(response.scale.force[:, None] * response.dlambda_dzr, 2))
+    moving = float(np.linalg.norm(response.K @ response.grasp.J @ response.grasp.S, 2))
+    return force_unit / stiffness if stiffness > 1e-12 * moving else 1.0
+
+
+def _equal(name: str, value: Expression) -> Cone:
+    return Cone(name, tuple(f"{name}_{i + 1}" for i in range(value.shape[1])), value, equality=True)
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A CVXPY problem with its cones, each beside its constraint."""
+
+    problem: Expression
+    pairs: tuple[tuple[Cone, Expression], ...]
+
+    def run(self, solver: str, options: Mapping[str, Any]) -> str:
+        """Solve with a solver that CVXPY knows and return CVXPY's status."""
+        import cvxpy as cp
+
+        with warnings.catch_warnings():
+            # the status says it as well, and the certificate decides
+            warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
+            try:
+                self.problem.solve(solver=solver, **options)
+            except cp.error.SolverError:
+                return str(cp.SOLVER_ERROR)
+        return str(self.problem.status)
+
+    @property
+    def solved(self) -> bool:
+        """True when there are values and multipliers to look at."""
+        return str(self.problem.status) in ("optimal", "optimal_inaccurate")
+
+    @property
+    def iterations(self) -> int:
+        """Iterations of the solver, 0 where it does not say."""
+        return int((self.problem.solver_stats and self.problem.solver_stats.num_iters) or 0)
+
+    @property
+    def seconds(self) -> float:
+        """Time in the solver [s], 0 where it does not say."""
+        return float((self.problem.solver_stats and self.problem.solver_stats.solve_time) or 0.0)
+
+    @property
+    def value(self) -> float:
+        """Value of the objective."""
+        return float(self.problem.value)
+
+
+def pose(model: Model, cost: Expression, cones: Sequence[Cone]) -> Posed:
+    """Return: minimise `cost` over the references that track the wanted motion and keep all `cones`."""
+    return _posed(model, cost, cones, 0.0, [])
+
+
+def pose_relaxed(model: Model, cones: Sequence[Cone]) -> Posed:
+    """Return: the least number by which all inequalities must be loosened at once, from -1. It always has an answer."""
+    import cvxpy as cp
+
+    relaxation = cp.Variable()
+    return _posed(model, relaxation, cones, relaxation, [relaxation >= -1])
+
+
+def _posed(model: Model, cost: Expression, cones: Sequence[Cone], relaxation: Expression, more: list[Any]) -> Posed:
+    import cvxpy as cp
+
+    pairs = tuple((cone, cone.constraint(relaxation)) for cone in cones)
+    constraints = [constraint for _, constraint in pairs] + [cone.constraint() for cone in model.tracking]
+    return Posed(cp.Problem(cp.Minimize(cost), constraints + more), pairs)

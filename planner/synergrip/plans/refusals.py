@@ -1,0 +1,51 @@
+"""Refusals re-verified: the free twist, the count and the direction, each from the grasp's own matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.conic.certificate import Certificate
+from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Scale, scale_of
+from synergrip.linalg import RANK_TOLERANCE, Array
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+
+
+def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Certificate:
+    """Return the verified proof behind a refusal; not verified when the numbers do not bear it out."""
+    scale = scale_of(grasp)
+    if isinstance(refusal, NotRestrainedError):
+        return _free(grasp, scale, refusal.free_twists)
+    if isinstance(refusal, MotionCountError):
+        sizes = np.linalg.svd(scale.twist(task.wanted.values), compute_uv=False)
+        ratio = float(sizes[refusal.asked - 1] / sizes[0])
+        return Certificate("infeasible", ratio > RANK_TOLERANCE and refusal.asked > grasp.n_z, 0.0, 0.0, -ratio)
+    if isinstance(refusal, MotionDirectionError) and analysis is not None:
+        return _outside(task, analysis, scale, refusal)
+    return Certificate("none", False)
+
+
+def _free(grasp: Grasp, scale: Scale, twists: Array) -> Certificate:
+    """Verify that the twists move no contact although they move the object."""
+    moved = grasp.G.T @ twists / scale.force[:, None]
+    size = float(np.linalg.norm(grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None], 2))
+    leak = float(np.abs(moved).max(initial=0.0)) / max(size, 1e-300)
+    lengths = np.linalg.norm(scale.twist(twists.T), axis=1)
+    return Certificate("infeasible", bool(leak <= 10 * RANK_TOLERANCE and np.all(lengths > 0.5)), leak, 0.0, -1.0)
+
+
+def _outside(task: Task, analysis: Analysis, scale: Scale, refusal: MotionDirectionError) -> Certificate:
+    """Verify that a direction is orthogonal to what the synergies can move rigidly, and that the wish has a part in it.
+
+    Every rigid motion u of the object that the synergies follow has ``G'u`` in the range of J S. The direction
+    separates: it is orthogonal to all of them, not to the wish.
+    """
+    direction = scale.twist(refusal.residual)
+    direction = direction / np.linalg.norm(direction)
+    leak = float(np.abs(direction @ scale.motion @ analysis.spaces.Gamma_ucs).max(initial=0.0))
+    wish = scale.twist(task.wanted.values)
+    reach = float(np.abs(wish @ direction).max())
+    size = float(np.linalg.norm(wish, axis=1).max())
+    return Certificate("infeasible", bool(leak * size < reach), leak, 0.0, -reach / size)

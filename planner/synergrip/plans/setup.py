@@ -1,0 +1,84 @@
+"""The tables [hand], [object] and [contacts] made into a grasp."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
+from synergrip.grasps.placing import Touch, place
+from synergrip.hands.folder import load_hand
+from synergrip.hands.hand import Hand
+from synergrip.hands.synergies import posture, select
+from synergrip.linalg import Array, frozen
+from synergrip.plans.contact_list import ContactSpec
+from synergrip.plans.limits_table import HandLimits
+from synergrip.plans.problem_file import ProblemFile
+from synergrip.plans.setup_file import ObjectTable, ShapeTable
+
+
+def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, HandLimits]:
+    """Return grasp, placed object, title of the hand, and the limits that the hand states.
+
+    Args:
+        file: a problem file with [hand], [object] and contacts.
+        folder: folder of the problem file, for a hand given as a path.
+
+    Raises:
+        InputError: an unknown hand, pad, posture or synergy set, or pads that do not reach the object.
+    """
+    table = file.hand
+    if table is None:
+        raise InputError.at("hand", "missing table [hand]")
+    hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, key="hand.model")
+    synergies = select(hand, table.synergies, "hand.synergies")
+    if table.posture is None:
+        raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint angles")
+    q = posture(hand, synergies, table.posture, "hand.posture")
+    C_q = hand.C_q
+    if table.compliance.joint is not None:
+        C_q = _diagonal(table.compliance.joint, hand.joint_names, "hand.compliance.joint", "joints")
+    C_z = _diagonal(table.compliance.synergy or 0.0, synergies.synergies, "hand.compliance.synergy", "synergies")
+    touches = [_touch(hand, contact) for contact in file.contact_list()]
+    grasp, thing = place(file.title, hand, synergies, q, _object(file.object), touches, C_q, C_z)
+    torque = frozen([joint.torque_limit for joint in hand.joints])
+    return grasp, thing, hand.title, HandLimits(torque, synergies.effort_limits)
+
+
+def _touch(hand: Hand, contact: ContactSpec) -> Touch:
+    kind = contact_kind(contact.model)
+    stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
+    each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
+    return Touch(
+        contact.name, hand.pad(contact.at, contact.key), kind, contact.friction, contact.spin_friction,
+        each, contact.normals, contact.key,
+    )  # fmt: skip
+
+
+def _object(table: ObjectTable | None) -> Object | None:
+    if table is None:
+        return None
+    position = frozen(table.position if table.position is not None else np.full(3, np.nan))
+    shape = _shape(table.shape) if table.shape is not None else None
+    return Object(table.title or (shape.title if shape else "object"), table.mass or 0.0, position, shape)
+
+
+def _shape(table: ShapeTable) -> Shape:
+    if table.sphere is not None:
+        return Sphere(table.sphere.radius)
+    if table.box is not None:
+        x, y, z = table.box.size
+        return Box((x, y, z))
+    if table.cylinder is not None:
+        return Cylinder(table.cylinder.radius, table.cylinder.height)
+    raise InputError.at("object.shape", "name one shape: sphere, box or cylinder")
+
+
+def _diagonal(value: float | tuple[float, ...], names: tuple[str, ...], key: str, what: str) -> Array:
+    if isinstance(value, tuple) and len(value) != len(names):
+        raise InputError.at(key, f"{len(value)} values for {len(names)} {what} ({', '.join(names)})")
+    return frozen(np.diag(np.broadcast_to(np.asarray(value, dtype=float), (len(names),))))

@@ -1,0 +1,51 @@
+"""The analysis of a grasp as one JSON document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from synergrip.errors import NotRestrainedError
+from synergrip.grasps.grasp import Grasp
+from synergrip.plans.analysis import Analysis
+
+
+def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any]:
+    """Return the counts and dimensions; the dimensions are null when the object is not restrained."""
+    counts: dict[str, Any] = {"n_c": grasp.n_c, "n_l": grasp.n_l, "n_q": grasp.n_q, "n_z": grasp.n_z}
+    if analysis is None:
+        return counts | {"dim_E_s": None, "dim_Gamma_ucs": None, "dim_Gamma_zr": None}
+    forces, motions, redundant = analysis.spaces.dimensions
+    decisions = analysis.spaces.decisions
+    return counts | {
+        "dim_E_s": forces, "dim_Gamma_ucs": motions, "dim_Gamma_zr": redundant,
+        "singular_values": {name: decision.singular_values.tolist() for name, decision in decisions.items()},
+        "ambiguous": analysis.spaces.ambiguous,
+        "characteristic_length_m": analysis.response.scale.length,
+    }  # fmt: skip
+
+
+def analysis_document(analysis: Analysis) -> dict[str, Any]:
+    """Return structure, maps, bases and Theorem 1 of a grasp, SI units."""
+    response, spaces, grasp = analysis.response, analysis.spaces, analysis.grasp
+    maps = ("dlambda_dzr", "du_dzr", "dq_dzr", "dtau_dzr", "dsigma_dzr", "dz_dzr", "dlambda_dw", "du_dw", "dq_dw")
+    bases = ("E_s", "Gamma_ucs", "Gamma_zcs", "Gamma_zr")
+    return {
+        "title": grasp.title,
+        "contacts": [{"name": c.name, "kind": c.kind.name, "components": list(c.kind.components)} for c in grasp.contacts],
+        "joints": list(grasp.joints),
+        "synergies": list(grasp.synergies),
+        "structure": structure_document(grasp, analysis),
+        "maps": {name: getattr(response, name).tolist() for name in maps},
+        "bases": {name: getattr(spaces, name).tolist() for name in bases},
+        "theorem1": {"M": analysis.coordinates.M.tolist(), "condition": analysis.coordinates.condition},
+        "grasp": {name: getattr(grasp, name).tolist() for name in ("G", "J", "S", "C_s", "C_q", "C_z", "w_0")},
+    }  # fmt: skip
+
+
+def unrestrained_document(grasp: Grasp, refusal: NotRestrainedError) -> dict[str, Any]:
+    """Return what can be said of a grasp that leaves the object a free motion."""
+    return {
+        "title": grasp.title, "verdict": "infeasible", "stage": refusal.stage, "why": str(refusal),
+        "structure": structure_document(grasp, None),
+        "refusal": {"free_twists": refusal.free_twists.T.tolist(), "unsupported_wrench": refusal.unsupported.tolist()},
+    }  # fmt: skip

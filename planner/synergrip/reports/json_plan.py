@@ -1,0 +1,119 @@
+"""A planning outcome as one JSON document."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from synergrip.conic.certificate import Certificate
+from synergrip.conic.decide import Decision
+from synergrip.conic.limits.limit import Usage
+from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
+from synergrip.plans.outcome import Infeasible, Outcome, Plan
+from synergrip.plans.repairs import repairs
+from synergrip.reports.json_analysis import structure_document
+
+
+def outcome_document(title: str, grasp: Grasp, outcome: Outcome) -> dict[str, Any]:
+    """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout."""
+    document: dict[str, Any] = {
+        "title": title,
+        "verdict": outcome.verdict,
+        "exit_code": outcome.exit_code,
+        "structure": structure_document(grasp, outcome.analysis),
+        "contacts": [c.name for c in grasp.contacts],
+        "joints": list(grasp.joints),
+        "synergies": list(grasp.synergies),
+        "time_s": outcome.task.times.tolist(),
+        "programs": [_program(decision) for decision in outcome.decisions],
+    }
+    if isinstance(outcome, Plan):
+        return document | _plan(outcome)
+    if isinstance(outcome, Infeasible):
+        return document | _infeasible(outcome)
+    certificate = {"kind": "none", "verified": False}
+    return document | {"why": outcome.why, "certificate": certificate}
+
+
+def _plan(plan: Plan) -> dict[str, Any]:
+    motion, last = plan.motion, plan.decisions[-1]
+    arrays = {
+        "dz_r": motion.dz_r, "alpha": plan.alpha, "beta": plan.beta, "gamma": plan.gamma, "lambda": motion.forces,
+        "wrench": motion.wrench, "du": motion.du, "dq": motion.dq, "tau": motion.torques, "sigma": motion.efforts,
+        "elastic_motion": plan.elastic_motion, "sag": motion.sag,
+    }  # fmt: skip
+    return {name: array.tolist() for name, array in arrays.items()} | {
+        "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
+        "largest_margin_N": plan.largest_margin,
+        "limits": [usage_document(usage) for usage in plan.usages],
+        "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
+        "checks": [{"name": c.name, "error": c.error, "tolerance": c.tolerance, "passed": c.passed} for c in plan.checks],
+    }  # fmt: skip
+
+
+def _infeasible(outcome: Infeasible) -> dict[str, Any]:
+    certificate = certificate_document(outcome.certificate)
+    if outcome.decisions:
+        certificate["solver"] = outcome.decisions[-1].solution.solver
+    document: dict[str, Any] = {
+        "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
+    }  # fmt: skip
+    if outcome.largest_margin is not None:
+        document["largest_margin_N"] = outcome.largest_margin
+    return document | ({"refusal": _refusal(outcome.refusal)} if outcome.refusal else {})
+
+
+def _refusal(refusal: Refusal) -> dict[str, Any]:
+    if isinstance(refusal, NotRestrainedError):
+        return {"free_twists": refusal.free_twists.T.tolist(), "unsupported_wrench": refusal.unsupported.tolist()}
+    if isinstance(refusal, MotionDirectionError):
+        return {"residual": refusal.residual.tolist(), "time_s": refusal.time_s, "share": refusal.share,
+                "size_m": refusal.size}  # fmt: skip
+    if isinstance(refusal, MotionCountError):
+        return {"asked": refusal.asked, "n_z": refusal.available, "directions": refusal.directions.T.tolist()}
+    return {}
+
+
+def margin_document(margins: Array, contacts: list[str], times: Array) -> dict[str, Any]:
+    """Return the worst slip margin, where and when, and all of them (T, n_c)."""
+    k, i = np.unravel_index(int(np.argmin(margins)), margins.shape)
+    return {
+        "worst_N": float(margins[k, i]), "contact": contacts[int(i)], "time_s": float(times[k]),
+        "per_contact_N": margins.tolist(),
+    }  # fmt: skip
+
+
+def usage_document(usage: Usage) -> dict[str, Any]:
+    """Return the worst value of a limit, where and when, and its bounds there."""
+    k, i = usage.worst()
+    return {
+        "name": usage.title, "unit": usage.unit, "item": usage.items[i], "time_s": float(usage.times[k]),
+        "value": float(usage.value[k, i]), "lower": _finite(usage.lower[i]), "upper": _finite(usage.upper[i]),
+    }  # fmt: skip
+
+
+def certificate_document(certificate: Certificate) -> dict[str, Any]:
+    """Return a certificate without its ray."""
+    return {
+        "kind": certificate.kind, "verified": certificate.verified,
+        "primal_residual": _finite(certificate.primal_residual), "dual_residual": _finite(certificate.dual_residual),
+        "gap": _finite(certificate.gap),
+    }  # fmt: skip
+
+
+def _program(decision: Decision) -> dict[str, Any]:
+    solution = decision.solution
+    return {
+        "goal": decision.goal, "unknowns": len(decision.program.q), "rows": len(decision.program.b),
+        "cones": sum(block.cones for block in decision.program.blocks), "solver": solution.solver,
+        "status": solution.status, "iterations": solution.iterations, "seconds": solution.seconds,
+        "attempts": decision.attempts, "certificate": certificate_document(decision.certificate),
+    }  # fmt: skip
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

@@ -1,0 +1,115 @@
+"""A planning outcome as text for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from synergrip.conic.decide import Decision
+from synergrip.conic.limits.limit import Usage
+from synergrip.plans.outcome import Infeasible, Outcome, Plan
+from synergrip.plans.problem import Problem
+from synergrip.plans.repairs import repairs
+from synergrip.reports.tables import table
+from synergrip.reports.text_problem import problem_lines
+
+_STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
+_END = "\x1b[0m"
+
+
+def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
+    """Return the answer: what was read, asked, solved, checked; the verdict; what was written."""
+    word = f"{_STYLES[outcome.verdict]}{outcome.verdict}{_END}" if color else outcome.verdict
+    lines = [*problem_lines(problem), *_solved(outcome.decisions)]
+    if isinstance(outcome, Plan):
+        lines += [_checked(outcome), "", *_feasible(outcome, word)]
+    elif isinstance(outcome, Infeasible):
+        lines += [_proof(outcome), "", *_infeasible(outcome, word)]
+    else:
+        lines += ["", f"{word}  {outcome.why}"]
+    code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
+    if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
+        lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
+    return "\n".join([*lines, "", f"wrote {folder}/  " + "  ".join(written) + code])
+
+
+def _solved(decisions: Sequence[Decision]) -> Iterator[str]:
+    for i, decision in enumerate(decisions):
+        program, solution = decision.program, decision.solution
+        cones = sum(block.cones for block in program.blocks)
+        tries = f", attempt {decision.attempts}" if decision.attempts > 1 else ""
+        yield (
+            ("solve    " if i == 0 else "         ")
+            + f"{decision.goal}: {len(program.q)} variables, {cones} cones, {solution.solver}: {solution.claim} "
+            f"in {solution.iterations} iterations, {1e3 * solution.seconds:.2g} ms{tries}"
+        )
+
+
+def _checked(plan: Plan) -> str:
+    certificate = plan.decisions[-1].certificate
+    parts = [f"certificate ✓ (cones {certificate.primal_residual:.0e}, gap {certificate.gap:.0e})"]
+    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks]
+    return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
+
+
+def _feasible(plan: Plan, word: str) -> Iterator[str]:
+    k, i = np.unravel_index(int(np.argmin(plan.margins)), plan.margins.shape)
+    contact, time = plan.analysis.grasp.contacts[int(i)].name, plan.motion.times[k]
+    best = ", the largest there is" if plan.largest_margin is not None else ""
+    yield f"{word}  smallest slip margin {plan.margins[k, i]:.4g} N ({contact}, t = {time:.2f} s){best}"
+    rows = [usage_row(usage) for usage in plan.usages]
+    if not any(usage.title == "normal force" for usage in plan.usages):
+        rows.append(_largest_normal(plan))
+    if not any(usage.title == "synergy reference" for usage in plan.usages):
+        names = plan.analysis.grasp.synergies
+        rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
+    scale = plan.analysis.response.scale
+    for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
+        sizes = np.linalg.norm(scale.twist(motion), axis=1)
+        at = int(np.argmax(sizes))
+        rows.append((name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
+    yield table(("", "worst", "at", "limit"), rows)
+
+
+def _largest_normal(plan: Plan) -> tuple[str, ...]:
+    grasp = plan.analysis.grasp
+    normal = plan.motion.forces[:, [rows.start for rows in grasp.rows]]
+    names = tuple(contact.name for contact in grasp.contacts)
+    return _largest("normal force", normal, "N", names, plan.motion.times)
+
+
+def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
+    k, i = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
+    return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[int(i)]}, t = {times[k]:.2f} s", ""
+
+
+def usage_row(usage: Usage) -> tuple[str, ...]:
+    """Return title, worst value, where and when, and the bounds there."""
+    k, i = usage.worst()
+    lower, upper = usage.lower[i], usage.upper[i]
+    unit = f" {usage.unit}" if usage.unit in ("N", "N m") else ""
+    if np.isfinite(lower) and np.isfinite(upper):
+        limit = f"±{upper:.4g}{unit}" if lower == -upper else f"{lower:.4g} … {upper:.4g}{unit}"
+    else:
+        limit = f"≥ {lower:.4g}{unit}" if np.isfinite(lower) else f"≤ {upper:.4g}{unit}"
+    return usage.title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
+
+
+def _proof(outcome: Infeasible) -> str:
+    c = outcome.certificate
+    if outcome.refusal is not None:
+        return f"check    proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
+    return f"check    proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
+
+
+def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
+    names = {
+        "restraint": "the object is not held", "count": "too many motions for the synergies",
+        "direction": "the synergies cannot produce this motion", "magnitude": "the forces do not suffice",
+    }  # fmt: skip
+    yield f"{word}  {names.get(outcome.stage, outcome.stage)} (stage: {outcome.stage})"
+    yield f"Why      {outcome.why}"
+    for change in repairs(outcome):
+        yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {change['to_N']:.4g} N"

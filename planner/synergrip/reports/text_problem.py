@@ -1,0 +1,38 @@
+"""The first lines of every answer: what was read, and what is asked."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.plans.problem import Problem
+
+
+def problem_lines(problem: Problem) -> Iterator[str]:
+    """Yield the lines ``read`` and ``task``."""
+    grasp = problem.grasp
+    hand = problem.hand_title or "grasp given as matrices"
+    kinds = Counter(contact.kind.title for contact in grasp.contacts)
+    contacts = " and ".join(f"{n} {kind} contact{'s' if n > 1 else ''}" for kind, n in kinds.items())
+    parts = [hand, f"{grasp.n_q} joints, {grasp.n_z} synergies"]
+    if problem.thing is not None:
+        mass = f", {1e3 * problem.thing.mass:.4g} g" if problem.thing.mass else ""
+        parts.append((problem.thing.shape.title if problem.thing.shape else problem.thing.title) + mass)
+    yield "read     " + " · ".join([*parts, contacts])
+    yield "task     " + " · ".join(_task(problem))
+
+
+def _task(problem: Problem) -> Iterator[str]:
+    task = problem.task
+    knots = len(task.times)
+    wanted = {"hold": "hold the object", "motion": "move the object", "modes": "move along Gamma_ucs"}
+    span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
+    yield wanted.get(task.wanted.kind, "move along Gamma_ucs") + span
+    yield f"{knots} knot{'s' if knots > 1 else ''}"
+    load = np.linalg.norm(task.wrench[:, :3], axis=1).max(initial=0.0)
+    yield f"load up to {load:.3g} N"
+    yield f"slip margin ≥ {task.margin:.4g} N"
+    goals = {"margin": "largest margin", "effort": "least contact effort", "torque": "least torque effort"}
+    yield goals.get(task.goal, "least peak normal force")

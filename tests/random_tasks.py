@@ -1,0 +1,150 @@
+"""Random hand-like problems for tests: fingers that can squeeze, realistic units, about half of them feasible."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.grasp import Grasp, grasp_matrix
+from synergrip.grasps.kinds import contact_kind
+from synergrip.linalg import Array, block_diagonal, frozen
+from synergrip.plans.analysis import analyse
+from synergrip.plans.outcome import Infeasible, Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.task import GoalName, Task, Wanted, still
+
+RADIUS = 0.02  # [m] of the object
+LEVER = 0.05  # [m] from a joint to its contact
+
+
+def random_task_on_grasp(rng: np.random.Generator) -> tuple[Grasp, Task]:
+    """A grasp that can squeeze and a task on it; a third asks for 0.99 to 1.01 times the largest margin there is."""
+    grasp = hand_like_grasp(rng)
+    task = _task(rng, grasp)
+    draw = rng.uniform()
+    if draw < 0.4:
+        return grasp, replace(task, margin=float(rng.choice([0.0, rng.uniform(0.0, 0.5)])))
+    largest = _largest_margin(grasp, task)
+    if largest is None or largest <= 0:
+        return grasp, task
+    factor = rng.uniform(0.99, 1.01) if draw < 0.7 else rng.uniform(0.2, 1.8)
+    return grasp, replace(task, margin=float(factor * largest))
+
+
+def hand_like_grasp(rng: np.random.Generator) -> Grasp:
+    """A thumb against two or three fingers around a 40 mm object, each with two or three joints of its own."""
+    contacts = _contacts(rng, int(rng.integers(3, 5)))
+    fingers = [_finger(rng, contact) for contact in contacts]
+    idle = rng.uniform() < 0.25  # a joint that moves no contact
+    J = np.hstack([block_diagonal(fingers), np.zeros((sum(c.n_rows for c in contacts), int(idle)))])
+    G = grasp_matrix(contacts)
+    n_q, n_z = J.shape[1], int(rng.choice([2, 3, 4, 5, 6], p=[0.1, 0.15, 0.25, 0.25, 0.25]))
+    S = 0.5 * rng.normal(size=(n_q, n_z))
+    start = 0
+    for finger in fingers:  # the first two synergies close all fingers, each with its own weights
+        S[start, :2] = rng.uniform(0.5, 1.5, 2)
+        S[start + 1, :2] = rng.uniform(0.2, 0.8, 2)
+        start += finger.shape[1]
+    if idle:
+        S[:, -1] = np.eye(n_q)[-1]
+        S = S @ (np.eye(n_z) + 0.2 * rng.normal(size=(n_z, n_z)))
+    soft = np.array([1e4 if component == "m" else 1.0 for c in contacts for component in c.kind.components])
+    C_s = 10 ** rng.uniform(-4, -3) * np.diag(soft * rng.uniform(0.7, 1.4, len(soft)))
+    C_q = rng.choice([0.0, 0.02]) * np.diag(rng.uniform(0.5, 2.0, n_q))
+    C_z = rng.choice([0.0, 0.05]) * np.diag(rng.uniform(0.5, 2.0, n_z))
+    names = tuple(f"q{i + 1}" for i in range(n_q)), tuple(f"z{i + 1}" for i in range(n_z))
+    grasp = Grasp("hand-like", contacts, G, frozen(J), frozen(S), frozen(C_s), frozen(C_q), frozen(C_z),
+                  None, frozen(np.zeros(6)), *names)  # fmt: skip
+    return _preloaded(rng, grasp) if rng.uniform() < 0.2 else grasp
+
+
+def _contacts(rng: np.random.Generator, count: int) -> tuple[Contact, ...]:
+    """The thumb at angle pi, the fingers spread about angle 0 and in height."""
+    contacts = []
+    for i in range(count):
+        angle = np.pi if i == 0 else np.linspace(-0.7, 0.7, count - 1)[i - 1]
+        angle += 0.15 * rng.normal()
+        height = 0.3 * rng.normal()
+        point = RADIUS * np.array([np.cos(angle), np.sin(angle), height])
+        normal = -np.array([np.cos(angle), np.sin(angle), 0.3 * height]) + 0.1 * rng.normal(size=3)
+        kind = str(rng.choice(["hard", "soft"], p=[0.75, 0.25]))
+        spin = float(rng.uniform(0.002, 0.01)) if kind == "soft" else 0.0
+        mu = float(rng.uniform(0.5, 1.2))
+        contacts.append(Contact(f"C{i + 1}", contact_kind(kind), mu, spin, frozen(point), contact_frame(normal)))
+    return tuple(contacts)
+
+
+def _finger(rng: np.random.Generator, contact: Contact) -> Array:
+    """Jacobian (rows, 2 or 3) of one finger: two joints that close it, and perhaps one that swings it sideways."""
+    joints = int(rng.integers(2, 4))
+    block = 0.25 * rng.normal(size=(contact.n_rows, joints))
+    block[0, :2] += [1.0, 0.6]
+    block[1:3, 1] += 0.8 * rng.normal(size=2)
+    if joints == 3:
+        block[1:3, 2] += rng.normal(size=2)
+    block[:3] *= LEVER
+    return block
+
+
+def _preloaded(rng: np.random.Generator, grasp: Grasp) -> Grasp:
+    """The same grasp, loaded and squeezed at the start."""
+    w_0 = _wrench(rng, 0.5)
+    squeeze = grasp.S[:, 0] @ grasp.J.T  # forces along the closing motion, balanced below
+    squeeze *= 2.0 / np.linalg.norm(squeeze)
+    balance = np.linalg.pinv(grasp.G)
+    lambda_0 = -balance @ w_0 + squeeze - balance @ (grasp.G @ squeeze)
+    return replace(grasp, w_0=frozen(w_0), lambda_0=frozen(lambda_0))
+
+
+def _wrench(rng: np.random.Generator, size: float) -> Array:
+    force = rng.normal(size=3)
+    return np.r_[size * force / np.linalg.norm(force), 0.2 * RADIUS * size * rng.normal(size=3)]
+
+
+def _task(rng: np.random.Generator, grasp: Grasp) -> Task:
+    knots = int(rng.choice([1, 2, 3, 5], p=[0.4, 0.3, 0.2, 0.1]))
+    times = frozen(np.cumsum(rng.uniform(0.1, 0.4, knots)))
+    load = rng.uniform(0.5, 5.0)
+    wrench = frozen(grasp.w_0 + _wrench(rng, load) + np.array([_wrench(rng, 0.3 * load) for _ in times]))
+    goals: list[GoalName] = ["margin", "effort", "torque", "peak_force"]
+    goal = goals[int(rng.integers(4))]
+    wanted = still(times)
+    dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
+    if dimension and rng.uniform() < 0.6:
+        wanted = Wanted("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
+    return Task(times, wrench, wanted, 0.1, _limits(rng, grasp, load), goal)
+
+
+def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit, ...]:
+    """Joint torques always; one joint in ten is free when the normal force is bounded, so that every margin is."""
+    upper = float(load * rng.uniform(2.0, 8.0)) if rng.uniform() < 0.8 else np.inf
+    lower = float(rng.choice([0.0, 0.0, 0.1]))
+    torque = load * LEVER * rng.uniform(2.0, 8.0) * rng.uniform(0.7, 1.3, grasp.n_q)
+    if np.isfinite(upper):
+        torque[rng.uniform(size=grasp.n_q) < 0.1] = np.inf
+    limits: list[Limit] = [NormalForce(lower, upper), JointTorque(frozen(torque))]
+    if rng.uniform() < 0.3:
+        effort = load * LEVER * rng.uniform(2.0, 10.0, grasp.n_z)
+        effort[rng.uniform(size=grasp.n_z) < 0.2] = np.inf
+        limits.append(ActuatorEffort(frozen(effort)))
+    if rng.uniform() < 0.4:
+        limits.append(SynergyReference(frozen(rng.uniform(0.3, 2.0) * rng.uniform(0.5, 1.5, grasp.n_z))))
+    if rng.uniform() < 0.4:
+        rate = rng.uniform(1.0, 6.0) * rng.uniform(0.5, 1.5, grasp.n_z)
+        rate[rng.uniform(size=grasp.n_z) < 0.2] = np.inf
+        limits.append(SynergyRate(frozen(rate)))
+    return tuple(limits)
+
+
+def _largest_margin(grasp: Grasp, task: Task) -> float | None:
+    """The largest margin [N] of a task, by the direct path; None when the other limits cannot be kept."""
+    outcome = plan(grasp, replace(task, goal="margin", margin=0.0))
+    return outcome.largest_margin if isinstance(outcome, Plan | Infeasible) else None
