@@ -6,20 +6,23 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.conic.situation import situate
 from synergrip.grasps.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.plans.analysis import analyse
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.plans.question import SOLVERS, ask
 from synergrip.plans.task import GoalName, Task, Wanted, still
+from synergrip.plans.tracking import rigid_coordinates
+from synergrip.plans.units import units_of
 
 RADIUS = 0.02  # [m] of the object
 LEVER = 0.05  # [m] from a joint to its contact
@@ -136,9 +139,9 @@ def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit,
         effort[rng.uniform(size=grasp.n_z) < 0.2] = np.inf
         limits.append(ActuatorEffort(frozen(effort)))
     if rng.uniform() < 0.4:
-        limits.append(SynergyReference(frozen(rng.uniform(0.3, 2.0) * rng.uniform(0.5, 1.5, grasp.n_z))))
+        limits.append(SynergyReference(frozen(10 ** rng.uniform(-1.5, 0.0) * rng.uniform(0.5, 1.5, grasp.n_z))))
     if rng.uniform() < 0.4:
-        rate = rng.uniform(1.0, 6.0) * rng.uniform(0.5, 1.5, grasp.n_z)
+        rate = 10 ** rng.uniform(-1.0, 0.5) * rng.uniform(0.5, 1.5, grasp.n_z)
         rate[rng.uniform(size=grasp.n_z) < 0.2] = np.inf
         limits.append(SynergyRate(frozen(rate)))
     return tuple(limits)
@@ -146,5 +149,10 @@ def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit,
 
 def _largest_margin(grasp: Grasp, task: Task) -> float | None:
     """The largest margin [N] of a task, by the direct path; None when the other limits cannot be kept."""
-    outcome = plan(grasp, replace(task, goal="margin", margin=0.0))
-    return outcome.largest_margin if isinstance(outcome, Plan | Infeasible) else None
+    analysis = analyse(grasp)
+    situation = situate(
+        analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
+        beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
+    )  # fmt: skip
+    decision = ask(situation, task.limits, LargestMargin(), SOLVERS["clarabel"])
+    return float(decision.solution.x[-1]) * situation.force_unit if decision.optimal else None

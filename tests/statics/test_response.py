@@ -1,0 +1,183 @@
+"""The response maps against the equations they solve, the paper's X and Y, and their own invariances."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from random_grasps import compliance, random_grasp
+
+from synergrip.errors import NotRestrainedError, RigidContactError
+from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.grasp import Grasp, grasp_matrix
+from synergrip.grasps.kinds import contact_kind
+from synergrip.linalg import frozen
+from synergrip.statics import coordinates, respond, subspaces
+
+
+def equilibrium(grasp: Grasp, dz_r: np.ndarray, dw: np.ndarray) -> dict[str, np.ndarray]:
+    """Solve (6), (7), (10), (12), (14) as one linear system, eliminating nothing."""
+    n_l, n_q, n_z = grasp.n_l, grasp.n_q, grasp.n_z
+    sizes = {"lambda": n_l, "u": 6, "q": n_q, "z": n_z}
+    starts = dict(zip(sizes, np.cumsum([0, *sizes.values()])[:-1], strict=True))
+    A, b = np.zeros((sum(sizes.values()),) * 2), np.zeros(sum(sizes.values()))
+
+    def put(row: int, name: str, block: np.ndarray) -> None:
+        A[row : row + len(block), starts[name] : starts[name] + block.shape[1]] += block
+
+    put(0, "lambda", grasp.G)  # G dlambda = -dw
+    b[:6] = -dw
+    row = 6
+    put(row, "lambda", grasp.C_s)  # C_s dlambda = J dq - G' du
+    put(row, "q", -grasp.J)
+    put(row, "u", grasp.G.T)
+    row += n_l
+    put(row, "q", np.eye(n_q))  # dq = S dz - C_q J' dlambda
+    put(row, "z", -grasp.S)
+    put(row, "lambda", grasp.C_q @ grasp.J.T)
+    row += n_q
+    put(row, "z", np.eye(n_z))  # dz = dz_r - C_z S' J' dlambda
+    put(row, "lambda", grasp.C_z @ grasp.S.T @ grasp.J.T)
+    b[row:] = dz_r
+    scale = np.abs(A).max(axis=1)
+    x = np.linalg.solve(A / scale[:, None], b / scale)
+    return {name: x[start : start + sizes[name]] for name, start in starts.items()}
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_maps_solve_the_equilibrium_equations(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, degenerate=seed % 3 == 0)
+    response = respond(grasp)
+    dz_r, dw = rng.normal(size=grasp.n_z) * 0.1, rng.normal(size=6) * [1, 1, 1, 0.03, 0.03, 0.03]
+    x = equilibrium(grasp, dz_r, dw)
+    ours = {
+        "lambda": response.dlambda_dzr @ dz_r + response.dlambda_dw @ dw,
+        "u": response.du_dzr @ dz_r + response.du_dw @ dw,
+        "q": response.dq_dzr @ dz_r + response.dq_dw @ dw,
+    }
+    for name, value in ours.items():
+        assert np.abs(value - x[name]).max() < 1e-8 * np.abs(x[name]).max(), name
+    dz = response.dz_dzr @ dz_r - grasp.C_z @ grasp.S.T @ grasp.J.T @ response.dlambda_dw @ dw
+    assert np.abs(dz - x["z"]).max() < 1e-8 * np.abs(x["z"]).max()
+    assert np.allclose(response.dtau_dzr, grasp.J.T @ response.dlambda_dzr)
+    assert np.allclose(response.dsigma_dzr, grasp.S.T @ response.dtau_dzr)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_papers_x_and_y_give_the_same_maps(seed: int) -> None:
+    grasp = random_grasp(np.random.default_rng(seed), compliances=("full", "full", "full"))
+    response = respond(grasp)
+    G, J, S = grasp.G, grasp.J, grasp.S
+    K_q = np.linalg.inv(grasp.C_s + J @ grasp.C_q @ J.T)
+    right = K_q @ G.T @ np.linalg.inv(G @ K_q @ G.T)
+    P = (np.eye(grasp.n_l) - right @ G) @ K_q
+    X = np.eye(grasp.n_q) - grasp.C_q @ J.T @ P @ J  # (24)
+    Y = np.linalg.inv(np.eye(grasp.n_z) + grasp.C_z @ S.T @ J.T @ P @ J @ S)  # (25), corrected
+    pairs = (
+        (response.dq_dzr, X @ S @ Y),  # (26)
+        (response.du_dzr, np.linalg.inv(G @ K_q @ G.T) @ G @ K_q @ J @ S @ Y),  # (27)
+        (response.dlambda_dzr, P @ J @ S @ Y),  # (28)
+        (response.dz_dzr, Y),
+    )
+    for ours, theirs in pairs:
+        assert np.abs(ours - theirs).max() < 1e-9 * np.abs(theirs).max()
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_internal_forces_need_no_load_and_the_reaction_balances_it(seed: int) -> None:
+    response = respond(random_grasp(np.random.default_rng(seed)))
+    G, scale = response.grasp.G, response.scale
+    assert np.abs(scale.wrench((G @ response.dlambda_dzr).T)).max() < 1e-11 * np.abs(response.dlambda_dzr).max()
+    assert np.allclose(G @ response.right_inverse, np.eye(6), atol=1e-10)
+    assert np.all(np.linalg.eigvalsh(response.du_dw) > 0)
+
+
+def moved_frame(grasp: Grasp, shift: np.ndarray, length: float, force: float) -> Grasp:
+    """The same grasp with another origin of B and other units of length and force."""
+    contacts = tuple(replace(c, point=frozen(length * (c.point + shift)), spin_friction=length * c.spin_friction)
+                     for c in grasp.contacts)  # fmt: skip
+    unit = np.array([1.0 if c != "m" else 1.0 / length for _, c in grasp.components])  # spin rows turn, they do not move
+    J = length * unit[:, None] * grasp.J
+    size = length / force * np.outer(unit, unit)
+    return replace(
+        grasp, contacts=contacts, G=grasp_matrix(contacts), J=frozen(J), C_s=frozen(size * grasp.C_s),
+        C_q=frozen(grasp.C_q / (force * length)), C_z=frozen(grasp.C_z / (force * length)),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_dimensions_and_singular_values_do_not_depend_on_frame_or_units(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, degenerate=seed % 2 == 0)
+    other = moved_frame(grasp, rng.normal(size=3) * 10.0 ** rng.integers(-2, 2), 1000.0, 1e-3)
+    here, there = (subspaces(respond(g)) for g in (grasp, other))
+    assert here.dimensions == there.dimensions
+    for name in ("restraint", "redundancy", "rigid"):
+        a, b = here.decisions[name].singular_values, there.decisions[name].singular_values
+        assert np.allclose(a, b, atol=1e-9), name
+    assert np.allclose(here.Gamma_zr @ here.Gamma_zr.T, there.Gamma_zr @ there.Gamma_zr.T, atol=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_references_do_not_depend_on_where_the_object_frame_is(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, degenerate=True)
+    responses = [respond(g) for g in (grasp, moved_frame(grasp, np.array([0.3, -0.2, 0.5]), 1.0, 1.0))]
+    spaces = [subspaces(r) for r in responses]
+    dz_r = rng.normal(size=grasp.n_z)
+    parts = [coordinates(r, s).coordinates(dz_r) for r, s in zip(responses, spaces, strict=True)]
+    forces = [s.E_s @ alpha for s, (alpha, _, _) in zip(spaces, parts, strict=True)]
+    assert np.allclose(forces[0], forces[1], atol=1e-9 * np.abs(forces[0]).max())
+    followed = [s.Gamma_zcs @ beta for s, (_, beta, _) in zip(spaces, parts, strict=True)]
+    assert np.allclose(followed[0], followed[1], atol=1e-9)
+
+
+def pinch(kind: str) -> Grasp:
+    contacts = tuple(
+        Contact(name, contact_kind(kind), 0.5, 0.005 if kind == "soft" else 0.0, frozen(point), contact_frame(normal))
+        for name, point, normal in (("left", [-0.02, 0, 0], [1, 0, 0]), ("right", [0.02, 0, 0], [-1, 0, 0]))
+    )
+    G = grasp_matrix(contacts)
+    n = G.shape[1]
+    return Grasp("pinch", contacts, G, frozen(np.eye(n)), frozen(np.eye(n)), frozen(1e-3 * np.eye(n)),
+                 frozen(np.zeros((n, n))), frozen(np.zeros((n, n))), None, frozen([0, 0, -1, 0.1, 0, 0]),
+                 tuple(f"q{i}" for i in range(n)), tuple(f"z{i}" for i in range(n)))  # fmt: skip
+
+
+def test_two_hard_fingers_leave_the_rotation_about_their_line() -> None:
+    with pytest.raises(NotRestrainedError, match="rotation about the line through left and right") as caught:
+        respond(pinch("hard"))
+    twist = caught.value.free_twists[:, 0]
+    assert np.allclose(twist / twist[3], [0, 0, 0, 1, 0, 0], atol=1e-12)
+    assert np.allclose(caught.value.unsupported, [0, 0, 0, 0.1, 0, 0], atol=1e-12)
+    assert "no contact force can balance" in str(caught.value)
+
+
+def test_two_soft_fingers_restrain() -> None:
+    assert respond(pinch("soft")).restraint.rank == 6
+
+
+def test_a_rigid_direction_is_named() -> None:
+    grasp = pinch("soft")
+    stiff = np.array(grasp.C_s)
+    stiff[5, 5] = 0.0  # t of the right finger
+    with pytest.raises(RigidContactError, match="component t of contact right") as caught:
+        respond(replace(grasp, C_s=frozen(stiff)))
+    assert (caught.value.contact, caught.value.component) == ("right", "t")
+
+
+def test_a_rigid_combination_is_found_even_when_every_component_yields() -> None:
+    grasp = pinch("soft")
+    rank_deficient = np.array(grasp.C_s)
+    rank_deficient[0, 4] = rank_deficient[4, 0] = 1e-3  # n of left and right yield only together
+    with pytest.raises(RigidContactError, match="component n of contact"):
+        respond(replace(grasp, C_s=frozen(rank_deficient)))
+
+
+def test_joint_compliance_alone_is_enough() -> None:
+    rng = np.random.default_rng(5)
+    grasp = random_grasp(rng, ["hard", "hard", "hard"], n_q=9, n_z=4)
+    soft = replace(grasp, C_s=frozen(np.zeros((9, 9))), C_q=compliance(rng, 9, 0.02, "full"))
+    assert sum(subspaces(respond(soft)).dimensions) == 4

@@ -1,0 +1,88 @@
+"""The one-way rule of the house, read from the imports: a folder imports only folders to its left."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import synergrip
+
+PACKAGE = Path(synergrip.__file__).parent
+REPOSITORY = Path(__file__).parent.parent
+ROOMS = ["", "hands", "grasps", "statics", "conic", "plans", "reports", "cli"]
+"""From left to right; "" is the ground the house stands on: errors, quantities, linear algebra, files."""
+ONLY_IN = {
+    "mujoco": {"hands/kinematics.py"},
+    "clarabel": {"conic/solvers/clarabel_.py"},
+    "cvxpy": {"plans/referee.py", "plans/referee_model.py", "plans/referee_formulas.py"},
+    "typer": {"cli/app.py", "cli/running.py", "cli/plan.py", "cli/analyse.py", "cli/check.py"},
+    "tree_sitter": {"documents.py", "positions.py"},
+}
+FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
+
+
+def imports(path: Path, top_level_only: bool = False) -> Iterator[str]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = tree.body if top_level_only else ast.walk(tree)
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative import"
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def room(name: str) -> str:
+    first = name.split("/")[0]
+    return first if first in ROOMS else ""
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_room_imports_only_rooms_to_its_left(name: str) -> None:
+    here = ROOMS.index(room(name))
+    if name in ("__init__.py", "__main__.py"):  # the front door opens on every room
+        return
+    for imported in imports(PACKAGE / name):
+        parts = imported.split(".")
+        if parts[0] == "synergrip" and len(parts) > 2:
+            there = ROOMS.index(parts[1]) if parts[1] in ROOMS else 0
+            assert there <= here, f"{name} imports {imported}"
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_each_third_party_door_is_in_one_place(name: str) -> None:
+    for imported in imports(PACKAGE / name):
+        top = imported.split(".")[0]
+        assert name in ONLY_IN.get(top, {name}), f"{name} imports {imported}"
+
+
+@pytest.mark.parametrize("name", ["conic/certificate.py", "conic/cones.py"])
+def test_the_certificate_imports_no_solver(name: str) -> None:
+    allowed = {"numpy", "synergrip", "dataclasses", "__future__"}
+    found = set(imports(PACKAGE / name))
+    assert {imported.split(".")[0] for imported in found} <= allowed
+    assert not [imported for imported in found if "solvers" in imported or "solution" in imported]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_heavy_libraries_are_imported_where_they_are_used(name: str) -> None:
+    heavy = {"cvxpy", "matplotlib", "viser", "dask", "numba", "mujoco", "clarabel", "pandas"}
+    tops = {imported.split(".")[0] for imported in imports(PACKAGE / name, top_level_only=True)}
+    assert not tops & heavy, f"{name} imports {tops & heavy} at its top"
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_files_are_of_one_idea(name: str) -> None:
+    assert len((PACKAGE / name).read_text(encoding="utf-8").splitlines()) <= 260
+    assert Path(name).stem not in {"utils", "common", "helpers", "core", "manager", "base"}
+
+
+def test_nobody_imports_the_source_root_as_a_package() -> None:
+    forbidden = "import " + "planner", "from " + "planner"
+    for folder in ("planner", "tests"):
+        for path in (REPOSITORY / folder).rglob("*.py"):
+            text = path.read_text(encoding="utf-8")
+            assert not [word for word in forbidden if word in text], path
