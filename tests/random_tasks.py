@@ -58,7 +58,7 @@ def hand_like_grasp(rng: np.random.Generator) -> Grasp:
         start += finger.shape[1]
     if idle:
         S[:, -1] = np.eye(n_q)[-1]
-        S = S @ (np.eye(n_z) + 0.2 * rng.normal(size=(n_z, n_z)))
+        S = S @ (np.eye(n_z) + 0.7 * rng.normal(size=(n_z, n_z)))
     soft = np.array([1e4 if component == "m" else 1.0 for c in contacts for component in c.kind.components])
     C_s = 10 ** rng.uniform(-4, -3) * np.diag(soft * rng.uniform(0.7, 1.4, len(soft)))
     C_q = rng.choice([0.0, 0.02]) * np.diag(rng.uniform(0.5, 2.0, n_q))
@@ -138,8 +138,10 @@ def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit,
         effort = load * LEVER * rng.uniform(2.0, 10.0, grasp.n_z)
         effort[rng.uniform(size=grasp.n_z) < 0.2] = np.inf
         limits.append(ActuatorEffort(frozen(effort)))
-    if rng.uniform() < 0.4:
-        limits.append(SynergyReference(frozen(10 ** rng.uniform(-1.5, 0.0) * rng.uniform(0.5, 1.5, grasp.n_z))))
+    redundant = analyse(grasp).spaces.Gamma_zr.shape[1] > 0
+    if rng.uniform() < (0.9 if redundant else 0.4):  # uneven bounds, so that redundancy is of use
+        reference = 10 ** rng.uniform(-1.3, -0.3) * 10 ** rng.uniform(-0.5, 0.5, grasp.n_z)
+        limits.append(SynergyReference(frozen(reference)))
     if rng.uniform() < 0.4:
         rate = 10 ** rng.uniform(-1.0, 0.5) * rng.uniform(0.5, 1.5, grasp.n_z)
         rate[rng.uniform(size=grasp.n_z) < 0.2] = np.inf

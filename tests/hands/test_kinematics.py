@@ -46,7 +46,7 @@ def slider(tmp_path):
 
 def turn(axis, angle):
     K = np.cross(np.eye(3), np.asarray(axis, float))
-    return np.eye(3) - np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 
 
 def differences(hand, q, points, step=1e-6):

@@ -19,7 +19,7 @@ def analyse(problem: ProblemArgument, form: FormatOption = Format.TEXT, override
 
         loaded = load_problem(problem, overrides or [])
         try:
-            analysis = work_out(loaded.grasp)
+            analysis = work_out(loaded.grasp, loaded.task.wrench)
             show(form, lambda: analysis_text(loaded, analysis, color()), lambda: analysis_document(analysis))
         except NotRestrainedError as error:
             refusal = error

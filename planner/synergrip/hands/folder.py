@@ -18,10 +18,10 @@ from synergrip.hands.kinematics import kinematics
 from synergrip.hands.synergies import (
     ALL,
     JOINTS,
-    at,
     coupling_map,
     joint_posture,
     joint_set,
+    joint_values,
     joint_vector,
     outside_limits,
     override,
@@ -211,7 +211,7 @@ def _posture(
     for name in values:
         if name not in chosen.synergies:
             raise InputError.at(f"synergies.{name}", one_of(name, chosen.synergies), on_key=True)
-    return at(chosen, values)
+    return joint_values(chosen, values)
 
 
 def _within_limits(joints: Sequence[Joint], q: Array) -> None:

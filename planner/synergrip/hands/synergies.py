@@ -72,7 +72,7 @@ def joint_set(joints: Sequence[str]) -> SynergySet:
     return SynergySet(JOINTS, "every joint by itself", tuple(joints), frozen(np.eye(n)), frozen(np.zeros(n)), limits)
 
 
-def at(synergies: SynergySet, values: Mapping[str, float]) -> Array:
+def joint_values(synergies: SynergySet, values: Mapping[str, float]) -> Array:
     """Return the joint values (n_q,) at the named synergy values; those left out are 0."""
     z = np.array([values.get(name, 0.0) for name in synergies.synergies])
     return frozen(synergies.S @ z + synergies.offset)
@@ -172,7 +172,7 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
             raise InputError.at(f"{key}.{name}", f"synergy or joint {one_of(name, known)}", on_key=True)
     for each in sets:
         if each.name != JOINTS and all(name in each.synergies for name in wish):
-            return at(each, wish)
+            return joint_values(each, wish)
     if not all(name in hand.joint_names for name in wish):
         raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
     return joint_posture(hand.joint_names, wish, hand.couplings)

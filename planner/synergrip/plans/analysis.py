@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
 
 
@@ -18,13 +19,17 @@ class Analysis:
     coordinates: Coordinates
 
 
-def analyse(grasp: Grasp) -> Analysis:
+def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:
     """Return the analysis of a grasp.
+
+    Args:
+        grasp: the grasp.
+        load: (T, 6) wrenches it is to hold, for a refusal to tell about (default: w_0).
 
     Raises:
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
     """
-    response = respond(grasp)
+    response = respond(grasp, load)
     spaces = subspaces(response)
     return Analysis(grasp, response, spaces, coordinates(response, spaces))

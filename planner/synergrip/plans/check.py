@@ -58,7 +58,7 @@ def judge_references(grasp: Grasp, task: Task, references: Table) -> Judgement:
     times = _common_times(task, references)
     task = _at(task, times)
     dz_r = np.column_stack([np.interp(times, references.times, column) for column in references.values.T])
-    analysis = analyse(grasp)
+    analysis = analyse(grasp, task.wrench)
     beta = rigid_coordinates(analysis, task)
     situation = situate(
         analysis.response, analysis.spaces, analysis.coordinates,

@@ -42,7 +42,7 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         SelfCheckError: the answer failed the physical check (a defect of synergrip).
     """
     try:
-        analysis = analyse(grasp)
+        analysis = analyse(grasp, task.wrench)
     except NotRestrainedError as refusal:
         return _refused(grasp, task, None, refusal)
     try:

@@ -113,4 +113,6 @@ def _supported(file: ProblemFile) -> None:
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:
     """Return an error of planning with its place in the problem file, when it has a key there."""
-    return error.located(problem.document.locate) if isinstance(error, InputError) else error
+    if not isinstance(error, InputError):
+        return error
+    return error.located(lambda issue: issue if issue.key.isupper() else problem.document.locate(issue))

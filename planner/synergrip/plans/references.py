@@ -28,7 +28,7 @@ def read_references(path: Path, n_z: int) -> Table:
     """
     if path.is_dir():
         path = path / "plan.json"
-    readers = {".json": _from_json, ".npz": _from_npz, ".csv": lambda p: read_table(p, REFERENCES, KEY, others=True)}
+    readers = {".json": _from_json, ".npz": _from_npz, ".csv": _from_csv}
     if path.suffix not in readers:
         raise InputError.at(KEY, f"'{path}' is no plan; expected a folder, or a file .json, .npz or .csv")
     if not path.is_file():
@@ -37,6 +37,10 @@ def read_references(path: Path, n_z: int) -> Table:
     if table.values.shape[1] != n_z:
         raise InputError.at(KEY, f"'{path}' has {table.values.shape[1]} synergy references, the grasp has n_z = {n_z}")
     return table
+
+
+def _from_csv(path: Path) -> Table:
+    return read_table(path, REFERENCES, KEY, others=True)
 
 
 def _from_json(path: Path) -> Table:

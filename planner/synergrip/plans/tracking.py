@@ -9,7 +9,7 @@ from synergrip.linalg import RANK_TOLERANCE, Array, frozen
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.statics.theorem1 import motion_coordinates
-from synergrip.statics.twists import describe_twist
+from synergrip.statics.twists import describe_displacement
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
@@ -61,10 +61,10 @@ def _direction(analysis: Analysis, task: Task, outside: Array, sizes: Array) -> 
     k = int(np.argmax(sizes))
     share = float(sizes[k] / np.linalg.norm(scale.twist(values[k])))
     dimension, n_z = analysis.spaces.Gamma_ucs.shape[1], analysis.grasp.n_z
-    motion = describe_twist(outside[k], analysis.grasp.contacts, scale.length)
+    part, whole = (describe_displacement(motion[k], scale.length) for motion in (outside, values))
     message = (
         f"{share:.0%} of the wanted motion lies outside Gamma_ucs, the rigid motions that these {n_z} synergies can "
-        f"produce (dimension {dimension}): at t = {task.times[k]:.3g} s a {motion} of {1e3 * sizes[k]:.3g} mm "
-        f"(rotations times {1e3 * scale.length:.3g} mm) would have to come from deforming the contacts"
+        f"produce (dimension {dimension}): at t = {task.times[k]:.3g} s, of {whole} about B, {part} would have to come "
+        "from deforming the contacts"
     )
     return MotionDirectionError(message, frozen(outside[k]), float(task.times[k]), share, float(sizes[k]))

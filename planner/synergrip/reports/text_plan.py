@@ -60,8 +60,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     best = ", the largest there is" if plan.largest_margin is not None else ""
     yield f"{word}  smallest slip margin {plan.margins[k, i]:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [usage_row(usage) for usage in plan.usages]
-    if not any(usage.title == "normal force" for usage in plan.usages):
-        rows.append(_largest_normal(plan))
+    rows.insert(1, _largest_normal(plan))
     if not any(usage.title == "synergy reference" for usage in plan.usages):
         names = plan.analysis.grasp.synergies
         rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
@@ -77,7 +76,7 @@ def _largest_normal(plan: Plan) -> tuple[str, ...]:
     grasp = plan.analysis.grasp
     normal = plan.motion.forces[:, [rows.start for rows in grasp.rows]]
     names = tuple(contact.name for contact in grasp.contacts)
-    return _largest("normal force", normal, "N", names, plan.motion.times)
+    return _largest("largest normal force", normal, "N", names, plan.motion.times)
 
 
 def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
@@ -94,7 +93,8 @@ def usage_row(usage: Usage) -> tuple[str, ...]:
         limit = f"±{upper:.4g}{unit}" if lower == -upper else f"{lower:.4g} … {upper:.4g}{unit}"
     else:
         limit = f"≥ {lower:.4g}{unit}" if np.isfinite(lower) else f"≤ {upper:.4g}{unit}"
-    return usage.title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
+    title = "closest to its range" if usage.title == "normal force" else usage.title
+    return title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
 
 
 def _proof(outcome: Infeasible) -> str:

@@ -39,15 +39,19 @@ class Response:
     dq_dw: Array  # (n_q, 6)
 
 
-def respond(grasp: Grasp) -> Response:
+def respond(grasp: Grasp, load: Array | None = None) -> Response:
     """Return the response maps of a grasp.
+
+    Args:
+        grasp: the grasp.
+        load: (T, 6) wrenches it is to hold, for a refusal to tell about (default: w_0).
 
     Raises:
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
     """
     scale = scale_of(grasp)
-    decision = restraint(grasp, scale)
+    decision = restraint(grasp, scale, np.atleast_2d(grasp.w_0) if load is None else load)
     K = _stiffness(grasp, scale)
     G, JS = grasp.G, grasp.J @ grasp.S
     moved = np.linalg.inv(scale.motion)  # u = moved u~; G K G' is inverted in scaled coordinates

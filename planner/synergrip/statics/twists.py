@@ -28,10 +28,27 @@ def describe_twist(twist: Array, contacts: Sequence[Contact], length: float) -> 
     if len(on_axis) >= 2:
         line = f"the line through {' and '.join(on_axis)}"
     else:
-        through = on_axis[0] if on_axis else "(" + ", ".join(f"{1e3 * x + 0.0:.4g}" for x in point) + ") mm from B"
+        through = on_axis[0] if on_axis else f"({_numbers(1e3 * point, 1e3 * length)}) mm from B"
         line = f"the axis {_direction(axis)} through {through}"
     turn = f"rotation about {line}"
     return turn if abs(pitch) < 1e-6 * length else f"{turn}, advancing {1e3 * pitch:.3g} mm per radian"
+
+
+def describe_displacement(twist: Array, length: float) -> str:
+    """Return a small displacement (6,) in parts: ``(0, 0, 10) mm and (5, 0, 0) deg``; zero parts are left out."""
+    v, omega = 1e3 * np.asarray(twist[:3]), np.degrees(twist[3:])
+    size = max(float(np.linalg.norm(twist[:3])), length * float(np.linalg.norm(twist[3:])))
+    parts = []
+    if np.linalg.norm(twist[:3]) > 1e-6 * size:
+        parts.append(f"({_numbers(v, 1e3 * size)}) mm")
+    if length * np.linalg.norm(twist[3:]) > 1e-6 * size:
+        parts.append(f"({_numbers(omega, float(np.degrees(size / length)))}) deg")
+    return " and ".join(parts) or "nothing"
+
+
+def _numbers(values: Array, size: float) -> str:
+    """Return the numbers to four digits of `size`, so that rounding noise reads as 0."""
+    return ", ".join(f"{round(x / size, 6) * size + 0.0:.4g}" for x in values)
 
 
 def _direction(vector: Array) -> str:
@@ -39,4 +56,4 @@ def _direction(vector: Array) -> str:
     for name, axis in (("x", 0), ("y", 1), ("z", 2)):
         if abs(abs(unit[axis]) - 1) < 1e-9:
             return name
-    return "(" + ", ".join(f"{x + 0.0:.3f}" for x in np.round(unit, 3)) + ")"
+    return f"({_numbers(unit, 1.0)})"

@@ -1,0 +1,69 @@
+"""Plans and the referee agree on random hand-like problems: verdict, largest margin, value of the goal."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from random_tasks import random_task_on_grasp
+
+from synergrip.errors import SelfCheckError
+from synergrip.plans.analysis import analyse
+from synergrip.plans.outcome import Infeasible, Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.referee import RefereeAnswer, referee
+
+CHUNK = 25
+CHUNKS = 12
+
+
+def _value(outcome: Plan) -> float:
+    """What the plan's own forces make of its goal, in the referee's units."""
+    scale = outcome.analysis.response.scale
+    if outcome.task.goal == "effort":
+        return float(np.sum((outcome.motion.forces * scale.force) ** 2))
+    if outcome.task.goal == "torque":
+        return float(np.sum((outcome.motion.torques / scale.length) ** 2))
+    if outcome.task.goal == "peak_force":
+        return float(outcome.motion.forces[:, [rows.start for rows in outcome.analysis.grasp.rows]].max())
+    return float(outcome.margins.min())
+
+
+def _same(found: float | None, expected: float | None, tolerance: float) -> bool:
+    if found is None or expected is None:
+        return found is expected
+    return abs(found - expected) <= tolerance * max(1.0, abs(expected))
+
+
+def _differences(outcome: Plan | Infeasible, answer: RefereeAnswer) -> list[str]:
+    wrong = []
+    if outcome.task.goal == "margin" and not _same(outcome.largest_margin, answer.largest_margin, 1e-6):
+        wrong.append(f"largest margin {outcome.largest_margin} against {answer.largest_margin}")
+    if isinstance(outcome, Infeasible):
+        if outcome.stage != "magnitude" or outcome.certificate is None or not outcome.certificate.verified:
+            wrong.append(f"stage {outcome.stage}, certificate {outcome.certificate}")
+        return wrong
+    wrong += [f"check {check}" for check in outcome.checks if not check.passed]
+    wrong += [f"certificate {d.certificate}" for d in outcome.decisions[-1:] if not d.optimal]
+    if not _same(_value(outcome), answer.objective, 2e-6):
+        wrong.append(f"{outcome.task.goal} {_value(outcome)} against {answer.objective}")
+    return wrong
+
+
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_plan_agrees_with_the_referee(chunk: int) -> None:
+    wrong, feasible = [], 0
+    for seed in range(chunk * CHUNK, (chunk + 1) * CHUNK):
+        grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+        answer = referee(analyse(grasp), task)
+        feasible += answer.verdict == "feasible"
+        try:
+            outcome = plan(grasp, task)
+        except SelfCheckError as error:
+            wrong.append(f"seed {seed}: {error}; the referee says {answer.verdict}")
+            continue
+        if outcome.verdict != answer.verdict or not isinstance(outcome, Plan | Infeasible):
+            wrong.append(f"seed {seed}: {outcome.verdict}, the referee says {answer}")
+        else:
+            wrong += [f"seed {seed}: {difference}" for difference in _differences(outcome, answer)]
+    assert not wrong, "\n".join(wrong)
+    assert CHUNK // 5 <= feasible <= CHUNK - CHUNK // 5, "the problems are to be about half feasible"

@@ -1,0 +1,268 @@
+"""The second formulation: its answers carry certificates of the program it never saw, and equal the direct path's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from random_tasks import hand_like_grasp, random_task_on_grasp
+
+from synergrip.conic.decide import judge
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.conic.situation import Situation, situate
+from synergrip.conic.solution import Claim, Settings
+from synergrip.conic.solvers import clarabel_
+from synergrip.errors import SelfCheckError, SynergripError
+from synergrip.grasps.contact import contact_frame
+from synergrip.grasps.grasp import grasp_matrix
+from synergrip.linalg import frozen
+from synergrip.plans.analysis import analyse
+from synergrip.plans.planning import plan
+from synergrip.plans.question import SOLVERS, Question
+from synergrip.plans.referee import referee, solve
+from synergrip.plans.task import Task, Wanted, still
+from synergrip.plans.tracking import rigid_coordinates
+from synergrip.plans.units import units_of
+
+SHARP = Settings(tolerance=1e-11)
+"""A gap of 1e-9 leaves an error of about 3e-5 in the forces themselves."""
+REDUNDANT = (130, 144)
+"""Seeds whose reference limits force the plan to use its redundancy."""
+
+
+def _task(seed: int) -> tuple[Situation, Task]:
+    grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+    analysis = analyse(grasp)
+    return situate(
+        analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
+        beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
+    ), task  # fmt: skip
+
+
+def _questions(seeds: range) -> Iterator[tuple[int, Question]]:
+    for seed in seeds:
+        situation, task = _task(seed)
+        yield seed, Question(situation, task.limits, LargestMargin())
+        for goal in (LeastEffort(), LeastEffort("torque"), LeastPeak()):
+            yield seed, Question(situation, (FrictionCone(task.margin), *task.limits), goal)
+
+
+@pytest.mark.parametrize("start", [0, 10, 20])
+def test_certificates_verify_and_both_paths_agree(start: int) -> None:
+    kinds = set()
+    for seed, question in _questions(range(start, start + 10)):
+        program = question.program()
+        direct, second = clarabel_.solve(program, SHARP), solve(question, program, SHARP)
+        certificate = judge(program, second)
+        assert certificate.verified, (seed, question.goal.name, second.status, certificate)
+        assert certificate.kind == judge(program, direct).kind, (seed, question.goal.name)
+        kinds.add(certificate.kind)
+        if certificate.kind == "infeasible":
+            continue
+        assert program.objective(second.x) == pytest.approx(program.objective(direct.x), rel=1e-7, abs=1e-7), seed
+        if isinstance(question.goal, LeastEffort):  # strictly convex in alpha
+            n = question.situation.n_alpha
+            alpha, expected = program.unknowns(second.x)[:, :n], program.unknowns(direct.x)[:, :n]
+            assert np.abs(alpha - expected).max() <= 1e-5 * np.abs(expected).max(), seed
+    assert kinds == {"optimal", "infeasible"}
+
+
+def test_default_settings_verify_too() -> None:
+    for seed, question in _questions(range(30, 36)):
+        program = question.program()
+        assert judge(program, solve(question, program, Settings())).verified, (seed, question.goal.name)
+
+
+@pytest.mark.parametrize("seed", REDUNDANT)
+def test_redundancy_is_settled_alike(seed: int) -> None:
+    situation, task = _task(seed)
+    first = Question(situation, (FrictionCone(task.margin), *task.limits), LeastEffort())
+    program = first.program()
+    goal = LeastReconfiguration(program.unknowns(clarabel_.solve(program, SHARP).x))
+    question = Question(situation, task.limits, goal)
+    program = question.program()
+    direct, second = clarabel_.solve(program, SHARP), solve(question, program, SHARP)
+    assert judge(program, second).verified
+    assert judge(program, second).kind == "optimal"
+    assert np.abs(program.unknowns(direct.x)[:, situation.n_alpha :]).max() > 1e-4
+    np.testing.assert_allclose(second.x, direct.x, atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", [*range(40, 46), *REDUNDANT])
+def test_a_plan_by_cvxpy_is_the_plan_by_clarabel(seed: int) -> None:
+    grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+    direct, second = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
+    assert direct.verdict == second.verdict
+    assert all("CVXPY" in decision.solution.solver for decision in second.decisions)
+
+
+def test_every_limit_has_an_effect() -> None:
+    """With and without each limit, the referee and the program move together."""
+    situation, _ = _task(8)
+    grasp = situation.response.grasp
+    tight = [
+        NormalForce(0.05, 2.0 * situation.force_unit),
+        JointTorque(frozen(np.full(grasp.n_q, 0.02 * situation.force_unit))),
+        ActuatorEffort(frozen(np.full(grasp.n_z, 0.02 * situation.force_unit))),
+    ]
+    for limit in tight:
+        for goal in (LargestMargin(), LeastPeak()):
+            question = Question(situation, (limit, NormalForce(-np.inf, 20.0 * situation.force_unit)), goal)
+            program = question.program()
+            direct, second = clarabel_.solve(program, SHARP), solve(question, program, SHARP)
+            assert judge(program, second).verified, limit
+            assert judge(program, second).kind == judge(program, direct).kind
+
+
+def test_rates_are_compared_between_uneven_knots() -> None:
+    seed = next(s for s in range(100) if len(_task(s)[0].times) >= 3 and _task(s)[0].n_alpha >= 3)
+    situation, _ = _task(seed)
+    grasp = situation.response.grasp
+    for rate in (1e-3, 0.1, 10.0):
+        limits = (
+            SynergyRate(frozen(np.full(grasp.n_z, rate))),
+            SynergyReference(frozen(np.full(grasp.n_z, 5.0))),
+            NormalForce(0.0, 10 * situation.force_unit),
+        )
+        question = Question(situation, limits, LargestMargin())
+        program = question.program()
+        direct, second = clarabel_.solve(program, SHARP), solve(question, program, SHARP)
+        assert judge(program, second).verified, rate
+        assert judge(program, second).kind == judge(program, direct).kind, rate
+
+
+def test_two_limits_under_one_key_keep_their_multipliers_apart() -> None:
+    situation, task = _task(0)
+    question = Question(situation, (FrictionCone(0.1), FrictionCone(task.margin), *task.limits), LeastEffort())
+    program = question.program()
+    assert judge(program, solve(question, program, SHARP)).verified
+
+
+def test_frictionless_contacts_are_known() -> None:
+    from random_grasps import random_grasp
+
+    grasp = random_grasp(np.random.default_rng(3), kinds=["hard", "soft", "frictionless", "hard"], n_q=8, n_z=5)
+    times = frozen([0.5])
+    limits = (NormalForce(-20.0, 20.0), JointTorque(frozen(np.full(8, 2.0))))
+    task = Task(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, "margin")
+    outcome, second = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
+    assert outcome.verdict == second.verdict == referee(analyse(grasp), task).verdict
+
+
+@dataclass(frozen=True)
+class _Strange:
+    name: str = "strange"
+    key: str = "limits.strange"
+
+
+@dataclass(frozen=True)
+class _Sticky:
+    name: str = "sticky"
+    components: tuple[str, ...] = ("n", "t", "o")
+    selection = frozen(np.eye(3, 6))
+
+
+def test_what_has_no_formula_is_refused_by_name() -> None:
+    situation, task = _task(0)
+    program = Question(situation, task.limits, LargestMargin()).program()
+    for question in (Question(situation, (_Strange(),), LargestMargin()), Question(situation, (), _Strange())):
+        with pytest.raises(SynergripError, match="_Strange") as refused:
+            solve(question, program, Settings())
+        assert isinstance(refused.value, TypeError)
+
+
+def test_a_contact_kind_without_formula_is_refused_by_name() -> None:
+    grasp, task = random_task_on_grasp(np.random.default_rng(0))
+    analysis = analyse(grasp)
+    odd = replace(grasp, contacts=(replace(grasp.contacts[0], kind=_Sticky()), *grasp.contacts[1:]))
+    with pytest.raises(SynergripError, match="'sticky'"):
+        referee(replace(analysis, response=replace(analysis.response, grasp=odd)), task)
+
+
+def test_a_program_of_another_question_is_refused() -> None:
+    situation, task = _task(0)
+    program = Question(situation, task.limits[:1], LargestMargin()).program()
+    with pytest.raises(SelfCheckError, match=r"limits\.joint_torque"):
+        solve(Question(situation, task.limits, LargestMargin()), program, Settings())
+
+
+def test_an_unbounded_margin_is_claimed_as_such() -> None:
+    grasp = hand_like_grasp(np.random.default_rng(0))
+    times = frozen([0.5])
+    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), "margin")
+    analysis = analyse(grasp)
+    situation = situate(
+        analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=task.wrench,
+        beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=False,
+    )  # fmt: skip
+    question = Question(situation, (), LargestMargin())
+    assert solve(question, question.program(), Settings()).claim is Claim.UNBOUNDED
+
+
+def test_the_referee_judges_wanted_motions() -> None:
+    seed = next(s for s in range(100) if random_task_on_grasp(np.random.default_rng(s))[1].wanted.kind == "modes")
+    grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+    analysis = analyse(grasp)
+    inside = task.wanted.values @ analysis.spaces.Gamma_ucs.T
+    same = replace(task, wanted=Wanted("motion", frozen(inside)))
+    assert referee(analysis, same).verdict == referee(analysis, task).verdict == plan(grasp, same).verdict
+    away = np.linalg.svd(analysis.spaces.Gamma_ucs, full_matrices=True)[0][:, -1]
+    leaving = replace(task, wanted=Wanted("motion", frozen(inside + 1e-3 * away)))
+    assert referee(analysis, leaving).verdict == plan(grasp, leaving).verdict == "infeasible"
+
+
+def test_the_referee_equals_a_closed_form() -> None:
+    """Three frictionless-thin fingers at 120 degrees and no load: the margin is mu times the largest normal force."""
+    grasp = hand_like_grasp(np.random.default_rng(1))
+    angles = [0.0, 2 * np.pi / 3, 4 * np.pi / 3]
+    contacts = tuple(
+        replace(
+            grasp.contacts[0], name=f"C{i}", friction=0.5, kind=_hard(),
+            point=frozen([0.02 * np.cos(a), 0.02 * np.sin(a), 0.0]),
+            frame=contact_frame(np.array([-np.cos(a), -np.sin(a), 0.0])),
+        )
+        for i, a in enumerate(angles)
+    )  # fmt: skip
+    G = grasp_matrix(contacts)
+    J = np.zeros((9, 3))
+    J[[0, 3, 6], range(3)] = 0.05
+    grasp = replace(
+        grasp, contacts=contacts, G=G, J=frozen(J), S=frozen(np.ones((3, 1))), C_s=frozen(1e-3 * np.eye(9)),
+        C_q=frozen(np.zeros((3, 3))), C_z=frozen([[0.0]]), joints=("a", "b", "c"), synergies=("close",),
+        lambda_0=None, w_0=frozen(np.zeros(6)),
+    )  # fmt: skip
+    times = frozen([1.0])
+    torque = JointTorque(frozen([0.2, 0.3, 0.4]))
+    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), "margin")
+    answer = referee(analyse(grasp), task)
+    assert answer.verdict == "feasible"
+    assert answer.largest_margin == pytest.approx(0.5 * 0.2 / 0.05, rel=1e-8)
+    assert answer.dz_r is not None
+    np.testing.assert_allclose(answer.dz_r, [[1e-3 * 4.0 / 0.05]], rtol=1e-7)
+
+
+def _hard() -> object:
+    from synergrip.grasps.kinds import contact_kind
+
+    return contact_kind("hard")
+
+
+def test_another_solver_judges_alike() -> None:
+    for seed in range(4):
+        grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+        analysis = analyse(grasp)
+        first, other = referee(analysis, task), referee(analysis, task, "SCS")
+        assert first.verdict == other.verdict
+        if first.objective is not None and other.objective is not None:
+            assert other.objective == pytest.approx(first.objective, rel=1e-5)
