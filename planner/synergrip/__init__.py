@@ -1,3 +1,62 @@
-"""Grasp forces and in-hand motion for robot hands driven by postural synergies."""
+"""Grasp forces and in-hand motion for robot hands driven by postural synergies.
+
+The public names, in the order of the pipeline; each is loaded when it is first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from synergrip.conic.certificate import Certificate as Certificate
+    from synergrip.conic.program import Program as Program
+    from synergrip.errors import InputError as InputError
+    from synergrip.errors import Refusal as Refusal
+    from synergrip.errors import SynergripError as SynergripError
+    from synergrip.grasps.contact import Contact as Contact
+    from synergrip.grasps.grasp import Grasp as Grasp
+    from synergrip.grasps.matrices import read_matrices as read_matrices
+    from synergrip.hands.folder import load_hand as load_hand
+    from synergrip.hands.hand import Hand as Hand
+    from synergrip.plans.analysis import Analysis as Analysis
+    from synergrip.plans.analysis import analyse as analyse
+    from synergrip.plans.outcome import Infeasible as Infeasible
+    from synergrip.plans.outcome import Plan as Plan
+    from synergrip.plans.outcome import Unknown as Unknown
+    from synergrip.plans.planning import plan as plan
+    from synergrip.plans.problem import Problem as Problem
+    from synergrip.plans.problem import load_problem as load_problem
+    from synergrip.plans.task import Task as Task
+    from synergrip.statics import coordinates as coordinates
+    from synergrip.statics import respond as respond
+    from synergrip.statics import subspaces as subspaces
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "errors": ("SynergripError", "InputError", "Refusal"),
+    "hands.hand": ("Hand",),
+    "hands.folder": ("load_hand",),
+    "grasps.contact": ("Contact",),
+    "grasps.grasp": ("Grasp",),
+    "grasps.matrices": ("read_matrices",),
+    "statics": ("respond", "subspaces", "coordinates"),
+    "conic.program": ("Program",),
+    "conic.certificate": ("Certificate",),
+    "plans.analysis": ("Analysis", "analyse"),
+    "plans.task": ("Task",),
+    "plans.problem": ("Problem", "load_problem"),
+    "plans.outcome": ("Plan", "Infeasible", "Unknown"),
+    "plans.planning": ("plan",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = ["__version__", *_HOME_OF]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its home on first use."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'synergrip' has no attribute {name!r}")
+    return getattr(import_module(f"synergrip.{_HOME_OF[name]}"), name)

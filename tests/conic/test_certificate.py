@@ -24,7 +24,9 @@ CONES = ((Kind.NONNEGATIVE, 1, 3), (Kind.SECOND_ORDER, 3, 2), (Kind.ZERO, 1, 1),
 def program_of(P, q, A, b, cones=CONES, box: float = 1e6) -> Program:
     blocks = tuple(Block("test", kind, dim, tuple(f"i{i}" for i in range(n)), 0, 1) for kind, dim, n in cones)
     n = len(q)
-    return Program(sparse.csc_matrix(P), frozen(q), sparse.csc_matrix(A), frozen(b), blocks, 1, n, frozen(np.full(n, box)))
+    return Program(
+        sparse.csc_matrix(P), frozen(q), sparse.csc_matrix(A), frozen(b), blocks, 1, n, frozen(np.full(n, box))
+    )
 
 
 def random_program(seed: int, feasible: bool = True) -> Program:

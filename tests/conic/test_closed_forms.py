@@ -37,7 +37,9 @@ def tripod(mu: float = 0.8) -> Grasp:
     contacts = []
     for i in range(3):
         direction = np.array([np.cos(2 * np.pi * i / 3), np.sin(2 * np.pi * i / 3), 0])
-        contacts.append(Contact(f"C{i}", contact_kind("hard"), mu, 0, frozen(0.04 * direction), contact_frame(-direction)))
+        contacts.append(
+            Contact(f"C{i}", contact_kind("hard"), mu, 0, frozen(0.04 * direction), contact_frame(-direction))
+        )
     S = np.zeros((9, 3))
     S[[0, 3, 6], [0, 1, 2]] = 1
     return Grasp("tripod", tuple(contacts), grasp_matrix(contacts), frozen(np.eye(9)), frozen(S), frozen(1e-3 * np.eye(9)),

@@ -98,7 +98,9 @@ def moved_frame(grasp: Grasp, shift: np.ndarray, length: float, force: float) ->
     """The same grasp with another origin of B and other units of length and force."""
     contacts = tuple(replace(c, point=frozen(length * (c.point + shift)), spin_friction=length * c.spin_friction)
                      for c in grasp.contacts)  # fmt: skip
-    unit = np.array([1.0 if c != "m" else 1.0 / length for _, c in grasp.components])  # spin rows turn, they do not move
+    unit = np.array(
+        [1.0 if c != "m" else 1.0 / length for _, c in grasp.components]
+    )  # spin rows turn, they do not move
     J = length * unit[:, None] * grasp.J
     size = length / force * np.outer(unit, unit)
     return replace(

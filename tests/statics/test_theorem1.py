@@ -70,7 +70,9 @@ def test_bases_are_what_they_say(seed: int) -> None:
     assert np.abs(JS @ spaces.Gamma_zcs - grasp.G.T @ spaces.Gamma_ucs).max(initial=0.0) < 1e-10
     assert np.abs(JS @ spaces.Gamma_zr).max(initial=0.0) < 1e-12 * np.abs(JS).max()
     forces = response.dlambda_dzr  # E_s spans the range of the force map (29)
-    assert np.allclose(spaces.E_s @ np.linalg.lstsq(spaces.E_s, forces, rcond=None)[0], forces, atol=1e-9 * np.abs(forces).max())
+    assert np.allclose(
+        spaces.E_s @ np.linalg.lstsq(spaces.E_s, forces, rcond=None)[0], forces, atol=1e-9 * np.abs(forces).max()
+    )
 
 
 @pytest.mark.parametrize("seed", range(0, 30, 3))

@@ -12,5 +12,7 @@ def validate(problem: ProblemArgument, form: FormatOption = Format.TEXT, overrid
 
         loaded = load_problem(problem, overrides or [])
         grasp, knots = loaded.grasp, len(loaded.task.times)
-        text = f"{loaded.path}: in order ({grasp.n_c} contacts, {grasp.n_q} joints, {grasp.n_z} synergies, {knots} knots)"
+        text = (
+            f"{loaded.path}: in order ({grasp.n_c} contacts, {grasp.n_q} joints, {grasp.n_z} synergies, {knots} knots)"
+        )
         show(form, lambda: text, lambda: {"valid": True, "file": str(loaded.path), "title": loaded.title})

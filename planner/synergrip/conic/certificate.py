@@ -45,7 +45,9 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     """Judge the claim that x (n,) is optimal, with multipliers z (m,) of the rows."""
     if not (np.all(np.isfinite(x)) and np.all(np.isfinite(z))):
         return Certificate("optimal", False)
-    primal = max(distance_to_cones(program, program.b - program.A @ x), float((np.abs(x) - program.box).max(initial=0.0)))
+    primal = max(
+        distance_to_cones(program, program.b - program.A @ x), float((np.abs(x) - program.box).max(initial=0.0))
+    )
     moved = project_on_dual(program, z)
     stationarity = program.P @ x + program.q + program.A.T @ moved
     size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(program.P @ x).max(initial=0.0)))

@@ -106,9 +106,7 @@ def situate(
     reference = np.hstack([inverse[:, :n_alpha] * units.force,
                            inverse[:, n_alpha + n_beta : n_alpha + n_beta + free] * units.reference])  # fmt: skip
     base = forces_at_start(response) - (wrench - response.grasp.w_0) @ response.right_inverse.T
-    force = Affine(
-        frozen(np.hstack([spaces.E_s * units.force, np.zeros((response.grasp.n_l, free))])), frozen(base)
-    )
+    force = Affine(frozen(np.hstack([spaces.E_s * units.force, np.zeros((response.grasp.n_l, free))])), frozen(base))
     torque = force.after(response.grasp.J.T)
     return Situation(
         response, coords, frozen(times), frozen(wrench), frozen(beta),

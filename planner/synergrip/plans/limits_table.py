@@ -57,7 +57,9 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
 def unbounded() -> InputError:
     """Return the error of a largest margin that nothing bounds."""
     listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
-    message = f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
+    message = (
+        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
+    )
     return InputError.at("goal.maximise", message)
 
 

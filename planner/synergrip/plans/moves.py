@@ -56,5 +56,7 @@ def turned(gravity: Array, palm: PalmTable | None, times: Array) -> Array:
     axis = np.asarray(palm.axis, dtype=float)
     angle = -palm.turn * profile(palm.profile, times)[:, None]
     return np.asarray(
-        gravity * np.cos(angle) + np.cross(axis, gravity) * np.sin(angle) + axis * (axis @ gravity) * (1 - np.cos(angle))
+        gravity * np.cos(angle)
+        + np.cross(axis, gravity) * np.sin(angle)
+        + axis * (axis @ gravity) * (1 - np.cos(angle))
     )

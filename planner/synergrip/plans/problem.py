@@ -59,7 +59,9 @@ def find_problem(name_or_path: str) -> Path:
         return path
     inside = bundled("problems") / f"{name_or_path}.toml"
     if not inside.is_file():
-        raise InputError.at("PROBLEM", f"no such file, and no such bundled problem: {one_of(name_or_path, bundled_problems())}")
+        raise InputError.at(
+            "PROBLEM", f"no such file, and no such bundled problem: {one_of(name_or_path, bundled_problems())}"
+        )
     return inside
 
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
@@ -80,9 +78,9 @@ def _refusal(refusal: Refusal) -> dict[str, Any]:
 
 def margin_document(margins: Array, contacts: list[str], times: Array) -> dict[str, Any]:
     """Return the worst slip margin, where and when, and all of them (T, n_c)."""
-    k, i = np.unravel_index(int(np.argmin(margins)), margins.shape)
+    k, i = first_largest(-margins)
     return {
-        "worst_N": float(margins[k, i]), "contact": contacts[int(i)], "time_s": float(times[k]),
+        "worst_N": float(margins.min()), "contact": contacts[i], "time_s": float(times[k]),
         "per_contact_N": margins.tolist(),
     }  # fmt: skip
 

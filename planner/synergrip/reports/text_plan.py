@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.conic.decide import Decision
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
@@ -55,8 +55,8 @@ def _checked(plan: Plan) -> str:
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
-    k, i = np.unravel_index(int(np.argmin(plan.margins)), plan.margins.shape)
-    contact, time = plan.analysis.grasp.contacts[int(i)].name, plan.motion.times[k]
+    k, i = first_largest(-plan.margins)
+    contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = ", the largest there is" if plan.largest_margin is not None else ""
     yield f"{word}  smallest slip margin {plan.margins[k, i]:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [usage_row(usage) for usage in plan.usages]
@@ -67,7 +67,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     scale = plan.analysis.response.scale
     for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
         sizes = np.linalg.norm(scale.twist(motion), axis=1)
-        at = int(np.argmax(sizes))
+        at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
         rows.append((name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
     yield table(("", "worst", "at", "limit"), rows)
 
@@ -80,8 +80,9 @@ def _largest_normal(plan: Plan) -> tuple[str, ...]:
 
 
 def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
-    k, i = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
-    return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[int(i)]}, t = {times[k]:.2f} s", ""
+    size = np.abs(values)
+    k, i = first_largest(size, 1e-6 * float(size.max()))
+    return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
 def usage_row(usage: Usage) -> tuple[str, ...]:

@@ -34,8 +34,16 @@ class Usage:
 
     def worst(self) -> tuple[int, int]:
         """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""
-        flat = int(np.argmax(self.excess / self.scale))
-        return flat // len(self.items), flat % len(self.items)
+        return first_largest(self.excess / self.scale)
+
+
+def first_largest(values: Array, tie: float = 1e-6) -> tuple[int, int]:
+    """Return row and column of the largest of `values` (T, m); the first of those that differ by less than `tie`.
+
+    Optimal plans lie on their limits at many knots at once; rounding must not choose the one that is shown.
+    """
+    flat = int(np.argmax(values.ravel() > values.max() - tie))
+    return flat // values.shape[1], flat % values.shape[1]
 
 
 class Limit(Protocol):

@@ -36,7 +36,9 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.equilibrate_enable = settings.equilibrate
     options.static_regularization_constant = settings.regularisation
     P = sparse.triu(program.P, format="csc")
-    found = clarabel.DefaultSolver(P, np.array(program.q), program.A, np.array(program.b), _cones(program), options).solve()
+    found = clarabel.DefaultSolver(
+        P, np.array(program.q), program.A, np.array(program.b), _cones(program), options
+    ).solve()
     status = str(found.status)
     return Solution(
         CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {_version()}", status,
@@ -52,7 +54,9 @@ def _cones(program: Program) -> list[Any]:
         if block.kind is Kind.SECOND_ORDER:
             cones += [clarabel.SecondOrderConeT(block.dim)] * block.cones
         elif block.rows:
-            cones.append({Kind.ZERO: clarabel.ZeroConeT, Kind.NONNEGATIVE: clarabel.NonnegativeConeT}[block.kind](block.rows))
+            cones.append(
+                {Kind.ZERO: clarabel.ZeroConeT, Kind.NONNEGATIVE: clarabel.NonnegativeConeT}[block.kind](block.rows)
+            )
     return cones
 
 
