@@ -42,9 +42,9 @@ def tripod(mu: float = 0.8) -> Grasp:
         )
     S = np.zeros((9, 3))
     S[[0, 3, 6], [0, 1, 2]] = 1
-    return Grasp("tripod", tuple(contacts), grasp_matrix(contacts), frozen(np.eye(9)), frozen(S), frozen(1e-3 * np.eye(9)),
-                 frozen(np.zeros((9, 9))), frozen(np.zeros((3, 3))), None, frozen(np.zeros(6)),
-                 tuple(f"q{i}" for i in range(9)), ("a", "b", "c"))  # fmt: skip
+    return Grasp("tripod", tuple(contacts), grasp_matrix(contacts), frozen(np.eye(9)), frozen(S),
+                 frozen(1e-3 * np.eye(9)), frozen(np.zeros((9, 9))), frozen(np.zeros((3, 3))), None,
+                 frozen(np.zeros(6)), tuple(f"q{i}" for i in range(9)), ("a", "b", "c"))  # fmt: skip
 
 
 def task(wrench: Array, margin: float, goal: str, *limits) -> Task:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 import traceback
 
@@ -10,6 +11,9 @@ def main() -> None:
     """Run the command line; what is not foreseen leaves with exit code 4, never with 1 (proven infeasible)."""
     from synergrip.cli.app import app
 
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal that cannot show Γ is no reason to fail
     try:
         app()
     except Exception:

@@ -16,15 +16,16 @@ def analyse(problem: ProblemArgument, form: FormatOption = Format.TEXT, override
         from synergrip.plans.problem import load_problem, located
         from synergrip.reports.json_analysis import analysis_document, unrestrained_document
         from synergrip.reports.text_analysis import analysis_text
+        from synergrip.reports.text_check import refused_text
 
         loaded = load_problem(problem, overrides or [])
         try:
             analysis = work_out(loaded.grasp, loaded.task.wrench)
             show(form, lambda: analysis_text(loaded, analysis, color()), lambda: analysis_document(analysis))
         except NotRestrainedError as error:
-            refusal = error
-            code = error.exit_code
-            show(form, lambda: f"not restrained: {refusal}", lambda: unrestrained_document(loaded.grasp, refusal))
+            refusal, code = error, error.exit_code
+            document = unrestrained_document(loaded.grasp, refusal)
+            show(form, lambda: refused_text(loaded, refusal, color()), lambda: document)
         except SynergripError as error:
             raise located(loaded, error) from None
     raise typer.Exit(code)

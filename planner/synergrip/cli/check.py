@@ -18,16 +18,21 @@ def check(
 ) -> None:
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
-        from synergrip.errors import SynergripError
+        from synergrip.errors import Refusal, SynergripError
         from synergrip.plans.check import judge_references
         from synergrip.plans.problem import load_problem, located
         from synergrip.plans.references import read_references
-        from synergrip.reports.text_check import judgement_document, judgement_text
+        from synergrip.reports.json_analysis import refused_document
+        from synergrip.reports.text_check import judgement_document, judgement_text, refused_text
 
         loaded = load_problem(problem, overrides or [])
         try:
             judgement = judge_references(loaded.grasp, loaded.task, read_references(plan, loaded.grasp.n_z))
+            code = judgement.exit_code
+            show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
+        except Refusal as error:
+            refusal, code = error, error.exit_code
+            show(form, lambda: refused_text(loaded, refusal, color()), lambda: refused_document(refusal))
         except SynergripError as error:
             raise located(loaded, error) from None
-        show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
-    raise typer.Exit(judgement.exit_code)
+    raise typer.Exit(code)

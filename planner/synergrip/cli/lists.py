@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from synergrip.cli.running import Format, FormatOption, answering, show
+from synergrip.cli.running import Format, FormatOption, answering, say, show
 
 
 def problems(form: FormatOption = Format.TEXT) -> None:
@@ -32,7 +32,8 @@ def hands(form: FormatOption = Format.TEXT) -> None:
 
         loaded = [load_hand(name, relative_to=None) for name in bundled_hands()]
         rows = [
-            (hand.name, str(len(hand.joints)), ", ".join(f"{s.name} ({s.S.shape[1]})" for s in hand.synergy_sets.values()),
+            (hand.name, str(len(hand.joints)),
+             ", ".join(f"{s.name} ({s.S.shape[1]})" for s in hand.synergy_sets.values()),
              ", ".join(hand.pads), ", ".join(hand.postures), hand.title)
             for hand in loaded
         ]  # fmt: skip
@@ -51,4 +52,4 @@ def schema() -> None:
     with answering(Format.TEXT):
         from synergrip.plans.problem_file import problem_schema
 
-        print(json.dumps(problem_schema(), indent=2))
+        say(json.dumps(problem_schema(), indent=2))

@@ -43,14 +43,19 @@ def answering(form: Format) -> Iterator[None]:
     except KeyboardInterrupt:
         print("interrupted; nothing was half-written", file=sys.stderr)
         raise typer.Exit(130) from None
-    except BrokenPipeError:  # the reader of our output has gone: nothing left to say
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        raise typer.Exit(0) from None
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
     """Print the answer, as text or as one JSON document, on standard output."""
-    print(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())
+    say(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())
+
+
+def say(text: str) -> None:
+    """Print on standard output; a reader who has gone (``| head``) changes nothing about the exit code."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def color() -> bool:
@@ -63,7 +68,7 @@ def _print_error(error: SynergripError, form: Format) -> None:
 
     if form is Format.JSON:
         document = error_json(error) if isinstance(error, InputError) else _plain(error)
-        print(json.dumps(document, allow_nan=False))
+        say(json.dumps(document, allow_nan=False))
     else:
         wants = sys.stderr.isatty() and "NO_COLOR" not in os.environ
         text = error_text(error, wants) if isinstance(error, InputError) else f"error: {error}"

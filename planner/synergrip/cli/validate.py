@@ -9,10 +9,10 @@ def validate(problem: ProblemArgument, form: FormatOption = Format.TEXT, overrid
     """Check a problem file and everything it names, without solving anything."""
     with answering(form):
         from synergrip.plans.problem import load_problem
+        from synergrip.reports.text_problem import many
 
         loaded = load_problem(problem, overrides or [])
-        grasp, knots = loaded.grasp, len(loaded.task.times)
-        text = (
-            f"{loaded.path}: in order ({grasp.n_c} contacts, {grasp.n_q} joints, {grasp.n_z} synergies, {knots} knots)"
-        )
+        grasp = loaded.grasp
+        counts = {"contact": grasp.n_c, "joint": grasp.n_q, "synergy": grasp.n_z, "knot": len(loaded.task.times)}
+        text = f"{loaded.path}: in order ({', '.join(many(count, noun) for noun, count in counts.items())})"
         show(form, lambda: text, lambda: {"valid": True, "file": str(loaded.path), "title": loaded.title})

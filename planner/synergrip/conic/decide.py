@@ -44,12 +44,12 @@ class Decision:
 
 def decide(goal: str, program: Program, solver: Solver) -> Decision:
     """Solve a program until a claim verifies, or the retry chain ends (then the certificate is not verified)."""
-    for count, settings in enumerate(ATTEMPTS, start=1):
+    for attempt, settings in enumerate(ATTEMPTS, start=1):
         solution = solver(program, settings)
-        certificate = judge(program, solution)
-        if certificate.verified:
+        decision = Decision(goal, program, solution, judge(program, solution), attempt)
+        if decision.certificate.verified:
             break
-    return Decision(goal, program, solution, certificate, count)
+    return decision
 
 
 def judge(program: Program, solution: Solution) -> Certificate:

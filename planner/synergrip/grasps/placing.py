@@ -114,8 +114,8 @@ def _contact(thing: Object, touch: Touch, motion: PointMotion) -> Contact:
         if abs(distance) > REACH:
             where = "outside" if distance > 0 else "inside"
             message = (
-                f"pad '{touch.pad.name}' is {1e3 * abs(distance):.3g} mm {where} the surface of the {thing.shape.title}; "
-                "change the posture, or the object's size or position"
+                f"pad '{touch.pad.name}' is {1e3 * abs(distance):.3g} mm {where} the surface of the "
+                f"{thing.shape.title}; change the posture, or the object's size or position"
             )
             raise InputError.at(touch.key, message)
         inward = -outward

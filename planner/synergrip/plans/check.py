@@ -12,6 +12,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.loads import distinct
 from synergrip.plans.outcome import Check
 from synergrip.plans.tables import Table
 from synergrip.plans.task import Task, Wanted
@@ -36,7 +37,7 @@ class Judgement:
 
     @property
     def verdict(self) -> str:
-        """ "feasible" when every check passes."""
+        """The verdict: "feasible" when every check passes."""
         return "feasible" if all(check.passed for check in self.checks) else "infeasible"
 
     @property
@@ -83,7 +84,7 @@ def _common_times(task: Task, references: Table) -> Array:
     if first > start + slack or last < end - slack:
         raise InputError.at("PLAN", f"the plan covers {first:g} s to {last:g} s, the task {start:g} s to {end:g} s")
     inside = references.times[(references.times >= start) & (references.times <= end)]
-    return frozen(np.union1d(task.times, inside))
+    return frozen(distinct(np.concatenate([task.times, inside])))
 
 
 def _at(task: Task, times: Array) -> Task:

@@ -52,16 +52,22 @@ def loads(task: TaskTable, folder: Path, mass: float) -> Loads:
 
 
 def _times(task: TaskTable, tables: dict[str, Table]) -> Array:
-    """Return the knots: evenly spaced when their number is given, else those of the CSV file."""
-    longest = next(iter(tables.values())).times if tables else None
+    """Return the knots: evenly spaced when their number is given, else those of the CSV files and the end."""
     duration = task.duration
-    if longest is not None and "duration" not in task.model_fields_set:
-        duration = float(longest[-1])
-    if task.knots is None and longest is not None:
-        kept = longest[longest <= duration * (1 + COVER)]
-        return kept if len(kept) else longest[:1]
+    if tables and "duration" not in task.model_fields_set:
+        duration = max(float(table.times[-1]) for table in tables.values())
+    if task.knots is None and tables:
+        every = np.concatenate([table.times for table in tables.values()])
+        return distinct(np.append(every[every < duration], duration))
     count = task.knots or (MOVING_KNOTS if task.move or task.palm else 1)
     return np.linspace(0.0, duration, count) if count > 1 else np.zeros(1)
+
+
+def distinct(times: Array) -> Array:
+    """Return the times in order, without those that follow another by no more than rounding."""
+    ordered = np.unique(times)
+    apart = np.diff(ordered) > COVER * max(float(ordered[-1]), 1.0)
+    return np.asarray(ordered[np.append(apart, True)])
 
 
 def _resampled(table: Table, times: Array, key: str) -> Array:

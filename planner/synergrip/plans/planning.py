@@ -152,7 +152,8 @@ class _Planner:
     def _infeasible(self, proof: Decision, decision: Decision, largest: float | None) -> Infeasible:
         why = "no internal force that the synergies control satisfies all limits at once"
         if largest is not None:
-            why = f"these limits allow a slip margin of {largest:.4g} N at most; the task asks for {self.task.margin:.4g} N"
+            asked = f"the task asks for {self.task.margin:.4g} N"
+            why = f"these limits allow a slip margin of {largest:.4g} N at most; {asked}"
         return Infeasible(
             self.task, self.analysis, "magnitude", why, None, proof.certificate, proof.program,
             tuple(self.decisions), largest,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.errors import NotRestrainedError
+from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis
 
@@ -13,7 +13,8 @@ def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any
     """Return the counts and dimensions; the dimensions are null when the object is not restrained."""
     counts: dict[str, Any] = {"n_c": grasp.n_c, "n_l": grasp.n_l, "n_q": grasp.n_q, "n_z": grasp.n_z}
     if analysis is None:
-        return counts | {"dim_E_s": None, "dim_Gamma_ucs": None, "dim_Gamma_zr": None}
+        unknown = ("dim_E_s", "dim_Gamma_ucs", "dim_Gamma_zr", "singular_values", "ambiguous")
+        return counts | dict.fromkeys(unknown)
     forces, motions, redundant = analysis.spaces.dimensions
     decisions = analysis.spaces.decisions
     return counts | {
@@ -29,9 +30,10 @@ def analysis_document(analysis: Analysis) -> dict[str, Any]:
     response, spaces, grasp = analysis.response, analysis.spaces, analysis.grasp
     maps = ("dlambda_dzr", "du_dzr", "dq_dzr", "dtau_dzr", "dsigma_dzr", "dz_dzr", "dlambda_dw", "du_dw", "dq_dw")
     bases = ("E_s", "Gamma_ucs", "Gamma_zcs", "Gamma_zr")
+    kinds = [(contact.name, contact.kind) for contact in grasp.contacts]
     return {
         "title": grasp.title,
-        "contacts": [{"name": c.name, "kind": c.kind.name, "components": list(c.kind.components)} for c in grasp.contacts],
+        "contacts": [{"name": name, "kind": kind.name, "components": list(kind.components)} for name, kind in kinds],
         "joints": list(grasp.joints),
         "synergies": list(grasp.synergies),
         "structure": structure_document(grasp, analysis),
@@ -44,8 +46,24 @@ def analysis_document(analysis: Analysis) -> dict[str, Any]:
 
 def unrestrained_document(grasp: Grasp, refusal: NotRestrainedError) -> dict[str, Any]:
     """Return what can be said of a grasp that leaves the object a free motion."""
+    return {"title": grasp.title, "structure": structure_document(grasp, None), **refused_document(refusal)}
+
+
+def refused_document(refusal: Refusal) -> dict[str, Any]:
+    """Return what is said of any question that is refused before a program is solved."""
     return {
-        "title": grasp.title, "verdict": "infeasible", "stage": refusal.stage, "why": str(refusal),
-        "structure": structure_document(grasp, None),
-        "refusal": {"free_twists": refusal.free_twists.T.tolist(), "unsupported_wrench": refusal.unsupported.tolist()},
+        "verdict": "infeasible", "exit_code": refusal.exit_code, "stage": refusal.stage, "why": str(refusal),
+        "refusal": refusal_document(refusal),
     }  # fmt: skip
+
+
+def refusal_document(refusal: Refusal) -> dict[str, Any]:
+    """Return the numbers that explain a refusal, SI units."""
+    if isinstance(refusal, NotRestrainedError):
+        return {"free_twists": refusal.free_twists.T.tolist(), "unsupported_wrench": refusal.unsupported.tolist()}
+    if isinstance(refusal, MotionDirectionError):
+        return {"residual": refusal.residual.tolist(), "time_s": refusal.time_s, "share": refusal.share,
+                "size_m": refusal.size}  # fmt: skip
+    if isinstance(refusal, MotionCountError):
+        return {"asked": refusal.asked, "n_z": refusal.available, "directions": refusal.directions.T.tolist()}
+    return {}

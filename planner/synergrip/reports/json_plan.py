@@ -8,12 +8,11 @@ from typing import Any
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.limit import Usage, first_largest
-from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
+from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
-from synergrip.reports.json_analysis import structure_document
+from synergrip.reports.json_analysis import refusal_document, structure_document
 
 
 def outcome_document(title: str, grasp: Grasp, outcome: Outcome) -> dict[str, Any]:
@@ -49,7 +48,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         "largest_margin_N": plan.largest_margin,
         "limits": [usage_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
-        "checks": [{"name": c.name, "error": c.error, "tolerance": c.tolerance, "passed": c.passed} for c in plan.checks],
+        "checks": [check_document(check) for check in plan.checks],
     }  # fmt: skip
 
 
@@ -62,18 +61,12 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
     }  # fmt: skip
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
-    return document | ({"refusal": _refusal(outcome.refusal)} if outcome.refusal else {})
+    return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})
 
 
-def _refusal(refusal: Refusal) -> dict[str, Any]:
-    if isinstance(refusal, NotRestrainedError):
-        return {"free_twists": refusal.free_twists.T.tolist(), "unsupported_wrench": refusal.unsupported.tolist()}
-    if isinstance(refusal, MotionDirectionError):
-        return {"residual": refusal.residual.tolist(), "time_s": refusal.time_s, "share": refusal.share,
-                "size_m": refusal.size}  # fmt: skip
-    if isinstance(refusal, MotionCountError):
-        return {"asked": refusal.asked, "n_z": refusal.available, "directions": refusal.directions.T.tolist()}
-    return {}
+def check_document(check: Check) -> dict[str, Any]:
+    """Return a check with its outcome."""
+    return {"name": check.name, "error": check.error, "tolerance": check.tolerance, "passed": check.passed}
 
 
 def margin_document(margins: Array, contacts: list[str], times: Array) -> dict[str, Any]:

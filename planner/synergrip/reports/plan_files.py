@@ -18,7 +18,7 @@ FORMATS = ("json", "npz", "csv")
 def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, formats: tuple[str, ...]) -> list[str]:
     """Write an outcome into `folder` and return the names of the files written.
 
-    An outcome without a plan has only a document; a plan's files of an earlier run are then removed,
+    An outcome without a plan has only a document. Files of an earlier run that are not written anew are removed,
     so that the folder never holds the answer to another question.
     """
     written = []
@@ -32,9 +32,8 @@ def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, form
         if "npz" in formats:
             _write_npz(folder / "plan.npz", outcome)
             written.append("plan.npz")
-    else:
-        for name in ("plan.csv", "plan.npz"):
-            (folder / name).unlink(missing_ok=True)
+    for name in {f"plan.{suffix}" for suffix in FORMATS} - set(written):
+        (folder / name).unlink(missing_ok=True)
     return written
 
 
@@ -44,7 +43,7 @@ def to_json(document: dict[str, Any]) -> str:
 
 
 def plan_csv(plan: Plan) -> str:
-    """Return one line per knot: time, synergy references, contact forces, joint torques, object displacement, margins."""
+    """Return one line per knot: time, references, contact forces, joint torques, object displacement, margins."""
     grasp = plan.analysis.grasp
     axes = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
     header = ["t_s", *(f"zr_{i + 1}" for i in range(grasp.n_z))]

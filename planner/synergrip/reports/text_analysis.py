@@ -60,8 +60,10 @@ def _combination(column: np.ndarray, names: tuple[str, ...]) -> str:
 
 
 def _values(analysis: Analysis) -> Iterator[str]:
-    yield f"singular values, relative; counted above {RANK_TOLERANCE:.0e}, ambiguous from {GREY_FLOOR:.0e} to {GREY_CEILING:.0e}"
+    grey = f"{GREY_FLOOR:.0e} to {GREY_CEILING:.0e}"
+    yield f"singular values, relative; counted above {RANK_TOLERANCE:.0e}, ambiguous from {grey}"
     for name, decision in analysis.spaces.decisions.items():
         shown = " ".join(f"{value:.2g}" for value in decision.singular_values)
         yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
-    yield f"  characteristic length {1e3 * analysis.response.scale.length:.4g} mm, condition of M {analysis.coordinates.condition:.3g}"
+    length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
+    yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
 from synergrip.reports.tables import table
-from synergrip.reports.text_problem import problem_lines
+from synergrip.reports.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"
@@ -21,7 +22,7 @@ _END = "\x1b[0m"
 
 def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
     """Return the answer: what was read, asked, solved, checked; the verdict; what was written."""
-    word = f"{_STYLES[outcome.verdict]}{outcome.verdict}{_END}" if color else outcome.verdict
+    word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), "", *_feasible(outcome, word)]
@@ -42,8 +43,9 @@ def _solved(decisions: Sequence[Decision]) -> Iterator[str]:
         tries = f", attempt {decision.attempts}" if decision.attempts > 1 else ""
         yield (
             ("solve    " if i == 0 else "         ")
-            + f"{decision.goal}: {len(program.q)} variables, {cones} cones, {solution.solver}: {solution.claim} "
-            f"in {solution.iterations} iterations, {1e3 * solution.seconds:.2g} ms{tries}"
+            + f"{decision.goal}: {many(len(program.q), 'variable')}, {many(cones, 'cone')}, "
+            f"{solution.solver}: {solution.claim} in {many(solution.iterations, 'iteration')}, "
+            f"{1e3 * solution.seconds:.2g} ms{tries}"
         )
 
 
@@ -68,7 +70,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
         sizes = np.linalg.norm(scale.twist(motion), axis=1)
         at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
-        rows.append((name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
+        rows.append((name, f"{round(1e3 * sizes[at], 6):.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
     yield table(("", "worst", "at", "limit"), rows)
 
 
@@ -94,7 +96,7 @@ def usage_row(usage: Usage) -> tuple[str, ...]:
         limit = f"±{upper:.4g}{unit}" if lower == -upper else f"{lower:.4g} … {upper:.4g}{unit}"
     else:
         limit = f"≥ {lower:.4g}{unit}" if np.isfinite(lower) else f"≤ {upper:.4g}{unit}"
-    title = "closest to its range" if usage.title == "normal force" else usage.title
+    title = "normal force nearest a bound" if usage.title == "normal force" else usage.title
     return title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
 
 
@@ -102,15 +104,34 @@ def _proof(outcome: Infeasible) -> str:
     c = outcome.certificate
     if outcome.refusal is not None:
         return f"check    proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
-    return f"check    proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
+    ray = f"‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
+    return f"check    proof re-checked: {ray}"
 
 
 def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
+    yield from refused_lines(word, outcome.stage, outcome.why)
+    for change in repairs(outcome):
+        yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
+
+
+def verdict_word(verdict: str, color: bool) -> str:
+    """Return the verdict, in its colour when `color`."""
+    return f"{_STYLES[verdict]}{verdict}{_END}" if color else verdict
+
+
+def refused_lines(word: str, stage: str, why: str) -> Iterator[str]:
+    """Yield the verdict with what the stage means, and the reason."""
     names = {
         "restraint": "the object is not held", "count": "too many motions for the synergies",
         "direction": "the synergies cannot produce this motion", "magnitude": "the forces do not suffice",
     }  # fmt: skip
-    yield f"{word}  {names.get(outcome.stage, outcome.stage)} (stage: {outcome.stage})"
-    yield f"Why      {outcome.why}"
-    for change in repairs(outcome):
-        yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {change['to_N']:.4g} N"
+    yield f"{word}  {names.get(stage, stage)} (stage: {stage})"
+    yield f"Why      {why}"
+
+
+def _rounded_down(value: float) -> float:
+    """Return `value` to four digits, never more than it is: what is printed can be typed in and holds."""
+    if value <= 0:
+        return value
+    digit = 10.0 ** (math.floor(math.log10(value)) - 3)
+    return math.floor(value / digit) * digit

@@ -15,8 +15,8 @@ def problem_lines(problem: Problem) -> Iterator[str]:
     grasp = problem.grasp
     hand = problem.hand_title or "grasp given as matrices"
     kinds = Counter(contact.kind.title for contact in grasp.contacts)
-    contacts = " and ".join(_many(n, f"{kind} contact") for kind, n in kinds.items())
-    parts = [hand, f"{_many(grasp.n_q, 'joint')}, {_many(grasp.n_z, 'synergy')}"]
+    contacts = " and ".join(many(n, f"{kind} contact") for kind, n in kinds.items())
+    parts = [hand, f"{many(grasp.n_q, 'joint')}, {many(grasp.n_z, 'synergy')}"]
     if problem.thing is not None:
         mass = f", {1e3 * problem.thing.mass:.4g} g" if problem.thing.mass else ""
         parts.append((problem.thing.shape.title if problem.thing.shape else problem.thing.title) + mass)
@@ -27,10 +27,10 @@ def problem_lines(problem: Problem) -> Iterator[str]:
 def _task(problem: Problem) -> Iterator[str]:
     task = problem.task
     knots = len(task.times)
-    wanted = {"hold": "hold the object", "motion": "move the object", "modes": "move along Gamma_ucs"}
+    wanted = {"hold": "hold the object", "motion": "move the object", "modes": "move along Γ_ucs"}
     span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
-    yield wanted.get(task.wanted.kind, "move along Gamma_ucs") + span
-    yield _many(knots, "knot")
+    yield wanted.get(task.wanted.kind, "move along Γ_ucs") + span
+    yield many(knots, "knot")
     load = np.linalg.norm(task.wrench[:, :3], axis=1).max(initial=0.0)
     yield f"load up to {load:.3g} N"
     yield f"slip margin ≥ {task.margin:.4g} N"
@@ -38,6 +38,7 @@ def _task(problem: Problem) -> Iterator[str]:
     yield goals.get(task.goal, "least peak normal force")
 
 
-def _many(count: int, noun: str) -> str:
+def many(count: int, noun: str) -> str:
+    """Return ``1 knot``, ``2 knots``, ``3 synergies``."""
     plural = f"{noun[:-1]}ies" if noun.endswith("y") else f"{noun}s"
     return f"{count} {noun if count == 1 else plural}"

@@ -1,0 +1,84 @@
+"""What the README shows is what the program prints. (The install commands are run by .ci/run.)"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from synergrip.plans.problem_file import problem_schema
+
+ROOT = Path(__file__).parent.parent
+BLOCK = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = BLOCK.findall(README)
+VOLATILE = re.compile(r"\d+(\.\d+)?e[-+]\d+|\d+ iterations|[\d.]+ ms|Clarabel [\d.]+")
+"""Residuals, iterations, times and versions: the machine's, not the answer's."""
+
+
+def following(language: str) -> list[tuple[str, str]]:
+    """Blocks of a language, each with the text block right after it."""
+    pairs = zip(BLOCKS, BLOCKS[1:], strict=False)
+    return [(code, shown) for (kind, code), (after, shown) in pairs if kind == language and after == "text"]
+
+
+@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=lambda text: text.split()[-1][:30])
+def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
+    arguments = code.split(".venv/bin/synergrip ")[-1].split()
+    run = subprocess.run(
+        [sys.executable, "-m", "synergrip", *arguments], capture_output=True, text=True, cwd=tmp_path, check=False
+    )
+    assert VOLATILE.sub("#", run.stdout.rstrip("\n")) == VOLATILE.sub("#", shown), run.stderr
+
+
+@pytest.mark.parametrize(("code", "shown"), following("python"))
+def test_python_prints_what_is_shown(code: str, shown: str) -> None:
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(code, "README.md", "exec"), {})
+    assert printed.getvalue().rstrip("\n") == shown
+
+
+def test_every_block_is_run() -> None:
+    """Three commands with their output, one program; the second command is the test run itself."""
+    assert len(following("bash")) == 3
+    assert len(following("python")) == 1
+    assert [kind for kind, _ in BLOCKS].count("bash") == 4
+
+
+def test_links_lead_somewhere() -> None:
+    for page in (ROOT / "README.md", *ROOT.glob("docs/*.md"), ROOT / "problems" / "README.md", ROOT / "CONTRIBUTING.md"):
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def keys(schema: dict, root: dict) -> set[str]:
+    """All keys that a problem file may hold."""
+    found = set()
+    for node in [schema, *root.get("$defs", {}).values()]:
+        found |= set(node.get("properties", {}))
+    return found
+
+
+def test_every_key_of_a_problem_file_is_described() -> None:
+    text = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
+    schema = problem_schema()
+    missing = sorted(key for key in keys(schema, schema) if f"`{key}`" not in text)
+    assert not missing
+
+
+def test_the_examples_of_the_problem_file_are_in_order() -> None:
+    from synergrip.documents import Document, parse
+    from synergrip.plans.problem_file import ProblemFile
+
+    text = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
+    examples = [code for kind, code in BLOCK.findall(text) if kind == "toml"]
+    assert examples
+    for code in examples:
+        parse(Document(ROOT / "example.toml", tomllib.loads(code), code), ProblemFile)
