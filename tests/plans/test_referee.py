@@ -25,16 +25,13 @@ from synergrip.conic.situation import Situation, situate
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SelfCheckError, SynergripError
-from synergrip.grasps.contact import contact_frame
-from synergrip.grasps.grasp import grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.question import SOLVERS, Question
 from synergrip.plans.referee import referee, solve
-from synergrip.plans.task import Task, Wanted, still
+from synergrip.plans.task import Task, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
 
@@ -209,55 +206,3 @@ def test_an_unbounded_margin_is_claimed_as_such() -> None:
     )  # fmt: skip
     question = Question(situation, (), LargestMargin())
     assert solve(question, question.program(), Settings()).claim is Claim.UNBOUNDED
-
-
-def test_the_referee_judges_wanted_motions() -> None:
-    seed = next(s for s in range(100) if random_task_on_grasp(np.random.default_rng(s))[1].wanted.kind == "modes")
-    grasp, task = random_task_on_grasp(np.random.default_rng(seed))
-    analysis = analyse(grasp)
-    inside = task.wanted.values @ analysis.spaces.Gamma_ucs.T
-    same = replace(task, wanted=Wanted("motion", frozen(inside)))
-    assert referee(analysis, same).verdict == referee(analysis, task).verdict == plan(grasp, same).verdict
-    away = np.linalg.svd(analysis.spaces.Gamma_ucs, full_matrices=True)[0][:, -1]
-    leaving = replace(task, wanted=Wanted("motion", frozen(inside + 1e-3 * away)))
-    assert referee(analysis, leaving).verdict == plan(grasp, leaving).verdict == "infeasible"
-
-
-def test_the_referee_equals_a_closed_form() -> None:
-    """Three fingers at 120 degrees that close as one, no load: the weakest joint bounds the force, mu the margin."""
-    grasp = hand_like_grasp(np.random.default_rng(1))
-    angles = [0.0, 2 * np.pi / 3, 4 * np.pi / 3]
-    contacts = tuple(
-        replace(
-            grasp.contacts[0], name=f"C{i}", friction=0.5, kind=contact_kind("hard"),
-            point=frozen([0.02 * np.cos(a), 0.02 * np.sin(a), 0.0]),
-            frame=contact_frame(np.array([-np.cos(a), -np.sin(a), 0.0])),
-        )
-        for i, a in enumerate(angles)
-    )  # fmt: skip
-    G = grasp_matrix(contacts)
-    J = np.zeros((9, 3))
-    J[[0, 3, 6], range(3)] = 0.05
-    grasp = replace(
-        grasp, contacts=contacts, G=G, J=frozen(J), S=frozen(np.ones((3, 1))), C_s=frozen(1e-3 * np.eye(9)),
-        C_q=frozen(np.zeros((3, 3))), C_z=frozen([[0.0]]), joints=("a", "b", "c"), synergies=("close",),
-        lambda_0=None, w_0=frozen(np.zeros(6)),
-    )  # fmt: skip
-    times = frozen([1.0])
-    torque = JointTorque(frozen([0.2, 0.3, 0.4]))
-    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), "margin")
-    answer = referee(analyse(grasp), task)
-    assert answer.verdict == "feasible"
-    assert answer.largest_margin == pytest.approx(0.5 * 0.2 / 0.05, rel=1e-8)
-    assert answer.dz_r is not None
-    np.testing.assert_allclose(answer.dz_r, [[1e-3 * 4.0 / 0.05]], rtol=1e-7)
-
-
-def test_another_solver_judges_alike() -> None:
-    for seed in range(4):
-        grasp, task = random_task_on_grasp(np.random.default_rng(seed))
-        analysis = analyse(grasp)
-        first, other = referee(analysis, task), referee(analysis, task, "SCS")
-        assert first.verdict == other.verdict
-        if first.objective is not None and other.objective is not None:
-            assert other.objective == pytest.approx(first.objective, rel=1e-5)

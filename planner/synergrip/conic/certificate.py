@@ -16,10 +16,10 @@ from synergrip.conic.cones import distance_to_cones, project_on_dual
 from synergrip.conic.program import Program
 from synergrip.linalg import Array, frozen
 
-PRIMAL_TOLERANCE = 1e-7
+PRIMAL_TOLERANCE = 1e-8
 """Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
-DUAL_TOLERANCE = 1e-6
-GAP_TOLERANCE = 1e-6
+DUAL_TOLERANCE = 1e-7
+GAP_TOLERANCE = 1e-8
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
@@ -41,6 +41,7 @@ class Certificate:
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     """Judge the claim that x (n,) is optimal, with multipliers z (m,) of the rows."""
     if not (np.all(np.isfinite(x)) and np.all(np.isfinite(z))):
@@ -59,6 +60,7 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def judge_infeasible(program: Program, y: Array) -> Certificate:
     """Judge the claim that no x in the box satisfies the program, with the ray y (m,)."""
     if not np.all(np.isfinite(y)) or not np.any(y):

@@ -13,11 +13,12 @@ Solver = Callable[[Program, Settings], Solution]
 
 ATTEMPTS = (
     Settings(),
-    Settings(equilibrate=False),
-    Settings(tolerance=1e-8, regularisation=1e-7),
-    Settings(tolerance=1e-11, regularisation=1e-10, max_iterations=400),
+    Settings(tolerance=1e-8),
+    Settings(equilibrate=True, step=0.9),
+    Settings(equilibrate=True, regularisation=1e-10),
+    Settings(tolerance=1e-8, regularisation=1e-12, step=0.9, max_iterations=500),
 )
-"""The retry chain. The first nearly always settles it."""
+"""The retry chain. The first nearly always settles it: programs come normalised, equilibration does more harm."""
 
 
 @dataclass(frozen=True)

@@ -40,5 +40,6 @@ class Settings:
 
     tolerance: float = 1e-9
     max_iterations: int = 200
-    equilibrate: bool = True
+    equilibrate: bool = False
     regularisation: float = 1e-8
+    step: float = 0.99

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -16,13 +17,16 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import Situation, situate
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import frozen
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.limits_table import unbounded
-from synergrip.plans.outcome import Infeasible, Outcome, Unknown
+from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.question import SOLVERS, Answerer, Question, ask
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.task import Task
@@ -30,8 +34,10 @@ from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import verified_plan
 
-SLACK = 1e-7
+SLACKS = (1e-8, 1e-7)
 """How much of a best value, in force units, the next goal may give up, so that its program has an interior."""
+LOOSE = 1e-7
+"""How much the reference limits are loosened, relatively, while redundancy is settled."""
 
 
 def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
@@ -65,7 +71,7 @@ def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refus
 
 
 class _Planner:
-    """The order of the goals. Each decision made is kept, so that the outcome can show its work."""
+    """The order of the goals. Verified decisions are kept, so that the outcome can show its work."""
 
     def __init__(self, task: Task, analysis: Analysis, situation: Situation, solver: Answerer) -> None:
         self.task, self.analysis, self.situation, self.solver = task, analysis, situation, solver
@@ -76,7 +82,7 @@ class _Planner:
             return self._largest_margin()
         if self.task.goal == "peak_force":
             return self._least_peak()
-        return self._least_effort(self.task.margin, self.task.limits)
+        return self._least_effort()
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
         decision = ask(self.situation, limits, goal, self.solver)
@@ -84,57 +90,77 @@ class _Planner:
         return decision
 
     def _largest_margin(self) -> Outcome:
-        first = self._ask(self.task.limits, LargestMargin())
-        if not first.optimal:
-            if first.solution.claim is Claim.UNBOUNDED:
+        best = self._ask(self.task.limits, LargestMargin())
+        if not best.optimal:
+            if best.solution.claim is Claim.UNBOUNDED:
                 raise unbounded()
-            return self._no_optimum(first)
-        largest = float(first.solution.x[-1]) * self.situation.force_unit
-        if largest < self.task.margin - SLACK * self.situation.force_unit:
-            return self._short_of_margin(first, largest)
-        margin = min(self.task.margin, largest) if largest <= self.task.margin else largest
-        return self._least_effort(margin - SLACK * self.situation.force_unit, self.task.limits, largest, first)
+            return self._no_optimum(best)
+        largest, unit = self._scalar(best), self.situation.force_unit
+        if largest < self.task.margin - SLACKS[0] * unit:
+            return self._short_of_margin(best, largest)
+        self._least_effort_at(lambda slack: (FrictionCone(largest - slack), *self.task.limits))
+        return self._plan(largest)
 
     def _least_peak(self) -> Outcome:
-        first = self._ask((FrictionCone(self.task.margin), *self.task.limits), LeastPeak())
-        if not first.optimal:
-            return self._without_optimum(first)
-        unit = self.situation.force_unit
-        peak = NormalForce(-np.inf, (float(first.solution.x[-1]) + SLACK) * unit, "goal.minimise")
-        return self._least_effort(self.task.margin, (*self.task.limits, peak), fallback=first)
+        cones = FrictionCone(self.task.margin)
+        best = self._ask((cones, *self.task.limits), LeastPeak())
+        if not best.optimal:
+            return self._without_optimum(best)
+        peak = self._scalar(best)
+        self._least_effort_at(
+            lambda slack: (cones, *self.task.limits, NormalForce(-np.inf, peak + slack, "goal.minimise"))
+        )
+        return self._plan()
 
-    def _least_effort(
-        self, margin: float, limits: tuple[Limit, ...], largest: float | None = None, fallback: Decision | None = None
-    ) -> Outcome:
+    def _least_effort(self) -> Outcome:
         goal = LeastEffort("torque" if self.task.goal == "torque" else "contact")
-        decision = self._ask((FrictionCone(margin), *limits), goal)
-        if not decision.optimal and fallback is None:
-            return self._without_optimum(decision)
-        if not decision.optimal and fallback is not None:
-            return Unknown(self.task, self.analysis, f"{goal.name} was not verified", tuple(self.decisions))
-        decision = self._settle_redundancy(decision, (FrictionCone(margin), *limits))
+        best = self._ask((FrictionCone(self.task.margin), *self.task.limits), goal)
+        return self._plan() if best.optimal else self._without_optimum(best)
+
+    def _least_effort_at(self, limits: Callable[[float], tuple[Limit, ...]]) -> None:
+        """Among the best plans take the one of least effort; when none verifies, the best one found stays.
+
+        `limits` says how a slack [N] on the best value is written down.
+        """
+        for slack in SLACKS:
+            if self._ask(limits(slack * self.situation.force_unit), LeastEffort()).optimal:
+                return
+            self.decisions.pop()
+
+    def _plan(self, largest: float | None = None) -> Plan:
+        self._settle_redundancy(self.decisions[-1])
         return verified_plan(self.task, self.analysis, self.situation, tuple(self.decisions), largest)
 
-    def _settle_redundancy(self, decision: Decision, limits: tuple[Limit, ...]) -> Decision:
-        """With the forces fixed, use no more redundancy than the reference limits force on the plan."""
+    def _scalar(self, decision: Decision) -> float:
+        """Return the goal's scalar of a decision [N]."""
+        return float(decision.solution.x[-1]) * self.situation.force_unit
+
+    def _settle_redundancy(self, decision: Decision) -> None:
+        """With the forces fixed, use no more redundancy than the reference limits force on the plan.
+
+        Fixed forces leave a limit that they touch no room for rounding; the limits are loosened by `LOOSE`.
+        """
         v = decision.program.unknowns(decision.solution.x)
         if v.shape[1] == self.situation.n_alpha:
-            return decision
-        return self._ask(tuple(x for x in limits if not isinstance(x, FrictionCone)), LeastReconfiguration(v))
+            return
+        watching = [limit for limit in self.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
+        loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
+        if not self._ask(loosened, LeastReconfiguration(v)).optimal:
+            self.decisions.pop()  # the redundancy stays as the goal before left it, which is within all limits
 
     def _without_optimum(self, decision: Decision) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
         first = self._ask(self.task.limits, LargestMargin())
-        largest = float(first.solution.x[-1]) * self.situation.force_unit if first.optimal else None
+        largest = self._scalar(first) if first.optimal else None
         if decision.infeasible:
-            return self._infeasible(decision, decision, largest)
+            return self._infeasible(decision, largest)
         if first.optimal and largest is not None and largest < self.task.margin:
             return self._short_of_margin(first, largest)
         return self._no_optimum(first)
 
     def _no_optimum(self, decision: Decision) -> Outcome:
         if decision.infeasible:
-            return self._infeasible(decision, decision, None)
+            return self._infeasible(decision, None)
         why = f"{decision.solution.solver} says '{decision.solution.status}' and nothing verifies"
         return Unknown(self.task, self.analysis, why, tuple(self.decisions))
 
@@ -147,9 +173,9 @@ class _Planner:
         if not proof.infeasible:
             why = f"the largest margin is {largest:.9g} N, too close to the {self.task.margin:.9g} N asked to be sure"
             return Unknown(self.task, self.analysis, why, tuple(self.decisions))
-        return self._infeasible(proof, first, largest)
+        return self._infeasible(proof, largest)
 
-    def _infeasible(self, proof: Decision, decision: Decision, largest: float | None) -> Infeasible:
+    def _infeasible(self, proof: Decision, largest: float | None) -> Infeasible:
         why = "no internal force that the synergies control satisfies all limits at once"
         if largest is not None:
             asked = f"the task asks for {self.task.margin:.4g} N"

@@ -96,7 +96,7 @@ def usage_row(usage: Usage) -> tuple[str, ...]:
         limit = f"±{upper:.4g}{unit}" if lower == -upper else f"{lower:.4g} … {upper:.4g}{unit}"
     else:
         limit = f"≥ {lower:.4g}{unit}" if np.isfinite(lower) else f"≤ {upper:.4g}{unit}"
-    title = "normal force nearest a bound" if usage.title == "normal force" else usage.title
+    title = "normal force range" if usage.title == "normal force" else usage.title
     return title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
 
 

@@ -35,6 +35,7 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.max_iter = settings.max_iterations
     options.equilibrate_enable = settings.equilibrate
     options.static_regularization_constant = settings.regularisation
+    options.max_step_fraction = settings.step
     P = sparse.triu(program.P, format="csc")
     found = clarabel.DefaultSolver(
         P, np.array(program.q), program.A, np.array(program.b), _cones(program), options

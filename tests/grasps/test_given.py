@@ -1,0 +1,90 @@
+"""A grasp given as matrices becomes the same value as one that was placed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from random_grasps import random_contacts, random_grasp
+
+from synergrip.grasps.given import given
+from synergrip.grasps.grasp import Grasp, grasp_matrix
+from synergrip.grasps.matrices import ContactData, Matrices
+from synergrip.linalg import frozen
+
+KINDS = ["hard", "soft", "frictionless", "hard"]
+
+
+def _matrices(grasp: Grasp, **changes: object) -> Matrices:
+    contacts = tuple(
+        ContactData(c.name, c.kind.name, c.friction, c.spin_friction, c.point, frozen(c.frame[:, 0]))
+        for c in grasp.contacts
+    )
+    matrices = Matrices(
+        grasp.title, contacts, grasp.G, grasp.J, grasp.S, grasp.C_s, grasp.C_q, grasp.C_z, None, None, {}
+    )
+    return replace(matrices, **changes)  # type: ignore[arg-type]
+
+
+def _grasp(seed: int = 5) -> Grasp:
+    return random_grasp(np.random.default_rng(seed), kinds=KINDS)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_points_and_frames_come_back_from_the_grasp_matrix_alone(seed: int) -> None:
+    grasp = _grasp(seed)
+    bare = tuple(replace(c, point=None, normal=None) for c in _matrices(grasp).contacts)
+    found = given(_matrices(grasp, contacts=bare))
+    for original, contact in zip(grasp.contacts, found.contacts, strict=True):
+        assert contact.frame[:, 0] == pytest.approx(original.frame[:, 0], abs=1e-12)
+        if contact.kind.name == "frictionless":  # only the line of the force is in G
+            assert np.cross(contact.point - original.point, original.frame[:, 0]) == pytest.approx(0, abs=1e-12)
+        else:
+            assert contact.point == pytest.approx(original.point, abs=1e-12)
+            assert contact.frame == pytest.approx(original.frame, abs=1e-12)
+    assert grasp_matrix(found.contacts) == pytest.approx(grasp.G, abs=1e-12)
+
+
+def test_matrices_kinds_friction_and_names_are_passed_on() -> None:
+    grasp = _grasp()
+    found = given(_matrices(grasp))
+    for name in ("G", "J", "S", "C_s", "C_q", "C_z"):
+        assert np.array_equal(getattr(found, name), getattr(grasp, name)), name
+    assert [(c.name, c.kind.name, c.friction, c.spin_friction) for c in found.contacts] == [
+        (c.name, c.kind.name, c.friction, c.spin_friction) for c in grasp.contacts
+    ]
+    assert found.joints == tuple(f"q{i + 1}" for i in range(grasp.n_q))
+    assert found.synergies == tuple(f"z{i + 1}" for i in range(grasp.n_z))
+
+
+def test_a_left_handed_contact_frame_is_kept_as_it_is() -> None:
+    contact = random_contacts(np.random.default_rng(0), ["hard"])[0]
+    mirrored = replace(contact, frame=frozen(contact.frame * [1, 1, -1]))
+    grasp = random_grasp(np.random.default_rng(0), kinds=["hard"])
+    bare = (ContactData("C1", "hard", 0.5, 0.0, None, None),)
+    found = given(_matrices(grasp, contacts=bare, G=grasp_matrix([mirrored])))
+    assert found.contacts[0].frame == pytest.approx(mirrored.frame, abs=1e-12)
+    assert found.contacts[0].point == pytest.approx(mirrored.point, abs=1e-12)
+
+
+def test_a_stretched_column_still_gives_the_normal_and_a_frame_of_unit_vectors() -> None:
+    grasp = random_grasp(np.random.default_rng(1), kinds=["hard"])
+    G = grasp.G * [2.0, 1.0, 1.0]
+    bare = (ContactData("C1", "hard", 0.5, 0.0, None, None),)
+    frame = given(_matrices(grasp, contacts=bare, G=frozen(G))).contacts[0].frame
+    assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
+    assert frame[:, 0] == pytest.approx(grasp.contacts[0].frame[:, 0], abs=1e-12)
+
+
+def test_the_load_at_the_start_is_that_given_or_follows_from_the_forces_or_is_nothing() -> None:
+    grasp = _grasp()
+    forces = frozen(np.arange(grasp.n_l, dtype=float))
+    load = frozen([1.0, 2, 3, 4, 5, 6])
+    assert np.array_equal(given(_matrices(grasp)).w_0, np.zeros(6))
+    assert given(_matrices(grasp)).lambda_0 is None
+    assert np.array_equal(given(_matrices(grasp, w_0=load)).w_0, load)
+    assert given(_matrices(grasp, lambda_0=forces)).w_0 == pytest.approx(-grasp.G @ forces, abs=1e-12)
+    both = given(_matrices(grasp, lambda_0=forces, w_0=load))
+    assert np.array_equal(both.w_0, load)
+    assert both.lambda_0 is forces

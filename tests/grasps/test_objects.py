@@ -1,0 +1,108 @@
+"""Distances and normals of the shapes, against finite differences and against surfaces sampled point by point."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere
+
+SPHERE, BOX, CYLINDER = Sphere(0.03), Box((0.04, 0.06, 0.1)), Cylinder(0.02, 0.08)
+SHAPES: list[Shape] = [SPHERE, BOX, CYLINDER]
+STEP = 1e-6
+
+
+def _titled(shape: Shape) -> str:
+    return shape.title
+
+
+def _surface_points(shape: Shape) -> np.ndarray:
+    """Many points of the surface, faces, edges and corners included."""
+    share = np.linspace(-1, 1, 81)
+    if isinstance(shape, Sphere):
+        z, angle = np.meshgrid(share, np.pi * share)
+        across = np.sqrt(1 - z**2)
+        return shape.radius * np.stack([across * np.cos(angle), across * np.sin(angle), z], axis=-1).reshape(-1, 3)
+    if isinstance(shape, Box):
+        a, b = (x.ravel() for x in np.meshgrid(share, share))
+        faces = [np.insert(np.column_stack([a, b]), i, s, axis=1) for i in range(3) for s in (-1.0, 1.0)]
+        return np.vstack(faces) * np.array(shape.size) / 2
+    assert isinstance(shape, Cylinder)
+    angle, along = (x.ravel() for x in np.meshgrid(np.pi * share, share))
+    side = np.column_stack([np.cos(angle), np.sin(angle), along])
+    cap = np.column_stack([np.abs(along) * np.cos(angle), np.abs(along) * np.sin(angle), np.ones(len(angle))])
+    return np.vstack([side, cap, cap * [1, 1, -1]]) * [shape.radius, shape.radius, shape.height / 2]
+
+
+def _inside(shape: Shape, point: np.ndarray) -> bool:
+    if isinstance(shape, Sphere):
+        return float(point @ point) < shape.radius**2
+    if isinstance(shape, Box):
+        return bool(np.all(np.abs(point) < np.array(shape.size) / 2))
+    assert isinstance(shape, Cylinder)
+    return bool(np.hypot(*point[:2]) < shape.radius and abs(point[2]) < shape.height / 2)
+
+
+def _gradient(shape: Shape, point: np.ndarray) -> np.ndarray:
+    steps = STEP * np.eye(3)
+    return np.array([shape.surface(point + d)[0] - shape.surface(point - d)[0] for d in steps]) / (2 * STEP)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=_titled)
+def test_distance_is_that_of_the_nearest_point_of_the_surface(shape: Shape) -> None:
+    surface = _surface_points(shape)
+    for point in np.random.default_rng(1).uniform(-0.09, 0.09, (200, 3)):
+        distance, _ = shape.surface(point)
+        nearest = float(np.linalg.norm(surface - point, axis=1).min())
+        assert abs(distance) == pytest.approx(nearest, abs=6e-4)  # the sampled surface has gaps
+        assert (distance < 0) == _inside(shape, point)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=_titled)
+def test_normal_is_the_gradient_of_the_distance(shape: Shape) -> None:
+    checked = {"inside": 0, "outside": 0}
+    for point in np.random.default_rng(2).uniform(-0.09, 0.09, (300, 3)):
+        distance, normal = shape.surface(point)
+        assert np.linalg.norm(normal) == pytest.approx(1, abs=1e-12)
+        gradient = _gradient(shape, point)
+        if abs(np.linalg.norm(gradient) - 1) > 1e-4:
+            continue  # the step crosses a ridge, where two faces are equally near
+        assert normal == pytest.approx(gradient, abs=1e-4)
+        checked["inside" if distance < 0 else "outside"] += 1
+    assert checked["outside"] > 200
+    assert checked["inside"] >= 4
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=_titled)
+def test_stepping_back_along_the_normal_reaches_the_surface(shape: Shape) -> None:
+    for point in np.random.default_rng(3).uniform(-0.09, 0.09, (100, 3)):
+        distance, normal = shape.surface(point)
+        assert shape.surface(point - distance * normal)[0] == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("shape", "point", "distance", "normal"),
+    [
+        (SPHERE, (0, 0, 0), -0.03, (0, 0, 1)),
+        (SPHERE, (0, -0.05, 0), 0.02, (0, -1, 0)),
+        (BOX, (0.03, 0, 0), 0.01, (1, 0, 0)),
+        (BOX, (-0.019, 0.01, 0), -0.001, (-1, 0, 0)),
+        (BOX, (0.023, -0.034, 0), 0.005, (0.6, -0.8, 0)),  # beside an edge
+        (BOX, (0.022, 0.033, -0.056), 0.007, (2 / 7, 3 / 7, -6 / 7)),  # beyond a corner
+        (BOX, (0, 0, 0), -0.02, (1, 0, 0)),
+        (CYLINDER, (0, 0.03, 0.01), 0.01, (0, 1, 0)),
+        (CYLINDER, (0.001, 0, -0.045), 0.005, (0, 0, -1)),
+        (CYLINDER, (0, 0, 0.039), -0.001, (0, 0, 1)),
+        (CYLINDER, (0.0, -0.023, 0.044), 0.005, (0, -0.6, 0.8)),  # beyond the rim
+        (CYLINDER, (0, 0, 0), -0.02, (1, 0, 0)),
+        (CYLINDER, (0.02, 0, 0), 0.0, (1, 0, 0)),
+    ],
+)
+def test_known_places(shape: Shape, point: tuple[float, ...], distance: float, normal: tuple[float, ...]) -> None:
+    found, outward = shape.surface(np.array(point, dtype=float))
+    assert found == pytest.approx(distance, abs=1e-15)
+    assert outward == pytest.approx(np.array(normal), abs=1e-12)
+
+
+def test_titles_are_short_and_in_millimetres() -> None:
+    assert [shape.title for shape in SHAPES] == ["ball r 30 mm", "box 40 x 60 x 100 mm", "cylinder r 20 x 80 mm"]

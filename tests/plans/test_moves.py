@@ -1,0 +1,116 @@
+"""Courses in time, moves of the object and turns of gravity, against what they are by definition."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from synergrip.errors import InputError
+from synergrip.plans.moves import PROFILES, moved, profile, turned
+from synergrip.plans.task_file import MoveTable, PalmTable
+
+TIMES = np.linspace(0.0, 2.0, 401)
+
+
+def _palm(**keys: Any) -> PalmTable:
+    return PalmTable.model_validate(keys)
+
+
+def _moves(*tables: dict[str, Any]) -> tuple[MoveTable, ...]:
+    return tuple(MoveTable.model_validate(table) for table in tables)
+
+
+@pytest.mark.parametrize("name", list(PROFILES))
+def test_every_profile_runs_from_0_to_1_and_never_back(name: str) -> None:
+    course = profile(name, TIMES)
+    assert course[0] == 0
+    assert course[-1] == pytest.approx(1, abs=1e-14)
+    assert course[200] == pytest.approx(0.5, abs=1e-14)  # halfway in half the time
+    assert np.all(np.diff(course) > 0)
+
+
+@pytest.mark.parametrize(("name", "order"), [("cubic", 1), ("min-jerk", 2)])
+def test_smooth_profiles_begin_and_end_at_rest(name: str, order: int) -> None:
+    """The course near an end grows with a higher power of time than its derivatives that vanish there."""
+    for step in (1e-2, 1e-3):
+        course = profile(name, np.array([0.0, step, 2 * step, 1 - 2 * step, 1 - step, 1.0]))
+        start, end = course[:3], 1 - course[:2:-1]
+        for values in (start, end):
+            for k in range(1, order + 1):
+                derivative = np.diff(values[: k + 1], n=k)[0] / step**k
+                assert abs(derivative) < 60 * step  # goes to zero with the step
+    linear = profile("linear", np.array([0.0, 1e-3, 1.0]))
+    assert linear[1] / 1e-3 == pytest.approx(1)
+
+
+@pytest.mark.parametrize("name", list(PROFILES))
+def test_a_profile_depends_on_the_share_of_the_time_that_has_passed(name: str) -> None:
+    assert profile(name, 3.0 + 0.5 * TIMES) == pytest.approx(profile(name, TIMES), abs=1e-12)
+    assert profile(name, np.array([0.7])) == pytest.approx([1.0])
+
+
+def test_min_jerk_is_the_default() -> None:
+    default = moved(_moves({"axis": "x", "lift": "1 m"}), TIMES).values
+    assert default[:, 0] == pytest.approx(profile("min-jerk", TIMES))
+
+
+@pytest.mark.parametrize("name", list(PROFILES))
+def test_gravity_turns_the_other_way_than_the_palm(name: str) -> None:
+    axis, gravity = np.array([1.0, -2.0, 0.5]), np.array([1.0, 2.0, -9.0])
+    found = turned(gravity, _palm(axis=axis.tolist(), turn="130 deg", profile=name), TIMES)
+    unit = axis / np.linalg.norm(axis)
+    for share, value in zip(profile(name, TIMES), found, strict=True):
+        palm_in_world = Rotation.from_rotvec(np.radians(130) * share * unit)
+        assert value == pytest.approx(palm_in_world.inv().apply(gravity), abs=1e-12)
+
+
+def test_a_palm_that_turns_over_hangs_the_object_from_the_fingers() -> None:
+    found = turned(np.array([0, 0, -9.81]), _palm(axis="x", turn="180 deg"), np.array([0.0, 1.0, 2.0]))
+    assert found == pytest.approx(np.array([[0, 0, -9.81], [0, -9.81, 0], [0, 0, 9.81]]), abs=1e-12)
+
+
+def test_without_a_palm_gravity_stays() -> None:
+    assert np.array_equal(turned(np.array([0, 0, -9.81]), None, TIMES), np.tile([0, 0, -9.81], (len(TIMES), 1)))
+
+
+def test_moves_along_axes_add_up() -> None:
+    wanted = moved(
+        _moves(
+            {"axis": "z", "lift": "10 mm", "profile": "linear"},
+            {"axis": [0, 3, 4], "lift": "5 mm", "roll": "90 deg", "profile": "cubic"},
+        ),
+        TIMES,
+    )
+    assert (wanted.kind, wanted.key) == ("motion", "task.move")
+    linear, cubic = profile("linear", TIMES), profile("cubic", TIMES)
+    expected = np.outer(linear, [0, 0, 0.01, 0, 0, 0])
+    expected += np.outer(cubic, [0, 0.003, 0.004, 0, 0.6 * np.pi / 2, 0.8 * np.pi / 2])
+    assert wanted.values == pytest.approx(expected, abs=1e-15)
+
+
+def test_moves_along_modes_fill_their_columns_and_add_up() -> None:
+    wanted = moved(
+        _moves(
+            {"mode": 3, "amplitude": "2 mm", "profile": "linear"},
+            {"mode": 1, "amplitude": "-1 mm", "profile": "cubic"},
+            {"mode": 3, "amplitude": "1 mm", "profile": "linear"},
+        ),
+        TIMES,
+    )
+    assert (wanted.kind, wanted.key) == ("mode moves", "task.move")
+    expected = np.column_stack(
+        [-0.001 * profile("cubic", TIMES), np.zeros(len(TIMES)), 0.003 * profile("linear", TIMES)]
+    )
+    assert wanted.values == pytest.approx(expected, abs=1e-15)
+
+
+@pytest.mark.parametrize("turned_round", [False, True])
+def test_moves_along_axes_and_modes_do_not_mix(turned_round: bool) -> None:
+    moves = _moves({"axis": "z", "lift": "1 mm"}, {"mode": 1, "amplitude": "1 mm"})
+    with pytest.raises(InputError) as caught:
+        moved(moves[::-1] if turned_round else moves, TIMES)
+    assert caught.value.issues[0].key == "task.move"
+    assert "cannot be mixed" in caught.value.issues[0].message
