@@ -42,7 +42,9 @@ def _csv(folder: Path, name: str, header: str, times: list[float], slope: float 
         ({"gravity": [0, 0, -9.81], "palm": {"axis": "x", "turn": "1 rad"}}, MOVING_KNOTS, 1.0),
     ],
 )
-def test_knots_are_evenly_spaced_over_the_duration(keys: dict[str, Any], knots: int, end: float, tmp_path: Path) -> None:
+def test_knots_are_evenly_spaced_over_the_duration(
+    keys: dict[str, Any], knots: int, end: float, tmp_path: Path
+) -> None:
     times = _loads(tmp_path, mass=0.2, **keys).times
     assert times == pytest.approx(np.linspace(0, end, knots), abs=1e-15)
     assert not times.flags.writeable

@@ -35,7 +35,7 @@ from synergrip.plans.task import Task, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
 
-SHARP = Settings(tolerance=1e-11)
+SHARP = Settings(tolerance=1e-10)
 """A gap of 1e-9 leaves an error of about 3e-5 in the forces themselves."""
 REDUNDANT = (89, 130, 146, 213, 296)
 """Seeds whose reference limits force the plan to use its redundancy."""

@@ -111,13 +111,15 @@ GOALS: Mapping[str, Goal] = {
 def _wanted(analysis: Analysis, task: Task) -> Array | None:
     """Return beta (T, dim Gamma_ucs), or None when the wanted motion is no motion of Gamma_ucs."""
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
-    if task.wanted.kind != "motion":
-        return task.wanted.values if task.wanted.kind == "modes" else np.zeros((len(task.times), basis.shape[1]))
+    if task.wanted.kind != "motion":  # beta itself; columns that are not there stand for zero
+        beta = np.zeros((len(task.times), basis.shape[1]))
+        beta[:, : task.wanted.values.shape[1]] = task.wanted.values
+        return beta
     wish = scale.twist(task.wanted.values)
-    beta = np.linalg.lstsq(scale.motion @ basis, wish.T, rcond=None)[0].T
+    beta = np.asarray(np.linalg.lstsq(scale.motion @ basis, wish.T, rcond=None)[0].T)
     outside = np.linalg.norm(wish - scale.twist(beta @ basis.T), axis=1).max(initial=0.0)
     allowed = max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance)
-    return np.asarray(beta) if outside <= allowed else None
+    return beta if outside <= allowed else None
 
 
 def _force_unit(analysis: Analysis, task: Task) -> float:
@@ -214,6 +216,7 @@ def _options(settings: Settings) -> Mapping[str, float]:
         "max_iter": settings.max_iterations,
         "equilibrate_enable": settings.equilibrate,
         "static_regularization_constant": settings.regularisation,
+        "max_step_fraction": settings.step,
     }
 
 

@@ -1,0 +1,157 @@
+"""Every limit says the same twice: as rows of the program and, in physical terms, about a motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from random_grasps import random_grasp
+
+from synergrip.conic.build import build
+from synergrip.conic.cones import distance_to_cones
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.conic.situation import Situation, Units, situate
+from synergrip.linalg import frozen
+from synergrip.plans.analysis import analyse
+from synergrip.statics.motion import Motion, forward
+
+KNOTS = 4
+LIMITS = {
+    "friction": lambda g: FrictionCone(0.7),
+    "normal": lambda g: NormalForce(0.5, 3.0),
+    "normal, no upper": lambda g: NormalForce(0.5, np.inf),
+    "torque": lambda g: JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),
+    "torque, some free": lambda g: JointTorque(frozen([np.inf, np.inf, 0.1, *[np.inf] * (g.n_q - 3)])),
+    "effort": lambda g: ActuatorEffort(frozen(np.linspace(0.1, 0.6, g.n_z))),
+    "reference": lambda g: SynergyReference(frozen(np.linspace(0.01, 0.05, g.n_z))),
+    "rate": lambda g: SynergyRate(frozen(np.linspace(0.02, 0.1, g.n_z))),
+    "rate, some free": lambda g: SynergyRate(frozen([0.05, *[np.inf] * (g.n_z - 1)])),
+}
+
+
+def random_situation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Situation]:
+    rng = np.random.default_rng(seed)
+    kinds = [["hard", "soft", "hard"], ["frictionless", "hard", "soft", "hard"]][seed % 2]
+    analysis = analyse(random_grasp(rng, kinds, degenerate=seed % 3 == 0))
+    times = np.array([0.0, 0.3, 0.5, 1.1])
+    wrench = rng.normal(size=(KNOTS, 6)) * [1, 1, 1, 0.02, 0.02, 0.02]
+    beta = 1e-3 * rng.normal(size=(KNOTS, analysis.spaces.Gamma_ucs.shape[1]))
+    situation = situate(analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=wrench,
+                        beta=beta, units=Units(1.7, 0.3), redundancy=redundancy)  # fmt: skip
+    return rng, situation
+
+
+def motion_of(situation: Situation, v: np.ndarray) -> Motion:
+    return forward(situation.response, situation.times, situation.references(v), situation.wrench)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize("seed", range(6))
+def test_rows_and_usage_agree_on_what_is_allowed(name: str, seed: int) -> None:
+    rng, situation = random_situation(seed)
+    limit = LIMITS[name](situation.response.grasp)
+    program = build(situation, [limit], LeastEffort())
+    verdicts = set()
+    for size in np.geomspace(1e-3, 10, 30):
+        v = size * rng.normal(size=(KNOTS, situation.n_v))
+        outside = distance_to_cones(program, program.b - program.A @ v.ravel())
+        excess = limit.usage(situation, motion_of(situation, v)).excess.max()
+        assert (outside > 0) == (excess > 0)
+        verdicts.add(bool(excess > 0))
+    assert True in verdicts  # the limit bites
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_distance_is_the_excess_in_the_limits_own_units(seed: int) -> None:
+    rng, situation = random_situation(seed)
+    v = rng.normal(size=(KNOTS, situation.n_v))
+    grasp, motion = situation.response.grasp, motion_of(situation, v)
+    units = {
+        "friction": np.full(grasp.n_c, situation.force_unit), "normal": np.full(grasp.n_c, situation.force_unit),
+        "torque": np.linspace(0.05, 0.3, grasp.n_q), "effort": np.linspace(0.1, 0.6, grasp.n_z),
+        "reference": np.linspace(0.01, 0.05, grasp.n_z),
+    }  # fmt: skip
+    for name, unit in units.items():
+        limit = LIMITS[name](grasp)
+        program = build(situation, [limit], LeastEffort())
+        excess = float((limit.usage(situation, motion).excess / unit).max())
+        assert distance_to_cones(program, program.b - program.A @ v.ravel()) == pytest.approx(max(excess, 0), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_objectives_are_what_their_names_say(seed: int) -> None:
+    rng, situation = random_situation(seed)
+    grasp, scale = situation.response.grasp, situation.response.scale
+    v, u = rng.normal(size=(2, KNOTS, situation.n_v))
+    one, two = motion_of(situation, v), motion_of(situation, u)
+    efforts = {
+        LeastEffort(): lambda m: ((m.forces * scale.force / situation.force_unit) ** 2).sum() / 2,
+        LeastEffort("torque"): lambda m: ((m.torques / (situation.force_unit * scale.length)) ** 2).sum() / 2,
+    }
+    for goal, effort in efforts.items():
+        program = build(situation, [], goal)
+        difference = program.objective(v.ravel()) - program.objective(u.ravel())  # the constant part drops out
+        assert difference == pytest.approx(effort(one) - effort(two), rel=1e-9)
+    normal = one.forces[:, [rows.start for rows in grasp.rows]]
+    margins = LIMITS["friction"](grasp).usage(situation, one).value
+    for goal, best in ((LeastPeak(), normal.max()), (LargestMargin(), margins.min())):
+        program = build(situation, [], goal)
+        sign = 1 if isinstance(goal, LeastPeak) else -1
+        for nudge, inside in ((1e-6, True), (-1e-6, False)):
+            x = np.append(v.ravel(), best / situation.force_unit + sign * nudge)
+            assert (distance_to_cones(program, program.b - program.A @ x) <= 0) is inside
+        assert program.objective(np.append(v.ravel(), 2.5)) == sign * 2.5
+
+
+def test_the_last_goal_holds_the_forces_and_prices_redundancy_only() -> None:
+    rng, situation = random_situation(0)
+    v = rng.normal(size=(KNOTS, situation.n_v))
+    assert situation.n_v > situation.n_alpha
+    program = build(situation, [], LeastReconfiguration(v))
+    assert distance_to_cones(program, program.b - program.A @ v.ravel()) < 1e-15
+    moved = v.copy()
+    moved[:, : situation.n_alpha] += 0.1
+    assert distance_to_cones(program, program.b - program.A @ moved.ravel()) == pytest.approx(0.1)
+    assert program.objective(v.ravel()) == pytest.approx((v[:, situation.n_alpha :] ** 2).sum() / 2)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", ["torque", "effort", "reference", "normal"])
+def test_the_box_contains_everything_the_limits_allow(seed: int, name: str) -> None:
+    """Push each unknown as far as the limits let it: it stays within the box that the program claims."""
+    from synergrip.conic.solution import Claim, Settings
+    from synergrip.conic.solvers import clarabel_
+
+    rng, situation = random_situation(seed)
+    grasp = situation.response.grasp
+    limits = [LIMITS[name](grasp)] + ([FrictionCone(0.0)] if name == "normal" else [])
+    program = build(situation, limits, LeastEffort())
+    for column in rng.permutation(len(program.q))[:4]:
+        for sign in (1, -1):
+            q = np.zeros(len(program.q))
+            q[column] = sign
+            pushed = type(program)(0 * program.P, frozen(q), program.A, program.b, program.blocks, program.knots,
+                                   program.n_v, program.box)  # fmt: skip
+            solution = clarabel_.solve(pushed, Settings())
+            if solution.claim is Claim.OPTIMAL:
+                assert abs(solution.x[column]) <= program.box[column] * (1 + 1e-6)
+            elif solution.claim is Claim.UNBOUNDED:
+                assert program.box[column] == 1e6
+
+
+def test_a_coupled_limit_leaves_the_first_knot_free() -> None:
+    _, situation = random_situation(2)
+    limit = LIMITS["rate"](situation.response.grasp)
+    block = build(situation, [limit], LeastEffort()).blocks[0]
+    assert (block.first_knot, block.knots) == (1, KNOTS - 1)
+    assert limit.usage(situation, motion_of(situation, np.ones((KNOTS, situation.n_v)))).value[0].tolist() == [
+        0.0
+    ] * len(situation.response.grasp.synergies)
