@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
-from synergrip.documents import Document
-from synergrip.errors import InputError, SynergripError, one_of
+from synergrip.documents import Document, parse, read_document
+from synergrip.errors import InputError, Issue, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.given import given
 from synergrip.grasps.grasp import Grasp
@@ -17,9 +18,11 @@ from synergrip.grasps.matrices import read_matrices
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.plans.limits_table import HandLimits, limits_of
-from synergrip.plans.loads import loads
+from synergrip.plans.loads import Loads, loads
 from synergrip.plans.problem_file import ProblemFile, read_problem_file
 from synergrip.plans.task import Task
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -69,48 +72,84 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     """Read a problem, with ``KEY=VALUE`` texts put over the file.
 
     Args:
-        name_or_path: path of a problem file, or the name of a bundled one.
+        name_or_path: path of a problem file or of a grasp given as matrices, or the name of a bundled problem.
         overrides: such as ``limits.margin=0.3 N``.
 
     Raises:
         InputError: everything that is wrong with the file, each with its place.
     """
     path = find_problem(str(name_or_path))
-    file, document = read_problem_file(path, overrides)
+    file, document = _read(path, overrides)
+    issues: list[Issue] = []
+    touching = _gather(issues, lambda: _touching(path, file))
+    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file)))
+    _gather(issues, lambda: _supported(file))
+    if touching is None or happening is None or issues:
+        if touching is not None:
+            _gather(issues, lambda: limits_of(file, touching.grasp, touching.limits))
+        raise InputError([document.locate(issue) for issue in issues])
     try:
-        return _problem(path, file, document)
+        task = _task(file, touching, happening)
     except InputError as error:
         raise error.located(document.locate) from None
+    grasp = touching.grasp
+    if touching.thing is not None and happening.wrench is not None:
+        grasp = replace(grasp, w_0=frozen(happening.wrench[0]))  # a hand holds its load when the task begins
+    return Problem(path.stem, path, file, document, grasp, task, touching.hand_title, touching.thing)
 
 
-def _problem(path: Path, file: ProblemFile, document: Document) -> Problem:
-    mass = (file.object.mass or 0.0) if file.object else 0.0
-    hand_limits = HandLimits()
-    hand_title, thing = "", None
+@dataclass(frozen=True)
+class _Touching:
+    """What touches what, and what the hand says of its limits."""
+
+    grasp: Grasp
+    thing: Object | None
+    hand_title: str
+    limits: HandLimits
+
+
+def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
+    """Read a problem file; a bare grasp file stands for the problem of holding it."""
+    if path.suffix == ".json":
+        document = read_document(path, "problem file")
+        if {"G", "J", "S"} & document.data.keys():
+            bare = Document(path, {"schema": 1, "grasp": {"file": path.name}}).with_overrides(overrides)
+            return parse(bare, ProblemFile), bare
+    return read_problem_file(path, overrides)
+
+
+def _gather(issues: list[Issue], part: Callable[[], T]) -> T | None:
+    """Return what a part of the loading gives; keep its issues instead when it is refused."""
+    try:
+        return part()
+    except InputError as error:
+        issues += error.issues
+        return None
+
+
+def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
-        grasp = given(read_matrices(path.parent / file.grasp.file, "grasp.file"))
-    else:
-        from synergrip.plans.setup import hand_grasp
+        return _Touching(given(read_matrices(path.parent / file.grasp.file, "grasp.file")), None, "", HandLimits())
+    from synergrip.plans.setup import hand_grasp
 
-        grasp, thing, hand_title, hand_limits = hand_grasp(file, path.parent)
-    happening = loads(file.task, path.parent, mass)
-    wrench = happening.wrench
-    if file.grasp is None and wrench is not None:
-        grasp = replace(grasp, w_0=frozen(wrench[0]))  # the grasp holds its load when the task begins
+    return _Touching(*hand_grasp(file, path.parent))
+
+
+def _mass(file: ProblemFile) -> float:
+    return (file.object.mass or 0.0) if file.object else 0.0
+
+
+def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> Task:
+    times, wrench = happening.times, happening.wrench
     if wrench is None:
-        wrench = frozen(np.tile(grasp.w_0, (len(happening.times), 1)))
-    task = Task(
-        happening.times, wrench, happening.wanted, file.limits.margin,
-        limits_of(file, grasp, hand_limits), file.goal.name, file.task.tolerance or 0.0,
-    )  # fmt: skip
-    _supported(file)
-    return Problem(path.stem, path, file, document, grasp, task, hand_title, thing)
+        wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
+    limits = limits_of(file, touching.grasp, touching.limits)
+    return Task(times, wrench, happening.wanted, file.limits.margin, limits, file.goal.name, file.task.tolerance or 0.0)
 
 
 def _supported(file: ProblemFile) -> None:
     if file.task.tracking == "compliant":
-        message = "compliant tracking is not there yet; use tracking = \"rigid\""  # fmt: skip
-        raise InputError.at("task.tracking", message)
+        raise InputError.at("task.tracking", "compliant tracking is not there yet; use 'rigid'")
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:
