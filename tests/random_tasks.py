@@ -19,7 +19,8 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.plans.analysis import analyse
-from synergrip.plans.question import SOLVERS, ask
+from synergrip.plans.question import Question
+from synergrip.plans.solvers import SOLVERS, ask
 from synergrip.plans.task import GoalName, Task, Wanted, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
@@ -156,5 +157,5 @@ def _largest_margin(grasp: Grasp, task: Task) -> float | None:
         analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
         beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
     )  # fmt: skip
-    decision = ask(situation, task.limits, LargestMargin(), SOLVERS["clarabel"])
+    decision = ask(Question(situation, task.limits, LargestMargin()), SOLVERS["clarabel"])
     return float(decision.solution.x[-1]) * situation.force_unit if decision.optimal else None

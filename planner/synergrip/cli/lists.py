@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+from typing import TYPE_CHECKING
 
 from synergrip.cli.running import Format, FormatOption, answering, say, show
+
+if TYPE_CHECKING:
+    from synergrip.hands.hand import Hand
 
 
 def problems(form: FormatOption = Format.TEXT) -> None:
@@ -28,23 +32,27 @@ def hands(form: FormatOption = Format.TEXT) -> None:
     """List the bundled hands."""
     with answering(form):
         from synergrip.hands.folder import bundled_hands, load_hand
-        from synergrip.reports.tables import table
 
         loaded = [load_hand(name, relative_to=None) for name in bundled_hands()]
-        rows = [
-            (hand.name, str(len(hand.joints)),
-             ", ".join(f"{s.name} ({s.S.shape[1]})" for s in hand.synergy_sets.values()),
-             ", ".join(hand.pads), ", ".join(hand.postures), hand.title)
-            for hand in loaded
-        ]  # fmt: skip
-        keys = ("name", "joints", "synergy sets", "pads", "postures", "title")
         document = [
             {"name": hand.name, "title": hand.title, "joints": list(hand.joint_names),
              "synergy_sets": {s.name: list(s.synergies) for s in hand.synergy_sets.values()},
              "pads": list(hand.pads), "postures": list(hand.postures)}
             for hand in loaded
         ]  # fmt: skip
-        show(form, lambda: table(keys, rows), lambda: {"hands": document})
+        show(form, lambda: "\n\n".join(_text(hand) for hand in loaded), lambda: {"hands": document})
+
+
+def _text(hand: Hand) -> str:
+    """Return a hand with all the names that a problem file may use of it."""
+    sets = hand.synergy_sets.values()
+    parts = {
+        "joints": hand.joint_names,
+        "synergy sets": [s.name if s.name == "joints" else f"{s.name} ({', '.join(s.synergies)})" for s in sets],
+        "postures": hand.postures,
+        "pads": hand.pads,
+    }
+    return "\n".join([f"{hand.name}  {hand.title}", *(f"  {key:14}{', '.join(names)}" for key, names in parts.items())])
 
 
 def schema() -> None:

@@ -35,7 +35,7 @@ def plan(
         from synergrip.errors import SynergripError
         from synergrip.plans.planning import plan as make
         from synergrip.plans.problem import load_problem, located
-        from synergrip.plans.question import answerer
+        from synergrip.plans.solvers import answerer
         from synergrip.reports.json_plan import outcome_document
         from synergrip.reports.plan_files import FORMATS, write_outcome
         from synergrip.reports.text_plan import outcome_text

@@ -27,8 +27,9 @@ from synergrip.linalg import frozen
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.limits_table import unbounded
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
-from synergrip.plans.question import SOLVERS, Answerer, Question, ask
+from synergrip.plans.question import Question
 from synergrip.plans.refusals import refusal_certificate
+from synergrip.plans.solvers import SOLVERS, Answerer, ask
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
@@ -85,7 +86,7 @@ class _Planner:
         return self._least_effort()
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
-        decision = ask(self.situation, limits, goal, self.solver)
+        decision = ask(Question(self.situation, limits, goal), self.solver)
         self.decisions.append(decision)
         return decision
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
-from synergrip.linalg import RANK_TOLERANCE, Array, frozen
+from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.statics.theorem1 import motion_coordinates
@@ -35,20 +35,28 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
             )
             raise InputError.at(task.wanted.key, message)
         return frozen(np.pad(values, ((0, 0), (0, dimension - asked))))
-    _count(analysis, values)
+    wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
+    allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
+    _count(analysis, values, allowed)
     beta, outside = motion_coordinates(analysis.response, analysis.spaces, values)
     sizes = np.linalg.norm(analysis.response.scale.twist(outside), axis=1)
-    wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
-    if sizes.max(initial=0.0) > max(RIGID_TOLERANCE * wish, task.tolerance):
+    if sizes.max(initial=0.0) > allowed:
         raise _direction(analysis, task, outside, sizes)
     return frozen(beta)
 
 
-def _count(analysis: Analysis, values: Array) -> None:
-    """Refuse a motion with more independent directions than the hand has synergies (Remark 3)."""
+def _count(analysis: Analysis, values: Array, allowed: float) -> None:
+    """Refuse a motion with more independent directions than the hand has synergies (Remark 3).
+
+    Directions are counted until what is left of the motion is within `allowed` [m] at every knot.
+    """
     scale, n_z = analysis.response.scale, analysis.grasp.n_z
-    _, sizes, directions = np.linalg.svd(scale.twist(values), full_matrices=False)
-    asked = int(np.sum(sizes > RANK_TOLERANCE * max(float(sizes[0]), 1e-300))) if len(sizes) else 0
+    left = scale.twist(values)
+    directions = np.linalg.svd(left, full_matrices=True)[2]
+    asked = 0
+    while asked < 6 and np.linalg.norm(left, axis=1).max(initial=0.0) > allowed:
+        left = left - np.outer(left @ directions[asked], directions[asked])
+        asked += 1
     if asked > n_z:
         message = (
             f"the task asks for {asked} independent object motions, the hand has n_z = {n_z} "

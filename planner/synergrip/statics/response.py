@@ -61,6 +61,10 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     right_inverse = K @ G.T @ du_dw
     du_dzr = right_inverse.T @ JS
     dlambda_dzr = K @ (JS - G.T @ du_dzr)
+    # with K ill-conditioned the two lose digits of what they are by definition: G G+ = I, G d lambda = 0
+    plain = np.linalg.pinv(scaled_G / scale.force) / scale.force[:, None] @ moved.T
+    right_inverse = right_inverse + plain @ (np.eye(6) - G @ right_inverse)
+    dlambda_dzr = dlambda_dzr - plain @ (G @ dlambda_dzr)
     dtau_dzr = grasp.J.T @ dlambda_dzr
     dsigma_dzr = grasp.S.T @ dtau_dzr
     dz_dzr = np.eye(grasp.n_z) - grasp.C_z @ dsigma_dzr
