@@ -17,7 +17,7 @@ ROOMS = ["", "hands", "grasps", "statics", "conic", "plans", "reports", "cli"]
 ONLY_IN = {
     "mujoco": {"hands/kinematics.py"},
     "clarabel": {"conic/solvers/clarabel_.py"},
-    "cvxpy": {"plans/referee.py", "plans/referee_model.py", "plans/referee_formulas.py"},
+    "cvxpy": {"plans/referee/judge.py", "plans/referee/model.py", "plans/referee/formulas.py"},
     "typer": {"cli/app.py", "cli/running.py", "cli/plan.py", "cli/analyse.py", "cli/check.py"},
     "tree_sitter": {"documents.py", "positions.py"},
 }

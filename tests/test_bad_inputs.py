@@ -9,8 +9,8 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.grasps.matrices import read_matrices
-from synergrip.plans.problem_file import read_problem_file
-from synergrip.plans.tables import MODES, MOTION, WRENCH, read_table
+from synergrip.plans.reading.problem_file import read_problem_file
+from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, read_table
 from synergrip.reports.refusal_text import error_json, error_text
 
 

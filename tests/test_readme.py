@@ -8,11 +8,12 @@ import re
 import subprocess
 import sys
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from synergrip.plans.problem_file import problem_schema
+from synergrip.plans.reading.problem_file import problem_schema
 
 ROOT = Path(__file__).parent.parent
 BLOCK = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
@@ -24,11 +25,11 @@ VOLATILE = re.compile(r"\d+(\.\d+)?e[-+]\d+|\d+ iterations|[\d.]+ ms|Clarabel [\
 
 def following(language: str) -> list[tuple[str, str]]:
     """Blocks of a language, each with the text block right after it."""
-    pairs = zip(BLOCKS, BLOCKS[1:], strict=False)
+    pairs = pairwise(BLOCKS)
     return [(code, shown) for (kind, code), (after, shown) in pairs if kind == language and after == "text"]
 
 
-@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=lambda text: text.split()[-1][:30])
+@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=["plan", "no", "analyse"])
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
     arguments = code.split(".venv/bin/synergrip ")[-1].split()
     run = subprocess.run(
@@ -53,7 +54,12 @@ def test_every_block_is_run() -> None:
 
 
 def test_links_lead_somewhere() -> None:
-    for page in (ROOT / "README.md", *ROOT.glob("docs/*.md"), ROOT / "problems" / "README.md", ROOT / "CONTRIBUTING.md"):
+    for page in (
+        ROOT / "README.md",
+        *ROOT.glob("docs/*.md"),
+        ROOT / "problems" / "README.md",
+        ROOT / "CONTRIBUTING.md",
+    ):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
 
@@ -75,7 +81,7 @@ def test_every_key_of_a_problem_file_is_described() -> None:
 
 def test_the_examples_of_the_problem_file_are_in_order() -> None:
     from synergrip.documents import Document, parse
-    from synergrip.plans.problem_file import ProblemFile
+    from synergrip.plans.reading.problem_file import ProblemFile
 
     text = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
     examples = [code for kind, code in BLOCK.findall(text) if kind == "toml"]

@@ -124,6 +124,12 @@ class MotionDirectionError(Refusal):
         self.residual, self.time_s, self.share, self.size = residual, time_s, share, size
 
 
+class InterruptError(SynergripError):
+    """The user interrupted; what was finished is kept."""
+
+    exit_code = 130
+
+
 class SelfCheckError(SynergripError):
     """The program's own answer failed the program's own check: a defect of synergrip."""
 

@@ -15,8 +15,8 @@ from synergrip.plans.check import Judgement, judge_references
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import Problem, load_problem
+from synergrip.plans.reading.tables import Table
 from synergrip.plans.references import read_references
-from synergrip.plans.tables import Table
 from synergrip.plans.task import Wanted
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import plan_csv, write_outcome

@@ -10,7 +10,7 @@ from synergrip.errors import SelfCheckError
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import SLACKS, plan
-from synergrip.plans.referee import RefereeAnswer, referee
+from synergrip.plans.referee.judge import RefereeAnswer, referee
 
 CHUNK = 25
 CHUNKS = 12

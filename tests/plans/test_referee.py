@@ -28,10 +28,10 @@ from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.plans.planning import LOOSE, plan
 from synergrip.plans.question import Question
+from synergrip.plans.referee.judge import referee, solve
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.referee import referee, solve
 from synergrip.plans.task import Task, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
@@ -81,9 +81,11 @@ def test_certificates_verify_and_both_paths_agree(start: int) -> None:
 def test_redundancy_is_settled_alike(seed: int) -> None:
     outcome = plan(*random_task_on_grasp(np.random.default_rng(seed)))
     assert isinstance(outcome, Plan)
-    situation, task = outcome.situation, outcome.task
+    situation = outcome.situation
     goal = LeastReconfiguration(np.hstack([outcome.alpha / situation.force_unit, np.zeros_like(outcome.gamma)]))
-    question = Question(situation, task.limits, goal)
+    watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
+    loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
+    question = Question(situation, loosened, goal)
     program = question.program()
     direct, second = clarabel_.solve(program, Settings()), solve(question, program, Settings())
     assert judge(program, second).verified

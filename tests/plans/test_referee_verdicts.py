@@ -15,7 +15,7 @@ from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.planning import plan
-from synergrip.plans.referee import referee
+from synergrip.plans.referee.judge import referee
 from synergrip.plans.task import Task, Wanted, still
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
@@ -12,7 +13,7 @@ from typing import Annotated, Any
 
 import typer
 
-from synergrip.errors import InputError, SynergripError
+from synergrip.errors import InputError, InterruptError, SelfCheckError, SynergripError
 
 
 class Format(StrEnum):
@@ -34,15 +35,22 @@ ProblemArgument = Annotated[
 
 @contextmanager
 def answering(form: Format) -> Iterator[None]:
-    """Turn errors into their text or document and their exit code; an interrupt into 130."""
+    """Turn errors into their text or document and their exit code; an interrupt into 130, a defect into 4."""
     try:
         yield
     except SynergripError as error:
         _print_error(error, form)
         raise typer.Exit(error.exit_code) from None
     except KeyboardInterrupt:
-        print("interrupted; nothing was half-written", file=sys.stderr)
+        _print_error(InterruptError("interrupted; nothing was half-written"), form)
         raise typer.Exit(130) from None
+    except (typer.Exit, typer.Abort):
+        raise
+    except Exception as defect:  # must not leave with 1, which would say "proven infeasible"
+        traceback.print_exc()
+        message = f"{type(defect).__name__}: {defect}; this is a defect of synergrip, please report it with the problem"
+        _print_error(SelfCheckError(message), form)
+        raise typer.Exit(SelfCheckError.exit_code) from None
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:

@@ -10,6 +10,9 @@ from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrices import ContactData, Matrices
 from synergrip.linalg import Array, frozen
 
+AGREEMENT = 1e-6
+"""Relative difference up to which given points and frames agree with G."""
+
 
 def given(matrices: Matrices) -> Grasp:
     """Return the grasp of validated matrices. Joints and synergies are numbered, w_0 follows from lambda_0."""
@@ -18,30 +21,53 @@ def given(matrices: Matrices) -> Grasp:
         w_0 = np.asarray(matrices.w_0)
     elif matrices.lambda_0 is not None:
         w_0 = -matrices.G @ matrices.lambda_0
-    contacts, start = [], 0
-    for data in matrices.contacts:
-        kind = contact_kind(data.kind)
-        contacts.append(_contact(data, matrices.G[:, start : start + len(kind.components)]))
-        start += len(kind.components)
+    columns = _columns(matrices)
+    points = _points(matrices, columns)
+    contacts = tuple(_contact(d, c, p) for d, c, p in zip(matrices.contacts, columns, points, strict=True))
     return Grasp(
-        matrices.title, tuple(contacts), matrices.G, matrices.J, matrices.S,
+        matrices.title, contacts, matrices.G, matrices.J, matrices.S,
         matrices.C_s, matrices.C_q, matrices.C_z, matrices.lambda_0, frozen(w_0),
         tuple(f"q{i + 1}" for i in range(matrices.J.shape[1])), tuple(f"z{i + 1}" for i in range(matrices.S.shape[1])),
     )  # fmt: skip
 
 
-def _contact(data: ContactData, columns: Array) -> Contact:
-    """Return a contact whose frame and point, where not given, are read from its columns of G."""
+def _columns(matrices: Matrices) -> list[Array]:
+    """Return the columns of G of each contact."""
+    widths = [len(contact_kind(data.kind).components) for data in matrices.contacts]
+    return [np.asarray(part) for part in np.split(matrices.G, np.cumsum(widths)[:-1], axis=1)]
+
+
+def _points(matrices: Matrices, columns: list[Array]) -> list[Array]:
+    """Return the contact points (3,) from B: as given, when G agrees, else the least ones that G allows.
+
+    Points may be given from another origin than B; G tells which, in the least-squares sense.
+    """
+    systems = [_moment_system(c[:, : min(c.shape[1], 3)]) for c in columns]
+    given_points = [data.point for data in matrices.contacts if data.point is not None]
+    if len(given_points) == len(columns):
+        A = np.vstack([-matrix for matrix, _ in systems])
+        b = np.concatenate([m - matrix @ p for (matrix, m), p in zip(systems, given_points, strict=True)])
+        origin = np.linalg.lstsq(A, b, rcond=None)[0]
+        size = float(np.abs([p - origin for p in given_points]).max(initial=0.0))
+        if np.abs(A @ origin - b).max(initial=0.0) <= AGREEMENT * size:
+            return [p - origin for p in given_points]
+    return [np.asarray(np.linalg.lstsq(matrix, m, rcond=None)[0]) for matrix, m in systems]
+
+
+def _moment_system(columns: Array) -> tuple[Array, Array]:
+    """Return matrix and right-hand side of ``p x f = m`` for all force columns (f, m) of a contact."""
+    blocks = [[[0.0, f[2], -f[1]], [-f[2], 0.0, f[0]], [f[1], -f[0], 0.0]] for f in columns[:3].T]
+    return np.vstack(blocks), columns[3:].T.ravel()
+
+
+def _contact(data: ContactData, columns: Array, point: Array) -> Contact:
+    """Return a contact; its frame, where not given, is read from its columns of G."""
     force = columns[:3, : min(columns.shape[1], 3)]
+    normal = np.array([0.0, 0.0, 1.0])
     if data.normal is not None:
         normal = np.asarray(data.normal)
-    else:
-        normal = force[:, 0] if np.any(force[:, 0]) else np.array([0.0, 0.0, 1.0])
-    square = force.shape[1] == 3 and np.allclose(force.T @ force, np.eye(3), atol=1e-6)
+    elif np.any(force[:, 0]):
+        normal = force[:, 0]
+    square = force.shape[1] == 3 and np.allclose(force.T @ force, np.eye(3), atol=AGREEMENT)
     frame = frozen(force) if square else contact_frame(normal)
-    f, m = columns[:3, 0], columns[3:, 0]
-    point = np.cross(f, m) / (f @ f) if np.any(f) else np.zeros(3)
-    if square:  # p x force = moment, column by column
-        moved = columns[3:, :3] @ force.T
-        point = np.array([moved[2, 1] - moved[1, 2], moved[0, 2] - moved[2, 0], moved[1, 0] - moved[0, 1]]) / 2
     return Contact(data.name, contact_kind(data.kind), data.friction, data.spin_friction, frozen(point), frame)

@@ -95,8 +95,9 @@ def _ball_centre(points: Array, radius: float, pushing: Array) -> Array:
     if rank == 3 or around > radius:
         if abs(around - radius) > REACH:
             message = (
-                f"a ball of radius {1e3 * radius:.4g} mm cannot touch all pads in this posture: the smallest one has "
-                f"radius {1e3 * around:.4g} mm; change the radius or the posture"
+                f"a ball of radius {1e3 * radius:.4g} mm cannot touch all pads in this posture: "
+                f"{'the one through them' if rank == 3 else 'the smallest one'} has radius {1e3 * around:.4g} mm; "
+                "change the radius or the posture"
             )
             raise InputError.at("object.shape.sphere.radius", message)
         return frozen(centre)

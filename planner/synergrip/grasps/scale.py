@@ -14,6 +14,9 @@ import numpy as np
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 
+SMALLEST = 1e-12
+"""A characteristic length below this is rounding [m]."""
+
 
 @dataclass(frozen=True)
 class Scale:
@@ -38,12 +41,11 @@ class Scale:
 
 
 def scale_of(grasp: Grasp) -> Scale:
-    """Return the scale of a grasp, read from G alone, so that it also serves grasps given as matrices."""
-    points = np.array([_contact_point(grasp.G[:, rows], contact.kind.components)
-                       for rows, contact in zip(grasp.rows, grasp.contacts, strict=True)])  # fmt: skip
+    """Return the scale of a grasp from its contact points."""
+    points = np.array([contact.point for contact in grasp.contacts])
     centroid = points.mean(axis=0)
     length = float(np.linalg.norm(points - centroid, axis=1).mean())
-    if not length > 0:
+    if not length > max(SMALLEST, 1e-9 * float(np.linalg.norm(centroid))):
         length = 1.0  # all contacts on one spot: no length to speak of
     motion = np.eye(6)
     x, y, z = centroid
@@ -51,10 +53,3 @@ def scale_of(grasp: Grasp) -> Scale:
     motion[3:] *= length
     force = [1.0 / length if component == "m" else 1.0 for _, component in grasp.components]
     return Scale(length, frozen(centroid), frozen(motion), frozen(force))
-
-
-def _contact_point(columns: Array, components: tuple[str, ...]) -> Array:
-    """Return the point p with ``p x f = m`` for every force column (f, m), least norm where it is free."""
-    forces = [column for column, component in zip(columns.T, components, strict=True) if component != "m"]
-    system = np.vstack([[[0.0, f[2], -f[1]], [-f[2], 0.0, f[0]], [f[1], -f[0], 0.0]] for f in forces])
-    return np.asarray(np.linalg.lstsq(system, np.concatenate([f[3:] for f in forces]), rcond=None)[0])

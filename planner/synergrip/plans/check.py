@@ -12,9 +12,9 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis, analyse
-from synergrip.plans.loads import distinct
 from synergrip.plans.outcome import Check
-from synergrip.plans.tables import Table
+from synergrip.plans.reading.loads import distinct
+from synergrip.plans.reading.tables import Table
 from synergrip.plans.task import Task, Wanted
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of

@@ -25,9 +25,9 @@ from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import Analysis, analyse
-from synergrip.plans.limits_table import unbounded
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.question import Question
+from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
 from synergrip.plans.task import Task
@@ -181,6 +181,8 @@ class _Planner:
         if largest is not None:
             asked = f"the task asks for {self.task.margin:.4g} N"
             why = f"these limits allow a slip margin of {largest:.4g} N at most; {asked}"
+            if largest < 0:
+                why = f"some contact slips whatever the forces: its friction cone is missed by {-largest:.4g} N or more"
         return Infeasible(
             self.task, self.analysis, "magnitude", why, None, proof.certificate, proof.program,
             tuple(self.decisions), largest,

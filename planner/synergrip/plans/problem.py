@@ -17,9 +17,9 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.matrices import read_matrices
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
-from synergrip.plans.limits_table import HandLimits, limits_of
-from synergrip.plans.loads import Loads, loads
-from synergrip.plans.problem_file import ProblemFile, read_problem_file
+from synergrip.plans.reading.limits_table import HandLimits, limits_of
+from synergrip.plans.reading.loads import Loads, loads
+from synergrip.plans.reading.problem_file import ProblemFile, read_problem_file
 from synergrip.plans.task import Task
 
 T = TypeVar("T")
@@ -58,7 +58,7 @@ def find_problem(name_or_path: str) -> Path:
         InputError: there is neither such a file nor a bundled problem of that name.
     """
     path = Path(name_or_path)
-    if path.suffix or path.exists():
+    if path.suffix or path.is_file():
         return path
     inside = bundled("problems") / f"{name_or_path}.toml"
     if not inside.is_file():
@@ -130,7 +130,7 @@ def _gather(issues: list[Issue], part: Callable[[], T]) -> T | None:
 def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
         return _Touching(given(read_matrices(path.parent / file.grasp.file, "grasp.file")), None, "", HandLimits())
-    from synergrip.plans.setup import hand_grasp
+    from synergrip.plans.reading.setup import hand_grasp
 
     return _Touching(*hand_grasp(file, path.parent))
 

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.documents import read_document
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.tables import REFERENCES, Table, read_table
+from synergrip.plans.reading.tables import REFERENCES, Table, read_table
 
 KEY = "PLAN"
 

@@ -11,6 +11,7 @@ from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
+from synergrip.plans.tracking import RIGID_TOLERANCE
 
 
 def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Certificate:
@@ -48,4 +49,5 @@ def _outside(task: Task, analysis: Analysis, scale: Scale, refusal: MotionDirect
     wish = scale.twist(task.wanted.values)
     reach = float(np.abs(wish @ direction).max())
     size = float(np.linalg.norm(wish, axis=1).max())
-    return Certificate("infeasible", bool(leak * size < reach), leak, 0.0, -reach / size)
+    counts = reach * (1 + RANK_TOLERANCE) > max(RIGID_TOLERANCE * size, task.tolerance)
+    return Certificate("infeasible", bool(leak <= RANK_TOLERANCE and counts), leak, 0.0, -reach / size)

@@ -19,7 +19,7 @@ def _clarabel(question: Question, program: Program, settings: Settings) -> Solut
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:
-    from synergrip.plans import referee
+    from synergrip.plans.referee import judge as referee
 
     return referee.solve(question, program, settings)
 
@@ -37,6 +37,4 @@ def answerer(name: str) -> Answerer:
 
 def ask(question: Question, solver: Answerer) -> Decision:
     """Build the program of a question, have it solved and verified."""
-    return decide(
-        question.goal.name, question.program(), lambda program, settings: solver(question, program, settings)
-    )
+    return decide(question.goal.name, question.program(), lambda program, settings: solver(question, program, settings))

@@ -30,9 +30,10 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
     if task.wanted.kind in ("modes", "mode moves"):
         asked = values.shape[1]
         if asked > dimension or (task.wanted.kind == "modes" and asked < dimension):
-            message = (
-                f"the motion is given in {asked} coordinates, but Gamma_ucs of this grasp has dimension {dimension}"
+            what = (
+                f"mode {asked} is asked for" if task.wanted.kind == "mode moves" else f"{asked} columns of beta given"
             )
+            message = f"{what}, but Gamma_ucs of this grasp has dimension {dimension}"
             raise InputError.at(task.wanted.key, message)
         return frozen(np.pad(values, ((0, 0), (0, dimension - asked))))
     wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))

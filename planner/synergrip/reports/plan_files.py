@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from synergrip.files import atomic_path, write_text
+from synergrip.files import atomic_path
 from synergrip.plans.outcome import Outcome, Plan
 
 FORMATS = ("json", "npz", "csv")
@@ -21,17 +23,16 @@ def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, form
     An outcome without a plan has only a document. Files of an earlier run that are not written anew are removed,
     so that the folder never holds the answer to another question.
     """
-    written = []
-    if "json" in formats:
-        write_text(folder / "plan.json", to_json(document) + "\n")
-        written.append("plan.json")
+    writers: dict[str, Callable[[Path], object]] = {
+        "json": lambda path: path.write_text(to_json(document) + "\n", encoding="utf-8")
+    }
     if isinstance(outcome, Plan):
-        if "csv" in formats:
-            write_text(folder / "plan.csv", plan_csv(outcome))
-            written.append("plan.csv")
-        if "npz" in formats:
-            _write_npz(folder / "plan.npz", outcome)
-            written.append("plan.npz")
+        writers["csv"] = lambda path: path.write_text(plan_csv(outcome), encoding="utf-8")
+        writers["npz"] = lambda path: _write_npz(path, outcome)
+    written = [f"plan.{suffix}" for suffix in writers if suffix in formats]
+    with ExitStack() as all_or_none:  # every file is complete before the first one takes its place
+        for name in written:
+            writers[name.removeprefix("plan.")](all_or_none.enter_context(atomic_path(folder / name)))
     for name in {f"plan.{suffix}" for suffix in FORMATS} - set(written):
         (folder / name).unlink(missing_ok=True)
     return written
@@ -66,5 +67,5 @@ def _write_npz(path: Path, plan: Plan) -> None:
         "joints": np.array(grasp.joints), "synergies": np.array(grasp.synergies),
         "contacts": np.array([contact.name for contact in grasp.contacts]),
     }  # fmt: skip
-    with atomic_path(path) as temporary, temporary.open("wb") as stream:
+    with path.open("wb") as stream:
         np.savez(stream, allow_pickle=False, **arrays)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 
 
@@ -15,3 +16,8 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[
         return "  ".join(cell.rjust(w) if i in right else cell.ljust(w) for i, (cell, w) in cells).rstrip()
 
     return "\n".join(padded(line) for line in lines)
+
+
+def wrapped(label: str, text: str, width: int = 110) -> list[str]:
+    """Return the text in lines of at most `width`, the first after the label, the others below the text."""
+    return textwrap.wrap(text, width, initial_indent=label, subsequent_indent=" " * len(label))

@@ -13,7 +13,7 @@ from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
-from synergrip.reports.tables import table
+from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
@@ -126,7 +126,7 @@ def refused_lines(word: str, stage: str, why: str) -> Iterator[str]:
         "direction": "the synergies cannot produce this motion", "magnitude": "the forces do not suffice",
     }  # fmt: skip
     yield f"{word}  {names.get(stage, stage)} (stage: {stage})"
-    yield f"Why      {why}"
+    yield from wrapped("Why      ", why)
 
 
 def _rounded_down(value: float) -> float:

@@ -104,7 +104,6 @@ def _rigid(grasp: Grasp, row: int) -> RigidContactError:
     contact, component = grasp.components[row]
     message = (
         f"the force component {component} of contact {contact} has no compliance: contact, joints and synergies are "
-        "all rigid in that direction, so the force along it is undetermined (hyperstatic); give C_s (the contact "
-        "stiffness) a positive value there"
+        "all rigid in that direction, so the force along it is undetermined (hyperstatic); let the contact yield there"
     )
     return RigidContactError([Issue(message, key="C_s")], contact, component)

@@ -22,7 +22,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
-from synergrip.plans.referee_model import Cone, Expression, Model
+from synergrip.plans.referee.model import Cone, Expression, Model
 
 
 class NotWrittenError(SynergripError, TypeError):

@@ -9,10 +9,10 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.moves import moved, turned
-from synergrip.plans.tables import MODES, MOTION, WRENCH, Table, read_table
+from synergrip.plans.reading.moves import moved, turned
+from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, Table, read_table
+from synergrip.plans.reading.task_file import TaskTable
 from synergrip.plans.task import Wanted, still
-from synergrip.plans.task_file import TaskTable
 
 MOVING_KNOTS = 41
 """Knots of a task that moves or turns and does not say how many."""

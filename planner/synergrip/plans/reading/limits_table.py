@@ -15,7 +15,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
-from synergrip.plans.problem_file import ProblemFile
+from synergrip.plans.reading.problem_file import ProblemFile
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference")
 """Limits each of which alone bounds the largest margin."""
@@ -75,6 +75,6 @@ def _each(
         return frozen(of_hand)
     if isinstance(value, tuple) and len(value) != len(names):
         plural = {"joint": "joints", "synergy": "synergies"}[what]
-        message = f"{len(value)} numbers for {len(names)} {plural} ({', '.join(names)})"
+        message = f"expected {len(names)} numbers, one for each of the {plural} {', '.join(names)}; got {len(value)}"
         raise InputError.at(f"limits.{key}", message)
     return frozen(np.broadcast_to(np.asarray(value, dtype=float), (len(names),)))

@@ -15,10 +15,10 @@ from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand
 from synergrip.hands.synergies import posture, select
 from synergrip.linalg import Array, frozen
-from synergrip.plans.contact_list import ContactSpec
-from synergrip.plans.limits_table import HandLimits
-from synergrip.plans.problem_file import ProblemFile
-from synergrip.plans.setup_file import ObjectTable, ShapeTable
+from synergrip.plans.reading.contact_list import ContactSpec
+from synergrip.plans.reading.limits_table import HandLimits
+from synergrip.plans.reading.problem_file import ProblemFile
+from synergrip.plans.reading.setup_file import ObjectTable, ShapeTable
 
 
 def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, HandLimits]:

@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
-from synergrip.plans.moves import PROFILES, moved, profile, turned
-from synergrip.plans.task_file import MoveTable, PalmTable
+from synergrip.plans.reading.moves import PROFILES, moved, profile, turned
+from synergrip.plans.reading.task_file import MoveTable, PalmTable
 
 TIMES = np.linspace(0.0, 2.0, 401)
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.tables import MODES, MOTION, REFERENCES, WRENCH, read_table
+from synergrip.plans.reading.tables import MODES, MOTION, REFERENCES, WRENCH, read_table
 
 HEADER = "t_s," + ",".join(WRENCH) + "\n"
 

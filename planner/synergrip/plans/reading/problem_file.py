@@ -11,10 +11,10 @@ from pydantic import Field
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue
 from synergrip.fields import Schema, Table, Version
-from synergrip.plans.contact_list import ContactSpec, contact_list
-from synergrip.plans.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
-from synergrip.plans.setup_file import ContactEntry, ContactsTable, GraspTable, HandTable, ObjectTable
-from synergrip.plans.task_file import TaskTable
+from synergrip.plans.reading.contact_list import ContactSpec, contact_list
+from synergrip.plans.reading.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
+from synergrip.plans.reading.setup_file import ContactEntry, ContactsTable, GraspTable, HandTable, ObjectTable
+from synergrip.plans.reading.task_file import TaskTable
 
 
 class ProblemFile(Table):

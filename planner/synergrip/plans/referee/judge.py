@@ -23,8 +23,8 @@ from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.question import Question
-from synergrip.plans.referee_formulas import Wish, friction, write_goal, write_limit
-from synergrip.plans.referee_model import Model, Posed, pose, pose_relaxed, write_model
+from synergrip.plans.referee.formulas import Wish, friction, write_goal, write_limit
+from synergrip.plans.referee.model import Model, Posed, pose, pose_relaxed, write_model
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
 

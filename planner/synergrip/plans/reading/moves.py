@@ -9,8 +9,8 @@ from numpy.polynomial import Polynomial
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.task_file import MoveTable, PalmTable
 from synergrip.plans.task import Wanted
-from synergrip.plans.task_file import MoveTable, PalmTable
 
 PROFILES = {
     "linear": Polynomial([0, 1]),

@@ -1,0 +1,1 @@
+"""The second formulation, written in CVXPY independently of the program's rows: the referee."""
