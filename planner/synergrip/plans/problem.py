@@ -12,9 +12,7 @@ import numpy as np
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, SynergripError, one_of
 from synergrip.files import bundled
-from synergrip.grasps.given import given
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.matrices import read_matrices
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.plans.reading.limits_table import HandLimits, limits_of
@@ -129,6 +127,9 @@ def _gather(issues: list[Issue], part: Callable[[], T]) -> T | None:
 
 def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
+        from synergrip.grasps.given import given
+        from synergrip.grasps.matrices import read_matrices
+
         return _Touching(given(read_matrices(path.parent / file.grasp.file, "grasp.file")), None, "", HandLimits())
     from synergrip.plans.reading.setup import hand_grasp
 

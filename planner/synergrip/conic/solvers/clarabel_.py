@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -42,7 +41,7 @@ def solve(program: Program, settings: Settings) -> Solution:
     ).solve()
     status = str(found.status)
     return Solution(
-        CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {_version()}", status,
+        CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,
         int(found.iterations), float(found.solve_time),
     )  # fmt: skip
 
@@ -59,10 +58,3 @@ def _cones(program: Program) -> list[Any]:
                 {Kind.ZERO: clarabel.ZeroConeT, Kind.NONNEGATIVE: clarabel.NonnegativeConeT}[block.kind](block.rows)
             )
     return cones
-
-
-@lru_cache(maxsize=1)
-def _version() -> str:
-    from importlib.metadata import version
-
-    return version("clarabel")
