@@ -33,7 +33,7 @@ def main() -> None:
         pairs = [(cpu_seconds(*plan), cpu_seconds(*libraries)) for _ in range(runs + 1)][1:]  # the first one warms up
     ratios = sorted(a / b for a, b in pairs)
     whole, imports = (statistics.median(times) for times in zip(*pairs, strict=True))
-    print(f"plan / imports: median {statistics.median(ratios):.2f}, from {ratios[0]:.2f} to {ratios[-1]:.2f}, {runs} runs")
+    print(f"ratio: median {statistics.median(ratios):.2f}, from {ratios[0]:.2f} to {ratios[-1]:.2f}, {runs} runs")
     print(f"plan {whole:.2f} s, imports {imports:.2f} s of processor time")
 
 
