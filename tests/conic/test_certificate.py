@@ -161,3 +161,25 @@ def test_a_modest_claim_is_heard_on_both_counts() -> None:
         assert certificate.kind == kind
     unbounded = replace(clarabel_.solve(good, Settings()), claim=Claim.UNBOUNDED)
     assert not judge(good, unbounded).verified
+
+
+def one_variable(q: float, A: list[float], b: list[float]) -> Program:
+    return program_of(
+        np.zeros((1, 1)), np.array([q]), np.array(A)[:, None], np.array(b), ((Kind.NONNEGATIVE, 1, len(b)),)
+    )
+
+
+def test_multipliers_outside_the_dual_cone_prove_nothing() -> None:
+    """x <= 1 and x >= 1: stationarity and gap hold for multipliers that are both negative."""
+    program = one_variable(1.0, [1.0, -1.0], [1.0, -1.0])
+    assert judge_optimal(program, np.ones(1), np.array([0.0, 1.0])).verified
+    assert not judge_optimal(program, np.ones(1), np.array([-5.0, -4.0])).verified
+
+
+def test_a_feasible_stationary_point_with_a_gap_is_no_optimum() -> None:
+    """Minimise x >= 0: at x = 5 the slack and the multiplier are both positive."""
+    program = one_variable(1.0, [-1.0], [0.0])
+    assert judge_optimal(program, np.zeros(1), np.ones(1)).verified
+    certificate = judge_optimal(program, np.full(1, 5.0), np.ones(1))
+    assert (certificate.primal_residual, certificate.dual_residual) == (0.0, 0.0)
+    assert not certificate.verified

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from random_grasps import random_grasp
 
+from synergrip.conic.box import force_bounds
 from synergrip.conic.build import build
 from synergrip.conic.cones import distance_to_cones
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -155,3 +156,18 @@ def test_a_coupled_limit_leaves_the_first_knot_free() -> None:
     assert limit.usage(situation, motion_of(situation, np.ones((KNOTS, situation.n_v)))).value[0].tolist() == [
         0.0
     ] * len(situation.response.grasp.synergies)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) -> None:
+    rng, situation = random_situation(seed)
+    bounds = force_bounds(situation, 3.0)
+    for contact, rows in zip(situation.response.grasp.contacts, situation.response.grasp.rows, strict=True):
+        rest = rng.normal(size=(2000, contact.n_rows - 1))
+        rest /= np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-300)
+        sizes = np.diag(contact.cone)  # on the rim of the cone at the largest normal force
+        rim = np.column_stack([np.full(2000, 3.0), rest * sizes[0] * 3.0 / sizes[1:]])
+        assert np.allclose(contact.slip_margin(rim), 0.0 if contact.n_rows > 1 else 3.0, atol=1e-12)
+        reached = np.abs(rim).max(axis=0)
+        assert np.all(reached <= bounds[rows] * (1 + 1e-12))
+        assert np.all(reached >= 0.98 * bounds[rows])

@@ -14,6 +14,7 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.statics import coordinates, respond, subspaces
+from synergrip.statics.motion import forward
 
 
 def equilibrium(grasp: Grasp, dz_r: np.ndarray, dw: np.ndarray) -> dict[str, np.ndarray]:
@@ -183,3 +184,35 @@ def test_joint_compliance_alone_is_enough() -> None:
     grasp = random_grasp(rng, ["hard", "hard", "hard"], n_q=9, n_z=4)
     soft = replace(grasp, C_s=frozen(np.zeros((9, 9))), C_q=compliance(rng, 9, 0.02, "full"))
     assert sum(subspaces(respond(soft)).dimensions) == 4
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_object_gives_way_to_its_load(seed: int) -> None:
+    """Sag does positive work with the load, and is all that the load adds to the motion."""
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng)
+    grasp = replace(grasp, w_0=frozen(rng.normal(size=6)))
+    response = respond(grasp)
+    dz_r, load = rng.normal(size=(3, grasp.n_z)), grasp.w_0 + rng.normal(size=(3, 6))
+    loaded = forward(response, np.arange(3.0), dz_r, load)
+    unloaded = forward(response, np.arange(3.0), dz_r, np.tile(grasp.w_0, (3, 1)))
+    assert np.all(np.sum(loaded.sag * (load - grasp.w_0), axis=1) > 0)
+    assert np.allclose(loaded.du - unloaded.du, loaded.sag)
+    assert not np.any(unloaded.sag)
+    assert np.allclose(loaded.torques, loaded.forces @ grasp.J)
+    assert np.abs(response.scale.wrench(loaded.forces @ grasp.G.T + load)).max() < 1e-9 * np.abs(loaded.forces).max()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_internal_forces_stay_internal_when_the_stiffness_is_ill_conditioned(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng)
+    stiff = replace(
+        grasp, C_s=frozen(2e-9 * np.eye(grasp.n_l)), C_q=frozen(0 * grasp.C_q), C_z=frozen(0.07 * np.eye(grasp.n_z))
+    )
+    response = respond(stiff)
+    spaces = subspaces(response)
+    wrench = response.scale.wrench((stiff.G @ response.dlambda_dzr).T)
+    assert np.abs(wrench).max() < 1e-12 * np.abs(response.dlambda_dzr).max()
+    assert np.abs(response.scale.wrench((stiff.G @ spaces.E_s).T)).max(initial=0.0) < 1e-13
+    assert np.allclose(stiff.G @ response.right_inverse, np.eye(6), atol=1e-12)

@@ -27,13 +27,13 @@ def box(situation: Situation, limits: Sequence[Limit]) -> Array:
     for limit in limits:
         if isinstance(limit, NormalForce):
             if held and np.isfinite(limit.upper):
-                result = np.minimum(result, _implied(situation.force, _force_bounds(situation, limit.upper)))
+                result = np.minimum(result, _implied(situation.force, force_bounds(situation, limit.upper)))
         elif (pair := limit.bounded(situation)) is not None:
             result = np.minimum(result, _implied(*pair))
     return result
 
 
-def _force_bounds(situation: Situation, upper: float) -> Array:
+def force_bounds(situation: Situation, upper: float) -> Array:
     """Return (n_l,) bounds on |lambda| from a largest normal force and the friction cones."""
     bounds = []
     for contact in situation.response.grasp.contacts:
