@@ -8,7 +8,7 @@ from types import ModuleType
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.grasps.matrices import read_matrices
+from synergrip.grasps.given import read_given
 from synergrip.plans.reading.problem_file import read_problem_file
 from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, read_table
 from synergrip.reports.refusal_text import error_json, error_text
@@ -40,7 +40,7 @@ def read_everything(folder):
     problem, document = read_problem_file(folder / "problem.toml")
     try:
         if problem.grasp:
-            read_matrices(document.beside(problem.grasp.file), "grasp.file")
+            read_given(document.beside(problem.grasp.file), "grasp.file")
         tables = {"wrench": WRENCH, "motion": MOTION, "modes": MODES}
         for name, columns in tables.items():
             value = getattr(problem.task, name)

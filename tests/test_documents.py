@@ -55,6 +55,21 @@ def refused(call, *args):
 
 
 @pytest.mark.parametrize(
+    ("text", "name", "place"),
+    [
+        ("a = 1\nb = 1" + "0" * 5000, "file.toml", (2, 5)),
+        ("a = 1_000" + "_000" * 2000, "file.toml", (1, 5)),
+        ('{"a": 1,\n "b": -1' + "0" * 5000 + "}", "file.json", (2, 8)),
+    ],
+)
+def test_a_number_with_too_many_digits_is_told_in_plain_words(write, text, name, place):
+    (issue,) = refused(read_document, write(text, name))
+    assert issue.message == "a number with too many digits"
+    assert (issue.line, issue.column) == place
+    assert issue.file.endswith(name)
+
+
+@pytest.mark.parametrize(
     ("key", "on_key", "underlined"),
     [
         ("title", False, (2, '"ü"')),

@@ -46,8 +46,13 @@ def test_every_kind_has_an_si_unit(kind):
 @pytest.mark.parametrize(
     ("text", "kind", "fragment"),
     [
-        ("10", "length", 'missing unit; write "10 m"'),
-        (10, "length", '10 has no unit; expected a length such as "10 m"'),
+        ("10", "length", 'missing unit; write "10 mm"'),
+        (10, "length", '10 has no unit; expected a length such as "10 mm"'),
+        (40, "force", 'such as "40 N" (units: N, mN, kN)'),
+        (0.2, "mass", 'such as "0.2 g"'),
+        (8, "stiffness", 'such as "8 N/mm"'),
+        ("2", "joint compliance", 'write "2 rad/(N m)"'),
+        ("\u0661\u0660 mm", "length", "is not a length"),
         (True, "angle", "expected an angle such as"),
         ("10 MM", "length", "unknown unit 'MM'"),
         ("10 kg", "length", "'kg' is a unit of mass"),
@@ -72,6 +77,8 @@ def test_ratios(written, value):
     assert ratio(written) == value
 
 
-@pytest.mark.parametrize("written", ["1/0", "a", "1/2/3", "", True, None, [1], "nan", "inf", float("nan"), 10**400])
+@pytest.mark.parametrize(
+    "written", ["1/0", "a", "1/2/3", "", True, None, [1], "nan", "inf", float("nan"), 10**400, "\u0661", "1_0"]
+)
 def test_what_is_no_ratio_is_refused(written):
     assert "is not" in message(ratio, written)

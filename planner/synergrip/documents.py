@@ -27,6 +27,7 @@ LARGEST_NUMBER = 1e100  # products of such numbers stay finite
 DEEPEST = 64  # tables and lists inside each other
 MOST_ISSUES = 20  # of one sort
 
+_LONG_NUMBER = re.compile(r"[0-9][0-9_]{4299,}")  # more digits than Python converts
 _REPEATED = re.compile(r"overwrite|twice|duplicate|mutate", re.IGNORECASE)
 _TOML_PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*\Z")
 
@@ -107,6 +108,8 @@ def read_document(path: Path, kind: str = "file", key: str = "") -> Document:
             raise InputError(_duplicates(path, text, document.positions))
     except RecursionError:
         raise InputError([Issue("tables and lists are nested too deeply", file=str(path))]) from None
+    except ValueError:
+        raise _too_long(path, text) from None
     return document
 
 
@@ -175,7 +178,7 @@ def _at(path: Path, text: str, issue: Issue, line: int, column: int, length: int
 def _loads_toml(path: Path, text: str) -> tuple[dict[str, Any], bool]:
     try:
         return tomllib.loads(text), False
-    except ValueError as error:
+    except tomllib.TOMLDecodeError as error:
         message = str(error)
         repeated = _duplicates(path, text, positions(text, ".toml")) if _REPEATED.search(message) else []
         if repeated:
@@ -188,6 +191,13 @@ def _loads_toml(path: Path, text: str) -> tuple[dict[str, Any], bool]:
             line, column = int(place[1]), int(place[2])
         issue = Issue(f"not valid TOML: {reason[:1].lower()}{reason[1:]}")
         raise InputError([_at(path, text, issue, line, column)]) from None
+
+
+def _too_long(path: Path, text: str) -> InputError:
+    found = _LONG_NUMBER.search(text)
+    start = found.start() if found else 0
+    line, column = text.count("\n", 0, start) + 1, start - text.rfind("\n", 0, start)
+    return InputError([_at(path, text, Issue("a number with too many digits"), line, column)])
 
 
 def _loads_json(path: Path, text: str) -> tuple[dict[str, Any], bool]:
@@ -204,8 +214,6 @@ def _loads_json(path: Path, text: str) -> tuple[dict[str, Any], bool]:
     except json.JSONDecodeError as error:
         issue = Issue(f"not valid JSON: {error.msg[:1].lower()}{error.msg[1:]}")
         raise InputError([_at(path, text, issue, error.lineno, error.colno)]) from None
-    except ValueError:  # an integer of more digits than Python converts
-        raise InputError([Issue("a number has too many digits", file=str(path))]) from None
     if not isinstance(data, dict):
         issue = Issue("expected a JSON object { ... } at the top of the file")
         raise InputError([_at(path, text, issue, 1, 1)])

@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    model_validator,
+)
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from synergrip.documents import LARGEST_NUMBER
@@ -142,6 +151,13 @@ def _version(value: object) -> int:
     return value
 
 
+def _plain_name(value: str) -> str:
+    """Return a name that can stand in the header of a CSV file."""
+    if any(mark in ',"\u2028\u2029' or unicodedata.category(mark).startswith("C") for mark in value):
+        raise InputError.at("", f"a name may not hold commas, quotes or control characters, got {shown(value)}")
+    return value
+
+
 def array_of(schema: Schema, length: int | None = None) -> Schema:
     """Return the JSON Schema of a list."""
     count = {"minItems": 1} if length is None else {"minItems": length, "maxItems": length}
@@ -149,6 +165,11 @@ def array_of(schema: Schema, length: int | None = None) -> Schema:
 
 
 Text = Annotated[str, Field(min_length=1)]
+Name = Annotated[
+    str,
+    Field(min_length=1, json_schema_extra={"pattern": r'^[^,"\x00-\x1f\x7f-\x9f]+$'}),
+    AfterValidator(refusing(_plain_name)),
+]
 Whole = Annotated[int, Field(strict=True)]
 Number = Annotated[float, Written(number, NUMBER)]
 Positive = Annotated[float, Written(lambda value: number(value, above=0), POSITIVE)]

@@ -32,7 +32,7 @@ EXAMPLES = {
     "slide compliance": "0.1 mm/N",
 }  # fmt: skip
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*\Z")
+_NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*\Z")
 
 
 def quantity(text: object, kind: str, key: str = "") -> float:
@@ -47,11 +47,11 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         InputError: no number, no unit, an unknown unit or a unit of another kind.
     """
     units = UNITS[kind]
-    listed = ", ".join(units)
+    listed, usual = ", ".join(units), EXAMPLES[kind].partition(" ")[2]
     article = "an" if kind[0] in "aeiou" else "a"
     if isinstance(text, bool) or not isinstance(text, str):
         wrote = f"{text!r} has no unit; " if isinstance(text, int | float) and not isinstance(text, bool) else ""
-        shown = f"{text:g} {next(iter(units))}" if wrote else EXAMPLES[kind]
+        shown = f"{text:g} {usual}" if wrote else EXAMPLES[kind]
         raise InputError.at(key, f'{wrote}expected {article} {kind} such as "{shown}" (units: {listed})')
     match = _NUMBER.match(text)
     if match is None:
@@ -60,7 +60,7 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         )
     number, unit = float(match[1]), " ".join(match[2].split())
     if not unit:
-        raise InputError.at(key, f'missing unit; write "{match[1]} {next(iter(units))}" (units: {listed})')
+        raise InputError.at(key, f'missing unit; write "{match[1]} {usual}" (units: {listed})')
     if unit not in units:
         other = next((name for name, table in UNITS.items() if unit in table), "")
         why = f"'{unit}' is a unit of {other}" if other else f"unknown unit '{unit}'"
@@ -74,9 +74,10 @@ def quantity(text: object, kind: str, key: str = "") -> float:
 def ratio(value: object, key: str = "") -> float:
     """Return a plain number, given as a number or as a fraction in a string such as ``"1/3"``."""
     if isinstance(value, str):
-        parts = value.split("/")
+        text = value if value.isascii() and "_" not in value else ""
+        parts = text.split("/")
         try:
-            result = float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(value)
+            result = float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(text)
         except (ValueError, ZeroDivisionError):
             raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"') from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
@@ -86,3 +87,10 @@ def ratio(value: object, key: str = "") -> float:
     if not math.isfinite(result):
         raise InputError.at(key, f"{value!r} is not finite")
     return result
+
+
+def apart(one: float, other: float, digits: int = 4) -> tuple[str, str]:
+    """Return two numbers as text, with as many digits as it takes to tell them apart (at most 17)."""
+    while digits < 17 and one != other and f"{one:.{digits}g}" == f"{other:.{digits}g}":
+        digits += 1
+    return f"{one:.{digits}g}", f"{other:.{digits}g}"

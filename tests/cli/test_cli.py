@@ -475,6 +475,72 @@ def test_options_that_cannot_be(arguments: tuple[str, ...], key: str, fragment: 
     assert fragment in error["message"]
 
 
+def test_a_rigid_contact_of_a_grasp_file_is_shown_in_that_file(tmp_path: Path) -> None:
+    for suffix in ("toml", "json"):
+        text = (bundled("problems") / f"pinch-soft.{suffix}").read_text(encoding="utf-8")
+        Path(tmp_path, f"pinch-soft.{suffix}").write_text(text.replace('"C_s": 0.001', '"C_s": 0'), encoding="utf-8")
+    for problem in ("pinch-soft.toml", "pinch-soft.json"):
+        error = document("plan", problem, code=2)["error"]
+        assert (error["type"], error["key"], Path(error["file"]).name) == (
+            "RigidContactError",
+            "C_s",
+            "pinch-soft.json",
+        )
+        line = Path("pinch-soft.json").read_text(encoding="utf-8").split("\n")[error["line"] - 1]
+        assert line[error["column"] - 1 :].startswith("0")
+        assert '"C_s"' in line
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "value"),
+    [
+        ({'"8 N/mm"': '"rigid"'}, "contacts.stiffness", '"rigid"'),
+        ({'"8 N/mm"': '"8 N/mm"\ntangential_stiffness = "rigid"'}, "contacts.tangential_stiffness", '"rigid"'),
+        ({"[task]": '[[contact]]\nat = "finger2/tip"\nstiffness = "rigid"\n[task]'}, "contact[0].stiffness", '"rigid"'),
+    ],
+)
+def test_a_rigid_contact_of_a_hand_is_shown_at_its_stiffness(changes: dict[str, str], key: str, value: str) -> None:
+    text = (bundled("problems") / "barrett-ball-hold.toml").read_text(encoding="utf-8")
+    text = text.replace("[object]", 'compliance = { joint = "0 rad/(N m)" }\n[object]')
+    for old, new in changes.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    Path("hold.toml").write_text(text, encoding="utf-8")
+    error = document("plan", "hold.toml", code=2)["error"]
+    assert (error["type"], error["key"], error["file"]) == ("RigidContactError", key, "hold.toml")
+    assert text.split("\n")[error["line"] - 1][error["column"] - 1 :].startswith(value)
+
+
+def test_points_that_contradict_the_grasp_matrix_are_refused_in_the_grasp_file() -> None:
+    text = (bundled("problems") / "pinch-soft.json").read_text(encoding="utf-8")
+    Path("pinch.json").write_text(text.replace("[0.02, 0.0, 0.0]", "[0.02, 0.01, 0.0]"), encoding="utf-8")
+    error = document("plan", "pinch.json", code=2)["error"]
+    assert error["key"].endswith(".point_m")
+    assert error["file"] == "pinch.json"
+    assert error["line"] > 1
+
+
+def test_every_pad_that_misses_and_every_name_that_is_unknown_is_told_at_once() -> None:
+    found = document("plan", "barrett-ball-hold", "--set", "object.position=['0 m', '0 m', '0 m']", code=2)
+    keys = ["contacts.at[0]", "contacts.at[1]", "contacts.at[2]"]
+    assert [error["key"] for error in found["error"]["errors"]] == keys
+    assert all("mm in the palm frame" in error["message"] for error in found["error"]["errors"])
+    arguments = ("--set", "hand.posture=bal", "--set", "contacts.at=['a', 'finger2/tip', 'b']")
+    found = document("plan", "barrett-ball-hold", *arguments, code=2)
+    assert [error["key"] for error in found["error"]["errors"]] == ["hand.posture", "contacts.at[0]", "contacts.at[2]"]
+
+
+def test_an_unknown_hand_does_not_hide_a_csv_file_that_is_missing() -> None:
+    arguments = ("--set", "hand.model=barett", "--set", "task.wrench=none.csv")
+    found = document("plan", "barrett-ball-hold", *arguments, code=2)
+    assert [error["key"] for error in found["error"]["errors"]] == ["hand.model", "task.wrench"]
+
+
+def test_a_soft_hand_is_refused_at_its_compliance() -> None:
+    error = document("plan", "barrett-ball-hold", "--set", "hand.compliance.joint=1e50 rad/(N m)", code=2)["error"]
+    assert (error["key"], error["message"]) == ("hand.compliance.joint", "a compliance of 1e+50 is too large")
+
+
 # Processes
 
 

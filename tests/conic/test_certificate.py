@@ -16,6 +16,7 @@ from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Kind
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
+from synergrip.errors import InputError
 from synergrip.linalg import frozen
 
 CONES = ((Kind.NONNEGATIVE, 1, 3), (Kind.SECOND_ORDER, 3, 2), (Kind.ZERO, 1, 1), (Kind.SECOND_ORDER, 4, 1))
@@ -132,6 +133,43 @@ def test_save_and_load_give_the_exact_program(tmp_path: Path, seed: int, feasibl
     assert clarabel_.solve(loaded, Settings()).claim == clarabel_.solve(program, Settings()).claim
 
 
+def test_a_program_is_saved_and_loaded_by_the_text_of_a_path(tmp_path: Path) -> None:
+    program = random_program(0)
+    name = str(tmp_path / "prog.npz")
+    program.save(name)
+    assert np.array_equal(Program.load(name).q, program.q)
+
+
+def _pieces(path: Path) -> list[bytes]:
+    """Contents that are no saved program."""
+    random_program(0).save(path)
+    whole = path.read_bytes()
+    broken = bytearray(whole)
+    broken[70] ^= 0xFF  # in the first array
+    with path.open("wb") as stream:
+        np.savez(stream, q=np.zeros(2))
+    other = path.read_bytes()
+    with path.open("wb") as stream:
+        np.save(stream, np.zeros(2))
+    return [b"", b"garbage", whole[: len(whole) // 2], bytes(broken), other, path.read_bytes()]
+
+
+@pytest.mark.parametrize("piece", range(6))
+def test_a_file_without_a_program_is_bad_input(tmp_path: Path, piece: int) -> None:
+    path = tmp_path / "program.npz"
+    path.write_bytes(_pieces(path)[piece])
+    with pytest.raises(InputError) as caught:
+        Program.load(path)
+    (issue,) = caught.value.issues
+    assert issue.key == ""
+    assert issue.message.startswith(f"'{path}' holds no saved program (")
+
+
+def test_a_program_that_is_not_there_is_bad_input(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"holds no saved program .*No such file"):
+        Program.load(str(tmp_path / "program.npz"))
+
+
 def test_the_chain_goes_on_until_a_claim_verifies_and_ends_without_one() -> None:
     program = random_program(0)
     true = clarabel_.solve(program, Settings())
@@ -146,10 +184,29 @@ def test_the_chain_goes_on_until_a_claim_verifies_and_ends_without_one() -> None
     assert decision.attempts == 3
     assert asked == list(ATTEMPTS[:3])
 
-    never = decide("test", program, lambda p, s: replace(true, claim=Claim.INFEASIBLE))
-    assert not never.optimal
-    assert not never.infeasible
-    assert never.attempts == len(ATTEMPTS)
+    calls: list[Settings] = []
+
+    def never(program: Program, settings: Settings) -> Solution:
+        calls.append(settings)
+        return replace(true, claim=Claim.INFEASIBLE)
+
+    decision = decide("test", program, never)
+    assert not decision.optimal
+    assert not decision.infeasible
+    assert calls == list(ATTEMPTS)
+
+
+def test_without_a_sharp_claim_the_chain_returns_its_best() -> None:
+    """Verified at 3e-7, at 1e-7, not at all, at 2e-7, not at all: the second is the best."""
+    program = random_program(0)
+    true = clarabel_.solve(program, Settings(tolerance=1e-11))
+    rows = np.flatnonzero(true.z > 1e-3)
+    outward = np.linalg.lstsq(program.A.toarray(), np.eye(len(program.b))[rows[0]], rcond=None)[0]
+    shifts = iter([3e-7, 1e-7, 1e-3, 2e-7, 1e-2])
+    decision = decide("test", program, lambda p, s: replace(true, x=frozen(true.x + next(shifts) * outward)))
+    assert decision.attempts == 2
+    assert decision.optimal
+    assert not decision.certificate.sharp
 
 
 def test_a_modest_claim_is_heard_on_both_counts() -> None:

@@ -86,6 +86,17 @@ def test_a_slightly_asymmetric_compliance_is_made_symmetric(data, read):
     assert C_q[1, 0] == 5e-13
 
 
+def test_a_compliance_at_the_bound_is_accepted(data, read):
+    data |= {"C_s": 1e9, "C_z": [[1e9, 0], [0, 0]]}
+    assert read(data).C_s[0, 0] == 1e9
+    data |= {"C_s": 1.1e9, "C_q": 1e300, "C_z": [[1.1e9, 0], [0, 0]]}
+    assert [key for key, _ in issues(read, data)][:1] == ["C_q"]  # no such number at all
+    data |= {"C_q": 2e9}
+    found = issues(read, data)
+    assert [key for key, _ in found] == ["C_s", "C_q", "C_z"]
+    assert all(message.endswith("e+09 is too large") for _, message in found)
+
+
 def test_semidefinite_is_judged_free_of_units(data, read):
     data["C_z"] = [[1e-9, 2e-3], [2e-3, 1e3]]
     assert issues(read, data)[0][0] == "C_z"

@@ -204,6 +204,20 @@ def test_a_pad_that_faces_away_is_refused_by_name(shape: Shape | None, normals: 
     assert "pad 'pad2' faces away from the object (180 deg" in issue.message
 
 
+def test_every_pad_off_the_surface_or_facing_away_is_named_with_its_place() -> None:
+    points = np.array([[0.02, 0, 0], [-0.023, 0.001, -1e-18], [0, 0.02, 0.0123]])
+    touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0)), _touch(2, (0, 1, 0))]
+    thing = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    with pytest.raises(InputError) as caught:
+        _placed(thing, touches, Standing(frozen(points)))
+    away, facing = caught.value.issues
+    assert (away.key, facing.key) == ("contacts.at[1]", "contacts.at[2]")
+    assert "pad 'pad1' is 3 mm outside" in away.message
+    assert away.message.endswith("; the pad is at (-23, 1, 0) mm in the palm frame")
+    assert "pad 'pad2' faces away" in facing.message
+    assert facing.message.endswith("; the pad is at (0, 20, 12.3) mm in the palm frame")
+
+
 MIXED = ("hard", "soft", "frictionless")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -15,8 +16,7 @@ from synergrip.plans.check import Judgement, judge_references
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import Problem, load_problem
-from synergrip.plans.reading.tables import Table
-from synergrip.plans.references import read_references
+from synergrip.plans.references import References, read_references
 from synergrip.plans.task import Wanted
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import plan_csv, write_outcome
@@ -36,7 +36,7 @@ def _solved(name: str, *overrides: str) -> tuple[Problem, Plan]:
 
 
 def _judged(problem: Problem, times: Array, dz_r: Array) -> Judgement:
-    return judge_references(problem.grasp, problem.task, Table(frozen(times), frozen(dz_r)))
+    return judge_references(problem.grasp, problem.task, References(frozen(times), frozen(dz_r), {}))
 
 
 def _failed(judgement: Judgement) -> list[str]:
@@ -86,7 +86,7 @@ def test_tampered_references_fail_the_check_they_break(squeeze: float, follow: f
 
 def test_the_tolerance_of_the_task_is_that_of_the_tracking() -> None:
     problem, outcome = _solved(*TRIPOD)
-    references = Table(problem.task.times, frozen(_rebuilt(outcome, follow=1.01)))  # off by 64 micrometres
+    references = References(problem.task.times, frozen(_rebuilt(outcome, follow=1.01)), {})  # off by 64 micrometres
     for tolerance, broken in ((1e-4, []), (1e-5, ["rigid motion [m]"])):
         judgement = judge_references(problem.grasp, replace(problem.task, tolerance=tolerance), references)
         assert _failed(judgement) == broken
@@ -155,7 +155,7 @@ def test_a_task_that_no_references_can_do_is_a_refusal() -> None:
     sideways = np.outer(problem.task.times, [0.01, 0, 0, 0, 0, 0])
     task = replace(problem.task, wanted=Wanted("motion", frozen(sideways), "task.motion"))
     with pytest.raises(MotionDirectionError):
-        judge_references(problem.grasp, task, Table(task.times, frozen(np.zeros((11, 4)))))
+        judge_references(problem.grasp, task, References(task.times, frozen(np.zeros((11, 4))), {}))
     loose = load_problem("pinch-hard")
     with pytest.raises(NotRestrainedError):
         _judged(loose, np.array([0.0, 1.0]), np.zeros((2, 1)))
@@ -181,11 +181,11 @@ def test_references_of_another_hand_are_refused(tmp_path: Path) -> None:
         ("plan.txt", "", "expected a folder, or a file .json, .npz or .csv"),
         ("plan.json", '{"verdict": "infeasible"}', "its verdict is 'infeasible'"),
         ("plan.json", "{}", "dz_r and time_s are missing"),
-        ("plan.json", '{"time_s": [0, 1], "dz_r": [[0], [0, 1]]}', "no arrays of numbers"),
-        ("plan.json", '{"time_s": [0, 1], "dz_r": [[0]]}', "got shapes (2,) and (1, 1)"),
-        ("plan.json", '{"time_s": [], "dz_r": []}', "expected time_s (T)"),
+        ("plan.json", '{"time_s": [0, 1], "dz_r": [[0], [0, 1]]}', "dz_r is no array of numbers"),
+        ("plan.json", '{"time_s": [0, 1], "dz_r": [[0]]}', "dz_r has 1 rows for 2 times"),
+        ("plan.json", '{"time_s": [], "dz_r": []}', "expected time_s as (T) numbers"),
         ("plan.json", '{"time_s": [1, 0], "dz_r": [[0], [0]]}', "times must increase"),
-        ("plan.json", '{"time_s": [0], "dz_r": [[null]]}', "all numbers be finite"),
+        ("plan.json", '{"time_s": [0], "dz_r": [[null]]}', "all finite"),
         ("plan.json", "{", "not valid JSON"),
         ("plan.npz", "no archive", "is no .npz archive"),
         ("plan.csv", "t_s,zr_2\n0,1\n", "missing column 'zr_1'"),
@@ -212,3 +212,25 @@ def test_an_archive_of_other_things_is_refused(tmp_path: Path) -> None:
     np.savez(tmp_path / "plan.npz", time_s=np.array([object()]), dz_r=np.zeros((1, 1)))
     with pytest.raises(InputError, match="archive of plain arrays"):
         read_references(tmp_path / "plan.npz", 1)
+
+
+def test_forces_that_a_file_claims_are_compared_with_those_it_would_produce(tmp_path: Path) -> None:
+    problem = load_problem("tripod")
+    outcome = plan(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    document = outcome_document("", problem.grasp, outcome)
+    for name, passes in ((None, True), ("lambda", False), ("tau", False), ("du", False)):
+        told = json.loads(json.dumps(document))
+        if name:
+            told[name][3][0] += 0.01
+        (tmp_path / "plan.json").write_text(json.dumps(told))
+        judgement = judge_references(problem.grasp, problem.task, read_references(tmp_path, problem.grasp.n_z))
+        failed = [check.name for check in judgement.checks if not check.passed]
+        assert failed == ([] if passes else [f"claimed {name}"])
+
+
+def test_a_claim_of_another_size_fails(tmp_path: Path) -> None:
+    problem = load_problem("tripod")
+    references = References(problem.task.times, frozen(np.zeros((11, 4))), {"tau": frozen(np.zeros((11, 2)))})
+    failed = [c.name for c in judge_references(problem.grasp, problem.task, references).checks if not c.passed]
+    assert "claimed tau" in failed

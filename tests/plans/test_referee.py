@@ -10,7 +10,7 @@ import pytest
 from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
-from synergrip.conic.decide import judge
+from synergrip.conic.decide import decide, judge
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -87,7 +87,8 @@ def test_redundancy_is_settled_alike(seed: int) -> None:
     loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
     question = Question(situation, loosened, goal)
     program = question.program()
-    direct, second = clarabel_.solve(program, Settings()), solve(question, program, Settings())
+    direct = decide("redundancy", program, clarabel_.solve).solution
+    second = decide("redundancy", program, lambda program, settings: solve(question, program, settings)).solution
     assert judge(program, second).verified
     assert judge(program, second).kind == "optimal"
     assert np.abs(program.unknowns(direct.x)[:, situation.n_alpha :]).max() > 1e-4

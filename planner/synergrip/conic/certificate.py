@@ -16,10 +16,12 @@ from synergrip.conic.cones import distance_to_cones, project_on_dual
 from synergrip.conic.program import Program
 from synergrip.linalg import Array, frozen
 
-PRIMAL_TOLERANCE = 1e-8
+PRIMAL_TOLERANCE = 5e-7
 """Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
 DUAL_TOLERANCE = 1e-7
 GAP_TOLERANCE = 1e-8
+SHARP = 1e-8
+"""A violation below this is not worth another attempt."""
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
@@ -39,6 +41,11 @@ class Certificate:
     """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
+
+    @property
+    def sharp(self) -> bool:
+        """True for a verified claim that another attempt could hardly better."""
+        return self.verified and (self.kind != "optimal" or self.primal_residual <= SHARP)
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -44,13 +44,26 @@ class Decision:
 
 
 def decide(goal: str, program: Program, solver: Solver) -> Decision:
-    """Solve a program until a claim verifies, or the retry chain ends (then the certificate is not verified)."""
+    """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
+
+    The best is the verified one with the smallest violation. When none verifies, neither does the decision.
+    """
+    best: Decision | None = None
     for attempt, settings in enumerate(ATTEMPTS, start=1):
         solution = solver(program, settings)
         decision = Decision(goal, program, solution, judge(program, solution), attempt)
-        if decision.certificate.verified:
-            break
-    return decision
+        if best is None or _rank(decision) < _rank(best):
+            best = decision
+        if decision.certificate.sharp:
+            return decision
+    if best is None:
+        raise ValueError("the retry chain is empty")
+    return best
+
+
+def _rank(decision: Decision) -> tuple[bool, float]:
+    """Order decisions: verified ones first, then by violation."""
+    return not decision.certificate.verified, decision.certificate.primal_residual
 
 
 def judge(program: Program, solution: Solution) -> Certificate:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import zipfile
+import zlib
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -12,6 +14,7 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.conic.rows import Kind
+from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
 
@@ -76,19 +79,32 @@ class Program:
         """Return the value of the objective at x (n,)."""
         return float(x @ (self.P @ x) / 2 + self.q @ x)
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | Path) -> None:
         """Write the exact program to an .npz file, atomically."""
         header = {"knots": self.knots, "n_v": self.n_v, "blocks": [asdict(b) for b in self.blocks]}
         arrays = {"q": self.q, "b": self.b, "box": self.box, "header": np.array(json.dumps(header))}
         for name, matrix in (("P", self.P), ("A", self.A)):
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
-        with atomic_path(path) as temporary, temporary.open("wb") as stream:
+        with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
             np.savez_compressed(stream, allow_pickle=False, **arrays)
 
     @classmethod
-    def load(cls, path: Path) -> Program:
-        """Read a program written by `save`."""
-        with np.load(path, allow_pickle=False) as stored:
+    def load(cls, path: str | Path) -> Program:
+        """Read a program written by `save`.
+
+        Raises:
+            InputError: there is no such file, or something else is in it.
+        """
+        unreadable = (OSError, EOFError, LookupError, ValueError, TypeError, zipfile.BadZipFile, zlib.error)
+        try:
+            return cls._read(Path(path))
+        except unreadable as error:
+            reason = str(error) or type(error).__name__
+            raise InputError.at("", f"'{path}' holds no saved program ({reason})") from error
+
+    @classmethod
+    def _read(cls, path: Path) -> Program:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
             header: dict[str, Any] = json.loads(str(stored["header"]))
             n, m = len(stored["q"]), len(stored["b"])
             blocks = tuple(

@@ -7,7 +7,7 @@ and synergy references follow (theory.md, section 5).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,6 +69,19 @@ class Situation:
         if v.shape[1] > self.n_alpha:
             gamma = v[:, self.n_alpha :] * self.reference_unit
         return alpha, gamma
+
+    def in_units_of(self, force: float) -> Situation:
+        """Return the same situation with another force unit [N]: the unknowns become smaller or larger."""
+        columns = np.ones(self.n_v)
+        columns[: self.n_alpha] = force / self.force_unit
+
+        def scaled(value: Affine) -> Affine:
+            return Affine(frozen(value.matrix * columns), value.constant)
+
+        return replace(
+            self, force_unit=force, force=scaled(self.force), torque=scaled(self.torque),
+            effort=scaled(self.effort), reference=scaled(self.reference),
+        )  # fmt: skip
 
     def references(self, v: Array) -> Array:
         """Return the synergy references dz_r (T, n_z) of unknowns v (T, n_v), by (35)."""

@@ -2,26 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+
 import numpy as np
 
+from synergrip.documents import read_document
+from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.kinds import contact_kind
-from synergrip.grasps.matrices import ContactData, Matrices
+from synergrip.grasps.matrices import ContactData, Matrices, read_matrices
 from synergrip.linalg import Array, frozen
 
 AGREEMENT = 1e-6
 """Relative difference up to which given points and frames agree with G."""
+CONTRADICTION = 1e-2
+"""Difference from G, relative or in radians, from which given points and normals are refused."""
+ORTHONORMAL = 1e-3
+"""How far the force columns of G may be from unit vectors normal to each other to be a contact frame."""
+
+
+def read_given(path: Path, key: str = "") -> Grasp:
+    """Return the grasp of a file of matrices.
+
+    Args:
+        path: the JSON file.
+        key: the key of the problem file that names it, as for `read_matrices`.
+
+    Raises:
+        InputError: everything that is wrong with the file, each with its place.
+    """
+    matrices = read_matrices(path, key)
+    try:
+        return given(matrices)
+    except InputError as error:
+        raise error.located(read_document(path).locate) from None
 
 
 def given(matrices: Matrices) -> Grasp:
-    """Return the grasp of validated matrices. Joints and synergies are numbered, w_0 follows from lambda_0."""
+    """Return the grasp of validated matrices. Joints and synergies are numbered, w_0 follows from lambda_0.
+
+    Raises:
+        InputError: points or normals that contradict G, or a normal force that makes no force on the object.
+    """
     w_0 = np.zeros(6)
     if matrices.w_0 is not None:
         w_0 = np.asarray(matrices.w_0)
     elif matrices.lambda_0 is not None:
         w_0 = -matrices.G @ matrices.lambda_0
     columns = _columns(matrices)
+    if issues := [*_directions(matrices, columns), *_places(matrices, columns)]:
+        raise InputError(issues)
     points = _points(matrices, columns)
     contacts = tuple(_contact(d, c, p) for d, c, p in zip(matrices.contacts, columns, points, strict=True))
     return Grasp(
@@ -37,12 +69,54 @@ def _columns(matrices: Matrices) -> list[Array]:
     return [np.asarray(part) for part in np.split(matrices.G, np.cumsum(widths)[:-1], axis=1)]
 
 
+def _is_frame(forces: Array) -> bool:
+    return bool(np.allclose(forces.T @ forces, np.eye(forces.shape[1]), rtol=0, atol=ORTHONORMAL))
+
+
+def _directions(matrices: Matrices, columns: list[Array]) -> Iterator[Issue]:
+    """Refuse normals that are not there, or differ from those in G."""
+    for k, (data, forces) in enumerate(zip(matrices.contacts, (c[:3, :3] for c in columns), strict=True)):
+        n = forces[:, 0]
+        if not np.any(n):
+            yield Issue(f"the normal force of contact {data.name} makes no force on the object", key="G")
+        elif data.normal is not None and _is_frame(forces):
+            angle = float(np.arctan2(np.linalg.norm(np.cross(n, data.normal)), n @ data.normal))
+            if angle > CONTRADICTION:
+                message = f"is {np.degrees(angle):.3g} deg from the normal force of contact {data.name} in G"
+                yield Issue(f"{message}, ({', '.join(f'{part:.4g}' for part in n)})", key=f"contacts[{k}].normal")
+
+
+def _places(matrices: Matrices, columns: list[Array]) -> Iterator[Issue]:
+    """Refuse points that G contradicts, wherever the origin of B is."""
+    if any(data.point is None for data in matrices.contacts):
+        return
+    judged = [
+        (k, np.asarray(data.point), *_moment_system(c[:, :3]))
+        for k, (data, c) in enumerate(zip(matrices.contacts, columns, strict=True))
+        if _is_frame(c[:3, :3])
+    ]
+    if not judged:
+        return
+    off = [m - A @ p for _, p, A, m in judged]
+    origin = np.linalg.lstsq(np.vstack([-A for _, _, A, _ in judged]), np.concatenate(off), rcond=None)[0]
+    gaps = [
+        float(np.linalg.norm(each + A @ origin) / np.linalg.norm(A, 2))
+        for each, (_, _, A, _) in zip(off, judged, strict=True)
+    ]
+    size = max(max(float(np.linalg.norm(p - origin)), float(np.abs(m).max())) for _, p, _, m in judged)
+    worst = int(np.argmax(gaps))
+    if gaps[worst] > CONTRADICTION * size:
+        k = judged[worst][0]
+        message = f"is {1e3 * gaps[worst]:.3g} mm off the moments of contact {matrices.contacts[k].name} in G"
+        yield Issue(f"{message}; no origin of B makes the points agree with G", key=f"contacts[{k}].point_m")
+
+
 def _points(matrices: Matrices, columns: list[Array]) -> list[Array]:
     """Return the contact points (3,) from B: as given, when G agrees, else the least ones that G allows.
 
     Points may be given from another origin than B; G tells which, in the least-squares sense.
     """
-    systems = [_moment_system(c[:, : min(c.shape[1], 3)]) for c in columns]
+    systems = [_moment_system(c[:, :3]) for c in columns]
     given_points = [data.point for data in matrices.contacts if data.point is not None]
     if len(given_points) == len(columns):
         A = np.vstack([-matrix for matrix, _ in systems])
@@ -62,7 +136,7 @@ def _moment_system(columns: Array) -> tuple[Array, Array]:
 
 def _contact(data: ContactData, columns: Array, point: Array) -> Contact:
     """Return a contact; its frame, where not given, is read from its columns of G."""
-    force = columns[:3, : min(columns.shape[1], 3)]
+    force = columns[:3, :3]
     normal = np.array([0.0, 0.0, 1.0])
     if data.normal is not None:
         normal = np.asarray(data.normal)

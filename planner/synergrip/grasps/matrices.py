@@ -14,7 +14,7 @@ from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, one_of
-from synergrip.fields import NUMBER, Number, Positive, Table, Text, Vector, Version, Written, array_of
+from synergrip.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.grasps.kinds import KINDS
 from synergrip.grasps.matrix_reading import Count, MatrixReader
 from synergrip.linalg import Array, frozen
@@ -79,7 +79,7 @@ def _kind(value: object) -> str:
 class ContactFile(Table):
     """A contact as it stands in the file."""
 
-    name: Text = Field(description="name of the contact")
+    name: Name = Field(description="name of the contact")
     kind: Annotated[str, Written(_kind, {"enum": list(KINDS)})] = Field(description="hard, soft or frictionless")
     friction: Number | None = Field(default=None, description="coefficient of friction; not for a frictionless contact")
     spin_friction_m: Positive | None = Field(

@@ -14,6 +14,7 @@ from synergrip.validation import shown
 
 LARGEST_SIDE = 2000  # rows or columns
 MOST_ISSUES = 20  # of one matrix
+LARGEST_COMPLIANCE = 1e9  # m/N, rad/(N m): nothing that yields more holds anything
 SYMMETRY = 1e-9  # relative to the largest entry
 SEMIDEFINITE = 1e-10  # relative, after scaling to unit diagonal
 
@@ -83,12 +84,17 @@ class MatrixReader:
                 self.refuse(key, f"expected a number or a matrix, got {shown(value)}")
             elif value < 0:
                 self.refuse(key, f"a compliance must not be negative, got {value}")
+            elif value > LARGEST_COMPLIANCE:
+                self.refuse(key, f"a compliance of {value:g} is too large")
             elif size is not None:
                 return frozen(np.eye(size.number) * float(value))
             return None
         square = size if size is not None or not value else Count(len(value), "a compliance is square")
         matrix = self.matrix(key, value, square, square)
         if matrix is None or not self._symmetric(key, matrix) or not self._semidefinite(key, matrix):
+            return None
+        if (largest := float(np.diag(matrix).max())) > LARGEST_COMPLIANCE:
+            self.refuse(key, f"a compliance of {largest:g} is too large")
             return None
         return frozen((matrix + matrix.T) / 2)
 

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from synergrip.errors import InputError
+from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact import Contact, ContactKind, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.objects import Object, Sphere
@@ -56,11 +56,11 @@ def place(
         The grasp, and the object with its position.
 
     Raises:
-        InputError: a pad does not reach the object, or faces away from it.
+        InputError: pads that do not reach the object, or face away from it; all of them.
     """
     motions = hand.kinematics.at(q, [(touch.pad.link, touch.pad.point) for touch in touches])
     placed = _position(thing, touches, motions)
-    contacts = tuple(_contact(placed, touch, motion) for touch, motion in zip(touches, motions, strict=True))
+    contacts = _contacts(placed, touches, motions)
     C_s = np.diag([1.0 / k for touch in touches for k in touch.stiffness])
     grasp = Grasp(
         title, contacts, grasp_matrix(contacts), hand_jacobian(contacts, [m.jacobian for m in motions]),
@@ -105,6 +105,20 @@ def _ball_centre(points: Array, radius: float, pushing: Array) -> Array:
     normal = normal / max(float(np.linalg.norm(normal)), 1e-300)
     side = 1.0 if normal @ pushing >= 0 else -1.0
     return frozen(centre + side * np.sqrt(radius**2 - around**2) * normal)
+
+
+def _contacts(thing: Object, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> tuple[Contact, ...]:
+    contacts, issues = list[Contact](), list[Issue]()
+    for touch, motion in zip(touches, motions, strict=True):
+        try:
+            contacts.append(_contact(thing, touch, motion))
+        except InputError as error:
+            x, y, z = np.round(1e3 * motion.position, 2) + 0.0  # no -0
+            where = f"; the pad is at ({x:g}, {y:g}, {z:g}) mm in the palm frame"
+            issues += [replace(issue, message=issue.message + where) for issue in error.issues]
+    if issues:
+        raise InputError(issues)
+    return tuple(contacts)
 
 
 def _contact(thing: Object, touch: Touch, motion: PointMotion) -> Contact:

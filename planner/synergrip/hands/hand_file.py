@@ -11,6 +11,7 @@ from synergrip.errors import Issue
 from synergrip.fields import (
     Angle,
     Axis,
+    Name,
     Number,
     Ratio,
     Table,
@@ -33,7 +34,7 @@ Point = Annotated[
 class JointTable(Table):
     """A joint, in the order of q; its limits stand in the URDF."""
 
-    name: Text = Field(description="name of the joint in the URDF")
+    name: Name = Field(description="name of the joint in the URDF")
     torque_limit: Text | None = Field(
         default=None, description='largest torque ("1.5 N m"), or force of a slide; none when absent'
     )

@@ -14,11 +14,11 @@ from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Check
 from synergrip.plans.reading.loads import distinct
-from synergrip.plans.reading.tables import Table
+from synergrip.plans.references import References
 from synergrip.plans.task import Task, Wanted
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
-from synergrip.plans.verified import identities, limit_checks, limit_usages
+from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
 from synergrip.statics.motion import Motion, forward
 
 TRACKED = 1e-6
@@ -46,7 +46,7 @@ class Judgement:
         return 0 if self.verdict == "feasible" else 1
 
 
-def judge_references(grasp: Grasp, task: Task, references: Table) -> Judgement:
+def judge_references(grasp: Grasp, task: Task, references: References) -> Judgement:
     """Judge references against a task at the knots of both, linear in between.
 
     Forces are linear in references and loads and the cones are convex, so what holds at the knots of both
@@ -69,7 +69,24 @@ def judge_references(grasp: Grasp, task: Task, references: Table) -> Judgement:
     usages = limit_usages(task, situation, motion)
     reached = analysis.coordinates.coordinates(dz_r)
     checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], beta), *limit_checks(usages))
+    checks += _claims(references, motion)
     return Judgement(analysis, motion, frozen(usages[0].value), usages, checks)
+
+
+def _claims(references: References, motion: Motion) -> tuple[Check, ...]:
+    """Compare the forces, torques and motions that a file claims for its references with ours."""
+    ours = {"lambda": motion.forces, "tau": motion.torques, "du": motion.du}
+    inside = (references.times >= motion.times[0]) & (references.times <= motion.times[-1])
+    times = references.times[inside]
+    found = []
+    for name, claimed in references.claimed.items():
+        if claimed.shape[1] != ours[name].shape[1]:
+            found.append(Check(f"claimed {name}", np.inf, LIMIT))
+            continue
+        expected = np.column_stack([np.interp(times, motion.times, column) for column in ours[name].T])
+        size = max(float(np.abs(expected).max(initial=0.0)), 1e-12)
+        found.append(Check(f"claimed {name}", float(np.abs(claimed[inside] - expected).max(initial=0.0)) / size, LIMIT))
+    return tuple(found)
 
 
 def _tracking(task: Task, reached: Array, wanted: Array) -> Check:
@@ -77,7 +94,7 @@ def _tracking(task: Task, reached: Array, wanted: Array) -> Check:
     return Check("rigid motion [m]", error, max(task.tolerance, TRACKED))
 
 
-def _common_times(task: Task, references: Table) -> Array:
+def _common_times(task: Task, references: References) -> Array:
     first, last = float(references.times[0]), float(references.times[-1])
     start, end = float(task.times[0]), float(task.times[-1])
     slack = 1e-9 * max(end, 1.0)

@@ -12,6 +12,7 @@ from synergrip.conic.situation import Situation
 from synergrip.errors import Refusal
 from synergrip.linalg import Array
 from synergrip.plans.analysis import Analysis
+from synergrip.plans.clash import Clash
 from synergrip.plans.task import Task
 from synergrip.statics.motion import Motion
 
@@ -51,6 +52,8 @@ class Plan:
     """The programs solved, in order; the last one is the plan's."""
     largest_margin: float | None
     """The largest margin [N] when it was asked for."""
+    notes: tuple[str, ...] = ()
+    """What the plan is not, although its goal would have it so."""
 
     verdict = "feasible"
     exit_code = 0
@@ -74,6 +77,8 @@ class Infeasible:
     decisions: tuple[Decision, ...]
     largest_margin: float | None
     """The largest margin [N] that the other limits allow, when that is what falls short."""
+    clashes: tuple[Clash, ...] = ()
+    """The limits that the proof rests on, when the program itself is infeasible."""
 
     verdict = "infeasible"
     exit_code = 1

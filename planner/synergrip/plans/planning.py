@@ -23,8 +23,9 @@ from synergrip.conic.situation import Situation, situate
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.clash import clashes
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
@@ -34,6 +35,7 @@ from synergrip.plans.task import Task
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import verified_plan
+from synergrip.quantities import apart
 
 SLACKS = (1e-8, 1e-7)
 """How much of a best value, in force units, the next goal may give up, so that its program has an interior."""
@@ -77,6 +79,7 @@ class _Planner:
     def __init__(self, task: Task, analysis: Analysis, situation: Situation, solver: Answerer) -> None:
         self.task, self.analysis, self.situation, self.solver = task, analysis, situation, solver
         self.decisions: list[Decision] = []
+        self.notes: list[str] = []
 
     def outcome(self) -> Outcome:
         if self.task.goal == "margin":
@@ -123,31 +126,43 @@ class _Planner:
 
         `limits` says how a slack [N] on the best value is written down.
         """
+        before, unit = self.situation, self.situation.force_unit
+        forces = before.force.constant + self._unknowns() @ before.force.matrix.T
+        # the best plans squeeze hard: in units of that squeeze the solver's tolerances mean what they say
+        self.situation = before.in_units_of(max(unit, float(np.abs(forces * self.analysis.response.scale.force).max())))
         for slack in SLACKS:
-            if self._ask(limits(slack * self.situation.force_unit), LeastEffort()).optimal:
+            if self._ask(limits(slack * unit), LeastEffort()).optimal:
                 return
             self.decisions.pop()
+        self.situation = before
+        self.notes.append("least effort among the plans that are best by this goal was not verified; it is one of them")
 
     def _plan(self, largest: float | None = None) -> Plan:
-        self._settle_redundancy(self.decisions[-1])
-        return verified_plan(self.task, self.analysis, self.situation, tuple(self.decisions), largest)
+        self._settle_redundancy()
+        plan = verified_plan(self.task, self.analysis, self.situation, tuple(self.decisions), largest)
+        return replace(plan, notes=tuple(self.notes))
+
+    def _unknowns(self) -> Array:
+        """Return the unknowns v (T, n_v) of the last decision."""
+        return self.decisions[-1].program.unknowns(self.decisions[-1].solution.x)
 
     def _scalar(self, decision: Decision) -> float:
         """Return the goal's scalar of a decision [N]."""
         return float(decision.solution.x[-1]) * self.situation.force_unit
 
-    def _settle_redundancy(self, decision: Decision) -> None:
+    def _settle_redundancy(self) -> None:
         """With the forces fixed, use no more redundancy than the reference limits force on the plan.
 
         Fixed forces leave a limit that they touch no room for rounding; the limits are loosened by `LOOSE`.
         """
-        v = decision.program.unknowns(decision.solution.x)
+        v = self._unknowns()
         if v.shape[1] == self.situation.n_alpha:
             return
         watching = [limit for limit in self.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
         loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
         if not self._ask(loosened, LeastReconfiguration(v)).optimal:
             self.decisions.pop()  # the redundancy stays as the goal before left it, which is within all limits
+            self.notes.append("the smallest use of redundancy was not verified; it is within its limits")
 
     def _without_optimum(self, decision: Decision) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
@@ -177,13 +192,26 @@ class _Planner:
         return self._infeasible(proof, largest)
 
     def _infeasible(self, proof: Decision, largest: float | None) -> Infeasible:
-        why = "no internal force that the synergies control satisfies all limits at once"
-        if largest is not None:
-            asked = f"the task asks for {self.task.margin:.4g} N"
-            why = f"these limits allow a slip margin of {largest:.4g} N at most; {asked}"
-            if largest < 0:
-                why = f"some contact slips whatever the forces: its friction cone is missed by {-largest:.4g} N or more"
+        ray = proof.certificate.y
         return Infeasible(
-            self.task, self.analysis, "magnitude", why, None, proof.certificate, proof.program,
-            tuple(self.decisions), largest,
+            self.task, self.analysis, "magnitude", f"{self._shortfall(largest)}; {self._without_limits()}", None,
+            proof.certificate, proof.program, tuple(self.decisions), largest,
+            clashes(proof.program, ray) if ray is not None else (),
         )  # fmt: skip
+
+    def _shortfall(self, largest: float | None) -> str:
+        if largest is None:
+            return "no internal force that the synergies control keeps all limits at once"
+        if largest < 0:
+            return f"within these limits some contact slips: its friction cone is missed by {-largest:.4g} N or more"
+        most, asked = apart(largest, self.task.margin)
+        return f"these limits allow a slip margin of {most} N at most, the task asks for {asked} N"
+
+    def _without_limits(self) -> str:
+        """Tell limits from geometry: would the cones alone allow it?"""
+        free = ask(Question(self.situation, (FrictionCone(self.task.margin),), LeastEffort()), self.solver)
+        if not free.optimal:
+            return "no squeeze however hard would do: friction, contact places, load or synergies must change"
+        forces = self.situation.force.constant + free.program.unknowns(free.solution.x) @ self.situation.force.matrix.T
+        normal = forces[:, [rows.start for rows in self.analysis.grasp.rows]].max()
+        return f"without the limits on forces, torques, efforts and references {normal:.4g} N of normal force would do"

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, SynergripError, one_of
+from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
@@ -127,10 +127,9 @@ def _gather(issues: list[Issue], part: Callable[[], T]) -> T | None:
 
 def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
-        from synergrip.grasps.given import given
-        from synergrip.grasps.matrices import read_matrices
+        from synergrip.grasps.given import read_given
 
-        return _Touching(given(read_matrices(path.parent / file.grasp.file, "grasp.file")), None, "", HandLimits())
+        return _Touching(read_given(path.parent / file.grasp.file, "grasp.file"), None, "", HandLimits())
     from synergrip.plans.reading.setup import hand_grasp
 
     return _Touching(*hand_grasp(file, path.parent))
@@ -154,7 +153,29 @@ def _supported(file: ProblemFile) -> None:
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:
-    """Return an error of planning with its place in the problem file, when it has a key there."""
+    """Return an error of planning with its place in the file that holds its key."""
     if not isinstance(error, InputError):
         return error
+    if isinstance(error, RigidContactError):
+        return _rigid_located(problem, error)
     return error.located(lambda issue: issue if issue.key.isupper() else problem.document.locate(issue))
+
+
+def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactError:
+    """Return the error at the compliance of the grasp file, or at the stiffness of the problem file."""
+    if problem.file.grasp is not None:
+        return error.located(read_document(problem.path.parent / problem.file.grasp.file).locate)
+    key = _stiffness_key(problem.file, error)
+    return error.located(lambda issue: problem.document.locate(replace(issue, key=key)))
+
+
+def _stiffness_key(file: ProblemFile, error: RigidContactError) -> str:
+    """Return the key that says how stiff the contact is in the direction of the error."""
+    names = {"n": ("stiffness",), "m": ("spin_stiffness",)}.get(error.component, ("tangential_stiffness", "stiffness"))
+    entries = [(f"contact[{i}]", entry) for i, entry in enumerate(file.contact)
+               if error.contact == (entry.name or entry.at)]  # fmt: skip
+    for name in names:
+        for table, values in [*entries, ("contacts", file.contacts)]:
+            if getattr(values, name, None) is not None:
+                return f"{table}.{name}"
+    return "contacts.stiffness"

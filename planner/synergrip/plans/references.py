@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +12,27 @@ import numpy as np
 from synergrip.documents import read_document
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.tables import REFERENCES, Table, read_table
+from synergrip.plans.reading.tables import REFERENCES, read_table
 
 KEY = "PLAN"
 
 
-def read_references(path: Path, n_z: int) -> Table:
-    """Return times (T,) and references dz_r (T, n_z) of a plan.
+STORED = ("lambda", "tau", "du")
+"""What a plan of ours also holds, and what a check compares with its own figures."""
+
+
+@dataclass(frozen=True)
+class References:
+    """Synergy references at times, and the consequences that the file claims for them."""
+
+    times: Array  # (T,) [s]
+    values: Array  # (T, n_z) dz_r
+    claimed: Mapping[str, Array]
+    """Of `STORED`, what the file holds: (T, ...) each."""
+
+
+def read_references(path: Path, n_z: int) -> References:
+    """Return times (T,) and references dz_r (T, n_z) of a plan, with the forces and motions it claims.
 
     Args:
         path: plan.json, plan.npz, a CSV with ``t_s,zr_1,...`` (further columns are ignored), or a folder with
@@ -39,41 +55,48 @@ def read_references(path: Path, n_z: int) -> Table:
     return table
 
 
-def _from_csv(path: Path) -> Table:
-    return read_table(path, REFERENCES, KEY, others=True)
+def _from_csv(path: Path) -> References:
+    table = read_table(path, REFERENCES, KEY, others=True)
+    return References(table.times, table.values, {})
 
 
-def _from_json(path: Path) -> Table:
+def _from_json(path: Path) -> References:
     data = read_document(path, "plan", KEY).data
     if "dz_r" not in data or "time_s" not in data:
         verdict = data.get("verdict")
         why = f"its verdict is '{verdict}'" if verdict else "dz_r and time_s are missing"
         raise InputError.at(KEY, f"'{path}' holds no plan: {why}")
-    return _table(path, data["time_s"], data["dz_r"])
+    return _references(path, data)
 
 
-def _from_npz(path: Path) -> Table:
+def _from_npz(path: Path) -> References:
     try:
         with np.load(path, allow_pickle=False) as stored:
             if "dz_r" not in stored or "time_s" not in stored:
                 raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
-            return _table(path, stored["time_s"], stored["dz_r"])
+            return _references(path, dict(stored))
     except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
 
 
-def _table(path: Path, times: object, values: object) -> Table:
+def _references(path: Path, data: Mapping[str, object]) -> References:
+    t, z = _numbers(path, data, "time_s", 1), _numbers(path, data, "dz_r", 2)
+    claimed = {name: _numbers(path, data, name, 2) for name in STORED if name in data}
+    for name, array in {"dz_r": z, **claimed}.items():
+        if len(array) != len(t):
+            raise InputError.at(KEY, f"'{path}': {name} has {len(array)} rows for {len(t)} times")
+    if not np.all(np.diff(t) > 0):
+        raise InputError.at(KEY, f"'{path}': times must increase")
+    return References(t, z, claimed)
+
+
+def _numbers(path: Path, data: Mapping[str, object], name: str, dimensions: int) -> Array:
+    """Return an array of finite numbers, with at least one row."""
     try:
-        t, z = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
+        array = np.asarray(data[name], dtype=float)
     except (TypeError, ValueError):
-        raise InputError.at(KEY, f"'{path}': time_s or dz_r are no arrays of numbers") from None
-    if t.ndim != 1 or z.ndim != 2 or len(t) != len(z) or not len(t):
-        message = f"'{path}': expected time_s (T) and dz_r (T x n_z), got shapes {t.shape} and {z.shape}"
-        raise InputError.at(KEY, message)
-    if not _increasing(t) or not np.all(np.isfinite(z)):
-        raise InputError.at(KEY, f"'{path}': times must increase and all numbers be finite")
-    return Table(frozen(t), frozen(z))
-
-
-def _increasing(times: Array) -> bool:
-    return bool(np.all(np.isfinite(times)) and np.all(np.diff(times) > 0))
+        raise InputError.at(KEY, f"'{path}': {name} is no array of numbers") from None
+    if array.ndim != dimensions or not len(array) or not np.all(np.isfinite(array)):
+        expected = "(T) numbers" if dimensions == 1 else "(T x n) numbers"
+        raise InputError.at(KEY, f"'{path}': expected {name} as {expected}, all finite; got shape {array.shape}")
+    return frozen(array)

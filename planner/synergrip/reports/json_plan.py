@@ -46,6 +46,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
     return {name: array.tolist() for name, array in arrays.items()} | {
         "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
         "largest_margin_N": plan.largest_margin,
+        "notes": list(plan.notes),
         "limits": [usage_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
         "checks": [check_document(check) for check in plan.checks],
@@ -59,6 +60,8 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
     document: dict[str, Any] = {
         "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
     }  # fmt: skip
+    if outcome.clashes:
+        document["clashes"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.clashes]
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})

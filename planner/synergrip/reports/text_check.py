@@ -10,7 +10,7 @@ from synergrip.plans.problem import Problem
 from synergrip.reports.json_analysis import structure_document
 from synergrip.reports.json_plan import check_document, margin_document, usage_document
 from synergrip.reports.tables import table
-from synergrip.reports.text_plan import refused_lines, usage_row, verdict_word
+from synergrip.reports.text_plan import refused_lines, usage_rows, verdict_word
 from synergrip.reports.text_problem import problem_lines
 
 
@@ -21,7 +21,8 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
     failed = [check.name for check in judgement.checks if not check.passed]
     why = f"this plan breaks: {', '.join(failed)}" if failed else "this plan keeps every limit of the problem"
     lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), "", f"{word}  {why}"]
-    return "\n".join([*lines, table(("", "worst", "at", "limit"), [usage_row(usage) for usage in judgement.usages])])
+    used = [row for usage in judgement.usages for row in usage_rows(usage)]
+    return "\n".join([*lines, table(("", "worst", "at", "limit"), used)])
 
 
 def refused_text(problem: Problem, refusal: Refusal, color: bool = False) -> str:

@@ -13,6 +13,7 @@ from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
+from synergrip.quantities import apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many, problem_lines
 
@@ -26,6 +27,7 @@ def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequ
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), "", *_feasible(outcome, word)]
+        lines += [line for note in outcome.notes for line in wrapped("note     ", note)]
     elif isinstance(outcome, Infeasible):
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]
     else:
@@ -60,9 +62,11 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     k, i = first_largest(-plan.margins)
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = ", the largest there is" if plan.largest_margin is not None else ""
-    yield f"{word}  smallest slip margin {plan.margins[k, i]:.4g} N ({contact}, t = {time:.2f} s){best}"
-    rows = [usage_row(usage) for usage in plan.usages]
-    rows.insert(1, _largest_normal(plan))
+    worst = round(float(plan.margins[k, i]), 9)
+    yield f"{word}  smallest slip margin {worst + 0.0:.4g} N ({contact}, t = {time:.2f} s){best}"
+    rows = [row for usage in plan.usages for row in usage_rows(usage)]
+    if not any(row[0] == "largest normal force" for row in rows):
+        rows.insert(1, _largest_normal(plan))
     if not any(usage.title == "synergy reference" for usage in plan.usages):
         names = plan.analysis.grasp.synergies
         rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
@@ -87,17 +91,22 @@ def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], ti
     return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
-def usage_row(usage: Usage) -> tuple[str, ...]:
-    """Return title, worst value, where and when, and the bounds there."""
-    k, i = usage.worst()
-    lower, upper = usage.lower[i], usage.upper[i]
+def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
+    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
     unit = f" {usage.unit}" if usage.unit in ("N", "N m") else ""
-    if np.isfinite(lower) and np.isfinite(upper):
-        limit = f"±{upper:.4g}{unit}" if lower == -upper else f"{lower:.4g} … {upper:.4g}{unit}"
-    else:
-        limit = f"≥ {lower:.4g}{unit}" if np.isfinite(lower) else f"≤ {upper:.4g}{unit}"
-    title = "normal force range" if usage.title == "normal force" else usage.title
-    return title, f"{usage.value[k, i]:.4g}{unit}", f"{usage.items[i]}, t = {usage.times[k]:.2f} s", limit
+    two_sided = np.all(usage.lower == -usage.upper)
+    sides = ("",) if two_sided else ("largest ", "smallest ") if np.all(np.isfinite(usage.upper)) else ("",)
+    for side in sides:
+        excess = {"largest ": usage.value - usage.upper, "smallest ": usage.lower - usage.value}.get(side, usage.excess)
+        k, i = first_largest(excess / usage.scale)
+        value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
+        bound = upper if side == "largest " or (two_sided and value > 0) else lower
+        if abs(value - bound) <= 1e-6 * float(usage.scale[i]):
+            value = bound  # on the limit, as far as the check can tell
+        shown, limit = apart(value, bound)
+        sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
+        where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
+        yield f"{side}{usage.title}", f"{shown}{unit}", where, f"{sign}{limit.lstrip('-')}{unit}"
 
 
 def _proof(outcome: Infeasible) -> str:
@@ -110,6 +119,8 @@ def _proof(outcome: Infeasible) -> str:
 
 def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
     yield from refused_lines(word, outcome.stage, outcome.why)
+    for i, clash in enumerate(outcome.clashes):
+        yield f"{'Clashes' if i == 0 else '':8} {clash.share:4.0%}  {clash.key}  ({', '.join(clash.items)})"
     for change in repairs(outcome):
         yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
 

@@ -38,7 +38,7 @@ def _csv(folder: Path, name: str, header: str, times: list[float], slope: float 
         ({"knots": 5}, 5, 1.0),
         ({"move": [LIFT]}, MOVING_KNOTS, 1.0),
         ({"move": [LIFT], "duration": "4 s"}, MOVING_KNOTS, 4.0),
-        ({"move": [LIFT], "knots": 1}, 1, 0.0),
+        ({"move": [LIFT], "knots": 2}, 2, 1.0),
         ({"gravity": [0, 0, -9.81], "palm": {"axis": "x", "turn": "1 rad"}}, MOVING_KNOTS, 1.0),
     ],
 )

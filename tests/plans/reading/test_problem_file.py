@@ -51,6 +51,7 @@ def test_defaults():
     assert problem.goal.name == "effort"
     assert problem.output.write == ()
     assert problem.contact_list() == ()
+    assert read("goal={}").goal == problem.goal
     assert document.path.name == "matrices.toml"
 
 
@@ -134,6 +135,21 @@ def test_a_frictionless_contact_ignores_the_default_friction_but_has_none_of_its
         ("{at='a', spin_friction='1 mm'}", "contact[0].spin_friction", "a hard contact has no spin friction"),
         ("{at='a', stiffness='rigit'}", "contact[0].stiffness", "did you mean 'rigid'?"),
         ("{at='a', stiffness='0 N/m'}", "contact[0].stiffness", "must be greater than 0"),
+        ("{at='a', stiffness='1e-300 N/mm'}", "contact[0].stiffness", "is too soft to hold anything"),
+        (
+            "{at='a', tangential_stiffness='9e-7 N/m'}",
+            "contact[0].tangential_stiffness",
+            "is too soft to hold anything",
+        ),
+        (
+            "{at='a', model='soft', spin_friction='1 m', spin_stiffness='9e-7 N m/rad'}",
+            "contact[0].spin_stiffness",
+            "is too soft to hold anything",
+        ),
+        ("{at='a', name='a,b'}", "contact[0].name", "may not hold commas, quotes or control characters, got 'a,b'"),
+        ("{at='a', name='a\"b'}", "contact[0].name", "may not hold commas, quotes"),
+        ("{at='a', name=\"a\\nb\"}", "contact[0].name", "may not hold commas, quotes or control"),
+        ("{at='a,b', name='a'}", "contact[0].at", "may not hold commas, quotes or control"),
         ("{at='a', normals='palm'}", "contact[0].normals", "'palm' is not one of 'object' or 'pad'"),
         ("{at=''}", "contact[0].at", "must not be empty"),
     ],
@@ -151,6 +167,9 @@ def test_contacts_that_cannot_be(contact, key, fragment):
         ("task.move=[{mode=1, amplitude='1 m', lift='1 m'}]", "task.move[0].lift", "goes with axis"),
         ("task.move=[{axis='x', lift='1 m', amplitude='1 m'}]", "task.move[0].amplitude", "goes with mode"),
         ("task.move=[{mode=0, amplitude='1 m'}]", "task.move[0].mode", "must be at least 1, got 0"),
+        ("task.knots=1", "task.knots", "a task that moves or turns needs at least 2 knots"),
+        ("task.duration=0.5 us", "task.duration", "unknown unit 'us'"),
+        ("task.duration=0.0005 ms", "task.duration", "must be at least 1 us, got 0.5 us"),
         ("limits.normal_force=0 N", "limits.normal_force", "must be greater than 0 N"),
         ("limits.joint_torque=1 N", "limits.joint_torque", "'N' is a unit of force; expected a torque"),
         ("limits.synergy_rate=[]", "limits.synergy_rate", "expected one or more numbers, got 0"),
@@ -166,6 +185,16 @@ def test_values_that_cannot_be(override, key, fragment):
     ((found, message),) = issues(override)
     assert found == key
     assert fragment in message
+
+
+def test_a_palm_that_turns_needs_two_knots_and_one_that_holds_needs_one():
+    matter = ("task.move=[]", "task.knots=1")
+    assert read(*matter).task.knots == 1
+    assert issues(*matter, "task.palm={axis='x', turn='1 deg'}") == [
+        ("task.knots", "a task that moves or turns needs at least 2 knots")
+    ]
+    assert read("task.knots=2", "task.duration=1e-6 s").task.duration == 1e-6
+    assert read("contacts.stiffness=1e-6 N/m").contacts.stiffness == 1e-6
 
 
 def test_gravity_on_matrices_asks_for_the_wrench():

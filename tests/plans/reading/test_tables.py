@@ -57,6 +57,23 @@ def test_every_wrong_cell_has_its_place(write):
     assert found[0].source == "0, nan,x"
 
 
+@pytest.mark.parametrize(
+    ("cell", "shown"),
+    [
+        ("\u0661\u0662", "\u0661\u0662"), ("\uff11", "\uff11"), ('"1', '"1'), ('1"', '1"'), ('""1""', '"1"'),
+        ('"', '"'), ('1"2', '1"2'),
+    ],
+)  # fmt: skip
+def test_other_digits_and_half_quotes_are_no_numbers(write, cell, shown):
+    (issue,) = issues(write(f"t_s,zr_1\n0,{cell}\n"), REFERENCES)
+    assert issue.message == f"expected a number, got '{shown}'"
+    assert (issue.line, issue.column) == (2, 3 + cell.find(shown))
+
+
+def test_a_half_quoted_header_is_refused(write):
+    assert "unknown column '\"zr_1'" in issues(write('t_s,"zr_1\n0,1\n'), REFERENCES)[0].message
+
+
 def test_times_are_judged_although_other_lines_are_wrong(write):
     found = issues(write("zr_1,t_s\n0,1\nx,2\n0,0.5\n"), REFERENCES)
     assert [(issue.line, issue.column) for issue in found] == [(3, 1), (4, 3)]

@@ -106,7 +106,7 @@ class LimitsTable(Table):
 
 
 class GoalTable(Table):
-    """Which of the plans within the limits is chosen."""
+    """Which of the plans within the limits is chosen; the one of least effort when nothing is said."""
 
     maximise: Literal["margin"] | None = Field(default=None, description="what is to be as large as possible")
     minimise: Literal["effort", "torque", "peak_force"] | None = Field(
@@ -119,11 +119,9 @@ class GoalTable(Table):
         return self.maximise or self.minimise or "effort"
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse none and both."""
+        """Refuse two goals."""
         if self.maximise and self.minimise:
             yield Issue("a plan has one goal: maximise or minimise, not both", key="minimise", on_key=True)
-        if not (self.maximise or self.minimise):
-            yield Issue('give one goal: maximise = "margin", or minimise = "effort", "torque" or "peak_force"')
 
 
 class OutputTable(Table):

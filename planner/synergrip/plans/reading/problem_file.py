@@ -35,7 +35,7 @@ class ProblemFile(Table):
     task: TaskTable = Field(default_factory=TaskTable, description="what is to happen")
     limits: LimitsTable = Field(default_factory=LimitsTable, description="what the plan must keep")
     goal: GoalTable = Field(
-        default_factory=lambda: GoalTable(minimise="effort"),
+        default_factory=GoalTable,
         description="which plan is chosen; least effort when absent",
     )
     output: OutputTable = Field(default_factory=OutputTable, description="what is written")

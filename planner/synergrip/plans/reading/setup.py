@@ -6,19 +6,20 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.errors import InputError
+from synergrip.errors import InputError, Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.folder import load_hand
-from synergrip.hands.hand import Hand
+from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies import posture, select
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
 from synergrip.plans.reading.limits_table import HandLimits
 from synergrip.plans.reading.problem_file import ProblemFile
-from synergrip.plans.reading.setup_file import ObjectTable, ShapeTable
+from synergrip.plans.reading.setup_file import HandTable, ObjectTable, ShapeTable
 
 
 def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, HandLimits]:
@@ -35,6 +36,25 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, Han
     if table is None:
         raise InputError.at("hand", "missing table [hand]")
     hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, key="hand.model")
+    issues, touches = list[Issue](), list[Touch]()
+    for contact in file.contact_list():
+        try:
+            touches.append(_touch(hand, contact))
+        except InputError as error:
+            issues += error.issues
+    try:
+        synergies, q, C_q, C_z = _state(hand, table)
+    except InputError as error:
+        raise InputError([*error.issues, *issues]) from None
+    if issues:
+        raise InputError(issues)
+    grasp, thing = place(file.title, hand, synergies, q, _object(file.object), touches, C_q, C_z)
+    torque = frozen([joint.torque_limit for joint in hand.joints])
+    return grasp, thing, hand.title, HandLimits(torque, synergies.effort_limits)
+
+
+def _state(hand: Hand, table: HandTable) -> tuple[SynergySet, Array, Array, Array]:
+    """Return synergies, joint values (n_q,), joint and synergy compliance of a hand."""
     synergies = select(hand, table.synergies, "hand.synergies")
     if table.posture is None:
         raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint angles")
@@ -43,10 +63,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, Han
     if table.compliance.joint is not None:
         C_q = _diagonal(table.compliance.joint, hand.joint_names, "hand.compliance.joint", "joints")
     C_z = _diagonal(table.compliance.synergy or 0.0, synergies.synergies, "hand.compliance.synergy", "synergies")
-    touches = [_touch(hand, contact) for contact in file.contact_list()]
-    grasp, thing = place(file.title, hand, synergies, q, _object(file.object), touches, C_q, C_z)
-    torque = frozen([joint.torque_limit for joint in hand.joints])
-    return grasp, thing, hand.title, HandLimits(torque, synergies.effort_limits)
+    return synergies, q, C_q, C_z
 
 
 def _touch(hand: Hand, contact: ContactSpec) -> Touch:
@@ -81,4 +98,6 @@ def _shape(table: ShapeTable) -> Shape:
 def _diagonal(value: float | tuple[float, ...], names: tuple[str, ...], key: str, what: str) -> Array:
     if isinstance(value, tuple) and len(value) != len(names):
         raise InputError.at(key, f"{len(value)} values for {len(names)} {what} ({', '.join(names)})")
+    if np.max(value) > LARGEST_COMPLIANCE:
+        raise InputError.at(key, f"a compliance of {np.max(value):g} is too large")
     return frozen(np.diag(np.broadcast_to(np.asarray(value, dtype=float), (len(names),))))

@@ -12,6 +12,7 @@ from synergrip.errors import InputError, Issue, suggest
 from synergrip.fields import (
     NUMBER,
     Mass,
+    Name,
     Positive,
     Size,
     Table,
@@ -66,6 +67,10 @@ def _one_or_list(read: Callable[[Any], float]) -> Callable[[Any], float | tuple[
     return lambda value: listed(read, value) if isinstance(value, list) else read(value)
 
 
+SOFTEST = 1e-6
+"""A contact that yields a kilometre under a millinewton holds nothing [N/m, N m/rad]."""
+
+
 def _rigid_or(kind: str) -> Callable[[Any], float]:
     read = with_unit(kind, above=0)
 
@@ -74,7 +79,10 @@ def _rigid_or(kind: str) -> Callable[[Any], float]:
             if value == "rigid":
                 return math.inf
             raise InputError.at("", f"{value!r} is neither 'rigid' nor a {kind}{suggest(value, ['rigid'])}")
-        return read(value)
+        result = read(value)
+        if result < SOFTEST:
+            raise InputError.at("", f"{shown(value)} is too soft to hold anything")
+        return result
 
     return stiffness
 
@@ -220,11 +228,11 @@ class ContactTable(Table):
 class ContactsTable(ContactTable):
     """Defaults for every contact, and the pads that touch."""
 
-    at: tuple[Text, ...] = Field(default=(), description="names of the hand's pads that touch the object")
+    at: tuple[Name, ...] = Field(default=(), description="names of the hand's pads that touch the object")
 
 
 class ContactEntry(ContactTable):
     """One contact: a pad, and what differs from the defaults."""
 
-    name: Text | None = Field(default=None, description="name of the contact; that of the pad when absent")
-    at: Text = Field(description="name of the hand's pad that touches the object")
+    name: Name | None = Field(default=None, description="name of the contact; that of the pad when absent")
+    at: Name = Field(description="name of the hand's pad that touches the object")

@@ -90,7 +90,9 @@ def read_table(path: Path, columns: Sequence[str] | str, key: str = "", *, other
 def _cells(line: str, number: int) -> Iterator[_Cell]:
     column = 1
     for text in line.split(","):
-        bare = text.strip().strip('"').strip()
+        bare = text.strip()
+        if len(bare) > 1 and bare.startswith('"') and bare.endswith('"'):
+            bare = bare[1:-1].strip()
         yield _Cell(bare, number, column + (text.find(bare) if bare else 0))
         column += len(text) + 1
 
@@ -127,7 +129,7 @@ def _numbers(reader: _Reader, number: int, line: str, count: int) -> tuple[int, 
         values = [float(text) for text in line.split(",")]
     except ValueError:
         values = []
-    if len(values) == count and all(abs(value) <= LARGEST_NUMBER for value in values) and "_" not in line:
+    if len(values) == count and all(abs(value) <= LARGEST_NUMBER for value in values) and _is_plain(line):
         return number, values
     cells = list(_cells(line, number))
     if len(cells) != count:
@@ -138,9 +140,14 @@ def _numbers(reader: _Reader, number: int, line: str, count: int) -> tuple[int, 
     return number, values if len(reader.issues) == before else []
 
 
+def _is_plain(text: str) -> bool:
+    """Tell whether what Python reads as numbers here is a number to everyone: no 1_000, no digits of other scripts."""
+    return text.isascii() and "_" not in text
+
+
 def _number(reader: _Reader, cell: _Cell) -> float:
     try:
-        value = float(cell.text.replace("_", "x"))
+        value = float(cell.text if _is_plain(cell.text) else "")
     except ValueError:
         reader.refuse(f"expected a number, got '{cell.text}'" if cell.text else "expected a number, got nothing", cell)
         return 0.0

@@ -27,6 +27,8 @@ from synergrip.fields import (
 from synergrip.validation import shown
 
 Profile = Literal["min-jerk", "cubic", "linear"]
+SHORTEST = 1e-6
+"""Shortest task [s]."""
 PROFILE = "course in time from 0 at the start to the full value at the end"
 
 
@@ -110,9 +112,13 @@ class TaskTable(Table):
     move: tuple[MoveTable, ...] = Field(default=(), description="wanted motions, which add up")
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse a wanted motion given twice and a turn that changes nothing."""
+        """Refuse a motion given twice, a turn that changes nothing, and too few instants to move."""
         given = [name for name in ("move", "motion", "modes") if getattr(self, name)]
         for name in given[1:]:
             yield Issue(f"the wanted motion is given already by '{given[0]}'; keep one", key=name, on_key=True)
         if self.palm is not None and self.gravity is None:
             yield Issue("turning the palm changes nothing without task.gravity", key="palm", on_key=True)
+        if self.knots == 1 and (self.move or self.palm):
+            yield Issue("a task that moves or turns needs at least 2 knots", key="knots")
+        if self.duration < SHORTEST:
+            yield Issue(f"must be at least 1 us, got {1e6 * self.duration:.3g} us", key="duration")

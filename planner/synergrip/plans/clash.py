@@ -1,0 +1,52 @@
+"""What clashes in an infeasible task, read from its proof: every limit with its share, and the items that carry it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.program import Program
+from synergrip.linalg import Array
+
+COUNTS = 0.005
+"""Share of the proof below which a limit plays no part."""
+HEAVY = 0.2
+"""Items that carry less than this share of what the heaviest item of their limit carries are not named."""
+
+
+@dataclass(frozen=True)
+class Clash:
+    """One limit's part in a proof of infeasibility."""
+
+    key: str
+    """Key in the problem file."""
+    share: float
+    """Share of the proof's multipliers, all in units of their limits."""
+    items: tuple[str, ...]
+    """Contacts, joints or synergies, the heaviest first."""
+
+
+def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
+    """Return the limits that a proof of infeasibility y (m,) rests on, the heaviest first.
+
+    Multipliers of the two sides of one limit cancel: what is left is a proof as well, and a stronger one.
+    """
+    sums: dict[str, dict[str, Array]] = {}
+    for block, rows in program.slices():
+        sizes = np.linalg.norm(y[rows].reshape(block.knots, len(block.items), block.dim), axis=2)
+        of_limit = sums.setdefault(block.limit, {})
+        for item, size in zip(block.items, sizes.T, strict=True):
+            name, _, side = item.partition(" (")
+            signed = -size if side in ("lowest)", "falling)") else size
+            of_limit[name] = of_limit.get(name, np.zeros(block.knots)) + signed
+    weights = {key: {name: float(np.abs(net).sum()) for name, net in items.items()} for key, items in sums.items()}
+    total = sum(sum(items.values()) for items in weights.values())
+    found = []
+    for key, items in weights.items():
+        share = sum(items.values()) / total
+        if share > COUNTS:
+            ordered = sorted(items, key=lambda item: -items[item])
+            heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
+            found.append(Clash(key, share, tuple(heavy)))
+    return tuple(sorted(found, key=lambda clash: -clash.share))

@@ -1,0 +1,48 @@
+"""The physical check of a plan: each statement fails when what it states is broken."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from synergrip.errors import SelfCheckError
+from synergrip.linalg import frozen
+from synergrip.plans.outcome import Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
+from synergrip.plans.task import Task
+from synergrip.plans.verified import identities, verified_plan
+
+
+def tripod() -> Plan:
+    problem = load_problem("tripod")
+    outcome = plan(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    return outcome
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "broken"),
+    [
+        ("wrench", 1e-3, {"equilibrium", "internal force", "forces from alpha"}),
+        ("forces", 1e-3, {"equilibrium", "internal force", "forces from alpha"}),
+        ("dz_r", 1e-5, {"references", "forward maps"}),
+    ],
+)
+def test_a_broken_motion_fails(name: str, size: float, broken: set[str]) -> None:
+    outcome = tripod()
+    wanted = (outcome.alpha, outcome.beta, outcome.gamma)
+    assert all(check.passed for check in identities(outcome.analysis, outcome.motion, wanted))
+    array = np.array(getattr(outcome.motion, name))
+    array[5, 0] += size
+    bad = replace(outcome.motion, **{name: frozen(array)})
+    assert {check.name for check in identities(outcome.analysis, bad, wanted) if not check.passed} == broken
+
+
+def test_a_plan_that_breaks_a_limit_never_gets_out() -> None:
+    outcome = tripod()
+    task: Task = replace(outcome.task, margin=outcome.margins.min() + 0.1)
+    with pytest.raises(SelfCheckError, match="slip margin"):
+        verified_plan(task, outcome.analysis, outcome.situation, outcome.decisions, None)
