@@ -88,3 +88,15 @@ def test_the_examples_of_the_problem_file_are_in_order() -> None:
     assert examples
     for code in examples:
         parse(Document(ROOT / "example.toml", tomllib.loads(code), code), ProblemFile)
+
+
+@pytest.mark.parametrize("name", ["tripod", "pinch-hard", "barrett-ball-lift"])
+def test_every_key_of_an_answer_is_described(name: str) -> None:
+    from synergrip.plans.planning import plan
+    from synergrip.plans.problem import load_problem
+    from synergrip.reports.json_plan import outcome_document
+
+    text = (ROOT / "docs" / "answers.md").read_text(encoding="utf-8")
+    problem = load_problem(name)
+    document = outcome_document("", problem.grasp, plan(problem.grasp, problem.task))
+    assert not [key for key in document if f"`{key}`" not in text]

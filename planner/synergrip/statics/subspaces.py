@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.linalg import SINGULAR, Array, Decision, canonical, frozen, split
+from synergrip.linalg import RANK_TOLERANCE, SINGULAR, Array, Decision, canonical, frozen, split
 from synergrip.statics.response import Response
 
 
@@ -89,9 +89,9 @@ def _forces(response: Response, rank: int, Gt: Array) -> tuple[Array, Decision]:
     force = response.scale.force
     scaled = force[:, None] * response.dlambda_dzr
     vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
-    # rounding, not force: what J S produces before the part that moves the object is taken out
+    # against what J S produces before the part that moves the object is taken out: less is rounding of the data
     produced = np.linalg.norm(force[:, None] * (response.K @ response.grasp.J @ response.grasp.S), 2)
-    reference = float(values[0]) if len(values) and values[0] > SINGULAR * produced else 0.0
+    reference = float(values[0]) if len(values) and values[0] > RANK_TOLERANCE * produced else 0.0
     own = Decision.of(values, reference)
     # grey values are no news here: they come with stiff K, and (34) has settled the rank
     decision = Decision(own.rank, own.singular_values, own.rank != rank)
