@@ -1,6 +1,6 @@
 """Rank, range and null space under one tolerance policy, and arrays that cannot be changed.
 
-The policy (theory.md, section 3): a singular value counts when it exceeds `RANK_TOLERANCE`
+The policy (docs/theory.md): a singular value counts when it exceeds `RANK_TOLERANCE`
 times the largest; between `GREY_FLOOR` and `GREY_CEILING` the decision is flagged as ambiguous,
 because a change of the data in the last printed digits could turn it.
 Matrices are made free of units before they come here.

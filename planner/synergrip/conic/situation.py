@@ -2,7 +2,7 @@
 
 At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit)``; beta_k is known
 from the wanted motion. Then ``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k`` and torques, actuator efforts
-and synergy references follow (theory.md, section 5).
+and synergy references follow (docs/theory.md).
 """
 
 from __future__ import annotations

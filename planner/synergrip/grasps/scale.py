@@ -1,7 +1,7 @@
 """The length that makes newtons and newton metres, metres and radians comparable.
 
 Ranks and norms must depend neither on the units nor on where the user put the object frame
-(theory.md, section 3). So moments and rotations are scaled by the mean distance of the contacts
+(docs/theory.md). So moments and rotations are scaled by the mean distance of the contacts
 from their centroid, and twists and wrenches are taken about that centroid.
 """
 

@@ -67,7 +67,7 @@ class Infeasible:
     analysis: Analysis | None
     """None when the grasp does not restrain the object."""
     stage: str
-    """"restraint", "count", "direction" or "magnitude" (theory.md, section 7)."""
+    """"restraint", "count", "direction" or "magnitude" (docs/theory.md)."""
     why: str
     refusal: Refusal | None
     """What was refused before any program was solved."""

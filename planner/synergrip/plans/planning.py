@@ -44,7 +44,7 @@ LOOSE = 1e-7
 
 
 def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
-    """Plan a task: restraint, count, direction, magnitude, in this order (theory.md, section 7).
+    """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 
     Raises:
         InputError: the grasp is rigid in some contact direction, or the modes do not fit it.

@@ -2,7 +2,7 @@
 
 With the total compliance ``C = C_s + J C_q J' + J S C_z S' J'`` and ``K = C^-1`` everything is one
 linear system, so C_q = 0 and C_z = 0 are ordinary values and the paper's X (24) and Y (25) are
-never formed (theory.md, section 2).
+never formed (docs/theory.md).
 """
 
 from __future__ import annotations

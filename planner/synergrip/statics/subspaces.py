@@ -46,7 +46,7 @@ def subspaces(response: Response) -> Subspaces:
     """Return the controlled subspaces of a grasp (29), (31).
 
     Uses ``J S`` and not the print's ``J X S Y``: for C_s > 0 the null spaces agree, and for C_s = 0
-    only ``J S`` gives the force-free motions (theory.md, section 3).
+    only ``J S`` gives the force-free motions (docs/theory.md).
     """
     grasp, scale = response.grasp, response.scale
     Gt = grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None]  # (n_l, 6), scaled

@@ -61,7 +61,7 @@ def write_goal(model: Model, goal: Goal) -> Wish:
 
 
 def friction(model: Model, margin: Expression, key: str = "limits.margin") -> tuple[Cone, ...]:
-    """Write ``slip margin >= margin`` of every contact down, margin in force units (theory.md, section 6)."""
+    """Write ``slip margin >= margin`` of every contact down, margin in force units (docs/theory.md)."""
     cones = []
     for contact, rows in zip(model.response.grasp.contacts, model.response.grasp.rows, strict=True):
         force = model.force[:, rows] / model.force_unit
