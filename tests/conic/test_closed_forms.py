@@ -134,3 +134,14 @@ def test_the_worst_margin_is_over_all_knots() -> None:
     assert outcome.largest_margin == pytest.approx(0.5 * 20 - 2, rel=1e-6)
     # at that margin no knot squeezes more than it must
     assert np.allclose(outcome.margins.min(axis=1), outcome.largest_margin, atol=1e-4)
+
+
+@pytest.mark.parametrize("goal", ["effort", "torque", "peak_force"])
+def test_a_grip_on_nothing_is_let_go(goal: str) -> None:
+    """No load, no margin: the best force is none, and rounding is judged against the forces that cancel."""
+    squeezed = np.zeros(8)
+    squeezed[[0, 4]] = 0.97
+    grasp = replace(pinch(), lambda_0=frozen(squeezed))
+    outcome = planned(grasp, task(np.zeros(6), 0.0, goal, JointTorque(frozen(np.full(8, 1.0)))))
+    assert np.abs(outcome.motion.forces).max() < 1e-4
+    assert np.allclose(outcome.motion.dz_r, -0.97e-3, rtol=1e-3)

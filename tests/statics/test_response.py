@@ -216,3 +216,20 @@ def test_internal_forces_stay_internal_when_the_stiffness_is_ill_conditioned(see
     assert np.abs(wrench).max() < 1e-12 * np.abs(response.dlambda_dzr).max()
     assert np.abs(response.scale.wrench((stiff.G @ spaces.E_s).T)).max(initial=0.0) < 1e-13
     assert np.allclose(stiff.G @ response.right_inverse, np.eye(6), atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_rigid_motion_costs_no_force_on_small_objects_with_soft_contacts(seed: int) -> None:
+    """A spin stiffness on a 5 mm object is 1 / L^2 times the others: the maps keep their digits all the same."""
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, ["hard", "soft", "hard", "soft"], n_q=8, n_z=6, degenerate=True)
+    contacts = tuple(replace(c, point=frozen(c.point / 8)) for c in grasp.contacts)
+    spin = np.array([1e-3 if c == "m" else 1.0 for _, c in grasp.components])
+    small = replace(grasp, contacts=contacts, G=grasp_matrix(contacts), C_s=frozen(1e-4 * np.diag(spin)))
+    small = replace(small, J=frozen(np.column_stack([small.J[:, :1], small.G.T @ rng.normal(size=6), small.J[:, 2:]])))
+    response = respond(small)
+    spaces = subspaces(response)
+    assert spaces.Gamma_zcs.shape[1] > 0
+    leak = response.scale.force[:, None] * (response.dlambda_dzr @ spaces.Gamma_zcs)
+    terms = response.scale.force[:, None] * (response.K @ small.J @ small.S @ spaces.Gamma_zcs)
+    assert np.abs(leak).max() < 2e-12 * np.abs(terms).max()  # 1e-16 times the condition of G K G'

@@ -22,6 +22,7 @@ from synergrip.validation import shown
 
 MOST_CONTACTS = 500
 UNIT = 1e-6  # how far the length of a normal may be from 1
+NO_LOAD = 1e-12  # N: a wrench that counts as none
 BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative
 
 
@@ -206,7 +207,7 @@ def _rows(contacts: tuple[ContactFile, ...]) -> Count:
 def _judge_balance(G: Array, lambda_0: Array, w_0: Array, reader: MatrixReader) -> None:
     residual = w_0 + G @ lambda_0
     size = np.linalg.norm(w_0) + np.linalg.norm(np.abs(G) @ np.abs(lambda_0))
-    if np.linalg.norm(residual) > BALANCE * size:
+    if np.linalg.norm(residual) > BALANCE * size + NO_LOAD:
         worst = int(np.argmax(np.abs(residual)))
         name = ("f_x", "f_y", "f_z", "m_x", "m_y", "m_z")[worst]
         unit = "N" if worst < 3 else "N m"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import Units
@@ -24,4 +25,15 @@ def units_of(analysis: Analysis, task: Task) -> Units:
             force = max(force, limit.upper)
         elif isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
             reference = float(np.max(limit.limit[np.isfinite(limit.limit)]))
-    return Units(force if force > 0 else 1.0, reference)
+    return Units(force if force > 0 else _of_limits(analysis, task), reference)
+
+
+def _of_limits(analysis: Analysis, task: Task) -> float:
+    """Return a force unit for a task without load and margin: the smallest force that a limit speaks of, else 1 N."""
+    sizes = [1.0]
+    for limit in task.limits:
+        if isinstance(limit, NormalForce) and np.isfinite(limit.upper):
+            sizes.append(limit.upper)
+        elif isinstance(limit, JointTorque) and np.any(np.isfinite(limit.limit)):
+            sizes.append(float(np.min(limit.limit)) / analysis.response.scale.length)
+    return min(sizes)

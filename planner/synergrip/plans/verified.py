@@ -67,7 +67,10 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
     balance = response.scale.wrench(motion.forces @ grasp.G.T + motion.wrench)
     start = forces_at_start(response) + (motion.wrench - grasp.w_0) @ response.dlambda_dw.T
     internal = response.scale.wrench((motion.forces - start) @ grasp.G.T)
-    size = max(float(np.abs(motion.forces * response.scale.force).max(initial=0.0)), 1e-12)
+    # forces are differences: rounding is that of the terms, also where they cancel to almost nothing
+    against_a_fixed_object = motion.dz_r @ (response.K @ grasp.J @ grasp.S).T
+    terms = (motion.forces, start, against_a_fixed_object)
+    size = max(*(float(np.abs(term * response.scale.force).max(initial=0.0)) for term in terms), 1e-12)
     expected = analysis.coordinates.references(*wanted)
     got = analysis.coordinates.coordinates(motion.dz_r)
     missed = analysis.coordinates.references(*(g - w for g, w in zip(got, wanted, strict=True)))

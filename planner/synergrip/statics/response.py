@@ -59,11 +59,13 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     du_dw = moved @ np.linalg.solve(scaled_G @ K @ scaled_G.T, moved.T)
     du_dw = (du_dw + du_dw.T) / 2
     right_inverse = K @ G.T @ du_dw
-    du_dzr = right_inverse.T @ JS
-    dlambda_dzr = K @ (JS - G.T @ du_dzr)
-    # with K ill-conditioned the two lose digits of what they are by definition: G G+ = I, G d lambda = 0
+    # with K ill-conditioned the maps lose digits of what they are by definition: G G+ = I, G d lambda = 0, and no
+    # force where the object follows rigidly; one refinement of each brings them back
     plain = np.linalg.pinv(scaled_G / scale.force) / scale.force[:, None] @ moved.T
     right_inverse = right_inverse + plain @ (np.eye(6) - G @ right_inverse)
+    du_dzr = right_inverse.T @ JS
+    du_dzr = du_dzr + right_inverse.T @ (JS - G.T @ du_dzr)
+    dlambda_dzr = K @ (JS - G.T @ du_dzr)
     dlambda_dzr = dlambda_dzr - plain @ (G @ dlambda_dzr)
     dtau_dzr = grasp.J.T @ dlambda_dzr
     dsigma_dzr = grasp.S.T @ dtau_dzr
