@@ -63,7 +63,7 @@ def _values(analysis: Analysis) -> Iterator[str]:
     grey = f"{GREY_FLOOR:.0e} to {GREY_CEILING:.0e}"
     yield f"singular values, relative; counted above {RANK_TOLERANCE:.0e}, ambiguous from {grey}"
     for name, decision in analysis.spaces.decisions.items():
-        shown = " ".join(f"{value:.2g}" for value in decision.singular_values)
+        shown = " ".join(f"{value:.2g}" if value > GREY_FLOOR else "0" for value in decision.singular_values)
         yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
     length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
     yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"
