@@ -96,6 +96,14 @@ def canonical(basis: Array) -> Array:
     return frozen(result * np.where(result[largest, range(dimension)] < 0, -1.0, 1.0))
 
 
+def interpolated(times: Array, known: Array, values: Array) -> Array:
+    """Return `values` (K, m), given at `known` (K,), at `times` (T,): shape (T, m), linear in between."""
+    result = np.zeros((len(times), values.shape[1]))
+    for i, column in enumerate(values.T):
+        result[:, i] = np.interp(times, known, column)
+    return result
+
+
 def block_diagonal(blocks: Sequence[Array]) -> Array:
     """Return the dense block-diagonal matrix of `blocks`."""
     result = np.zeros((sum(b.shape[0] for b in blocks), sum(b.shape[1] for b in blocks)))

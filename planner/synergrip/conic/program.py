@@ -59,11 +59,6 @@ class Program:
     box: Array
     """(n,) every unknown is also bounded by |x| <= box, which the limits imply or no plan exceeds."""
 
-    @property
-    def has_epigraph(self) -> bool:
-        """True when the last unknown is the goal's scalar."""
-        return len(self.q) > self.knots * self.n_v
-
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""
         start = 0

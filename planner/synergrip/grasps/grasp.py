@@ -57,6 +57,11 @@ class Grasp:
         return tuple(slice(int(end) - c.n_rows, int(end)) for end, c in zip(ends, self.contacts, strict=True))
 
     @property
+    def normal_rows(self) -> list[int]:
+        """The row of lambda that is the normal force of each contact."""
+        return [rows.start for rows in self.rows]
+
+    @property
     def components(self) -> tuple[tuple[str, str], ...]:
         """(contact name, component) of each row of lambda."""
         return tuple((c.name, component) for c in self.contacts for component in c.kind.components)

@@ -35,6 +35,10 @@ class Scale:
         """Return wrenches (..., 6) in scaled coordinates [N]."""
         return np.asarray(np.linalg.solve(self.motion.T, np.asarray(w).T).T)
 
+    def largest_force(self, forces: Array) -> float:
+        """Return the largest component of contact forces (..., n_l), spin moments divided by the length [N]."""
+        return float(np.abs(forces * self.force).max(initial=0.0))
+
     def twist(self, u: Array) -> Array:
         """Return twists (..., 6) in scaled coordinates [m]."""
         return np.asarray(np.asarray(u) @ self.motion.T)

@@ -10,12 +10,12 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.conic.situation import situate
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Check
 from synergrip.plans.reading.loads import distinct
 from synergrip.plans.references import References
-from synergrip.plans.task import Task, Wanted
+from synergrip.plans.task import Task
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
@@ -58,7 +58,7 @@ def judge_references(grasp: Grasp, task: Task, references: References) -> Judgem
     """
     times = _common_times(task, references)
     task = _at(task, times)
-    dz_r = np.column_stack([np.interp(times, references.times, column) for column in references.values.T])
+    dz_r = interpolated(times, references.times, references.values)
     analysis = analyse(grasp, task.wrench)
     beta = rigid_coordinates(analysis, task)
     situation = situate(
@@ -83,7 +83,7 @@ def _claims(references: References, motion: Motion) -> tuple[Check, ...]:
         if claimed.shape[1] != ours[name].shape[1]:
             found.append(Check(f"claimed {name}", np.inf, LIMIT))
             continue
-        expected = np.column_stack([np.interp(times, motion.times, column) for column in ours[name].T])
+        expected = interpolated(times, motion.times, ours[name])
         size = max(float(np.abs(expected).max(initial=0.0)), 1e-12)
         found.append(Check(f"claimed {name}", float(np.abs(claimed[inside] - expected).max(initial=0.0)) / size, LIMIT))
     return tuple(found)
@@ -105,9 +105,6 @@ def _common_times(task: Task, references: References) -> Array:
 
 
 def _at(task: Task, times: Array) -> Task:
-    def resampled(values: Array) -> Array:
-        columns = [np.interp(times, task.times, column) for column in values.T]
-        return frozen(np.column_stack(columns) if columns else np.zeros((len(times), 0)))
-
-    wanted = Wanted(task.wanted.kind, resampled(task.wanted.values), task.wanted.key)
-    return replace(task, times=times, wrench=resampled(task.wrench), wanted=wanted)
+    wanted = replace(task.wanted, values=frozen(interpolated(times, task.times, task.wanted.values)))
+    wrench = frozen(interpolated(times, task.times, task.wrench))
+    return replace(task, times=times, wrench=wrench, wanted=wanted)

@@ -129,7 +129,7 @@ class _Planner:
         before, unit = self.situation, self.situation.force_unit
         forces = before.force.constant + self._unknowns() @ before.force.matrix.T
         # the best plans squeeze hard: in units of that squeeze the solver's tolerances mean what they say
-        self.situation = before.in_units_of(max(unit, float(np.abs(forces * self.analysis.response.scale.force).max())))
+        self.situation = before.in_units_of(max(unit, self.analysis.response.scale.largest_force(forces)))
         for slack in SLACKS:
             if self._ask(limits(slack * unit), LeastEffort()).optimal:
                 return
@@ -213,5 +213,5 @@ class _Planner:
         if not free.optimal:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"
         forces = self.situation.force.constant + free.program.unknowns(free.solution.x) @ self.situation.force.matrix.T
-        normal = forces[:, [rows.start for rows in self.analysis.grasp.rows]].max()
+        normal = forces[:, self.analysis.grasp.normal_rows].max()
         return f"without the limits on forces, torques, efforts and references {normal:.4g} N of normal force would do"

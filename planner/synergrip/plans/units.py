@@ -17,7 +17,7 @@ def units_of(analysis: Analysis, task: Task) -> Units:
     """Return the force unit (the load, as the contacts feel it) and the reference unit of a task."""
     response = analysis.response
     change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
-    load = float(np.abs((forces_at_start(response) - change) * response.scale.force).max(initial=0.0))
+    load = response.scale.largest_force(forces_at_start(response) - change)
     force = max(load, task.margin)
     reference = 1.0
     for limit in task.limits:

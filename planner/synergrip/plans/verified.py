@@ -70,7 +70,7 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
     # forces are differences: rounding is that of the terms, also where they cancel to almost nothing
     against_a_fixed_object = motion.dz_r @ (response.K @ grasp.J @ grasp.S).T
     terms = (motion.forces, start, against_a_fixed_object)
-    size = max(*(float(np.abs(term * response.scale.force).max(initial=0.0)) for term in terms), 1e-12)
+    size = max(*(response.scale.largest_force(term) for term in terms), 1e-12)
     expected = analysis.coordinates.references(*wanted)
     got = analysis.coordinates.coordinates(motion.dz_r)
     missed = analysis.coordinates.references(*(g - w for g, w in zip(got, wanted, strict=True)))
@@ -80,7 +80,7 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
         Check("internal force", float(np.abs(internal).max(initial=0.0)) / size, EXACT),
         Check("references", _relative(motion.dz_r - expected, expected), EXACT),
         Check("forward maps", _relative(missed, expected), EXACT),
-        Check("forces from alpha", float(np.abs(produced * response.scale.force).max(initial=0.0)) / size, EXACT),
+        Check("forces from alpha", response.scale.largest_force(produced) / size, EXACT),
     )
 
 

@@ -80,7 +80,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
 
 def _largest_normal(plan: Plan) -> tuple[str, ...]:
     grasp = plan.analysis.grasp
-    normal = plan.motion.forces[:, [rows.start for rows in grasp.rows]]
+    normal = plan.motion.forces[:, grasp.normal_rows]
     names = tuple(contact.name for contact in grasp.contacts)
     return _largest("largest normal force", normal, "N", names, plan.motion.times)
 

@@ -34,7 +34,7 @@ class NormalForce:
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the normal forces."""
-        starts = [rows.start for rows in situation.response.grasp.rows]
+        starts = situation.response.grasp.normal_rows
         count = len(starts)
         scale = np.full(count, max(self.upper if np.isfinite(self.upper) else 0.0, situation.force_unit))
         return Usage(
@@ -46,7 +46,7 @@ class NormalForce:
 def normal_selection(situation: Situation) -> Array:
     """Return (n_c, n_l): the normal component of each contact."""
     grasp = situation.response.grasp
-    return np.eye(grasp.n_l)[[rows.start for rows in grasp.rows]]
+    return np.eye(grasp.n_l)[grasp.normal_rows]
 
 
 def _names(situation: Situation) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.reading.moves import moved, turned
 from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, Table, read_table
 from synergrip.plans.reading.task_file import TaskTable
@@ -79,7 +79,7 @@ def _resampled(table: Table, times: Array, key: str) -> Array:
             f"{times[-1]:g} s; change the file, task.duration or task.knots"
         )
         raise InputError.at(key, message)
-    return np.column_stack([np.interp(times, table.times, column) for column in table.values.T])
+    return interpolated(times, table.times, table.values)
 
 
 def _wrench(task: TaskTable, times: Array, resampled: dict[str, Array], mass: float) -> Array | None:
