@@ -100,3 +100,16 @@ def test_every_key_of_an_answer_is_described(name: str) -> None:
     problem = load_problem(name)
     document = outcome_document("", problem.grasp, plan(problem.grasp, problem.task))
     assert not [key for key in document if f"`{key}`" not in text]
+
+
+def test_the_singular_values_of_table_two_are_those_of_analyse() -> None:
+    from synergrip.plans.analysis import analyse
+    from synergrip.plans.problem import load_problem
+
+    keys = {"J S": "redundancy", "part of J S that no rigid motion follows": "rigid"}
+    shown = BLOCK.findall((ROOT / "problems" / "README.md").read_text(encoding="utf-8"))[-1][1].splitlines()
+    assert len(shown) == 8
+    for line in shown:
+        name, what, values = re.fullmatch(r"(\S+)\s+(J S|part.*?follows)\s+([\d. ]+)", line).groups()
+        found = analyse(load_problem(f"table2-{name}").grasp).spaces.decisions[keys[what]].singular_values
+        assert values.split() == [f"{value:.3f}" if value > 1e-11 else "0" for value in found]
