@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from synergrip.files import bundled
+from synergrip.hands.choice import select
 from synergrip.hands.folder import bundled_hands, load_hand
-from synergrip.hands.synergies import posture, select
+from synergrip.hands.synergies import posture
 
 DEG = math.pi / 180
 ORIGIN = np.zeros(3)

@@ -82,7 +82,7 @@ def test_a_folder_becomes_a_hand(tmp_path):
     assert pad.link == "two"
     np.testing.assert_allclose(pad.point, [0.01, 0, -0.01])
     np.testing.assert_allclose(pad.normal, [0, 0.6, 0.8])
-    assert hand.couplings == {"far": Coupling("near", 0.25, 0.1)}
+    assert hand.couplings == {"far": Coupling({"near": 0.25}, 0.1)}
 
 
 def test_followers_are_put_into_the_synergies(tmp_path):
@@ -128,7 +128,7 @@ def test_arrays_cannot_be_changed(tmp_path):
 def test_the_coupling_can_be_replaced(tmp_path, coupling):
     hand = load_hand(folder(tmp_path), coupling=coupling)
     np.testing.assert_allclose(hand.synergy_sets["motors"].S[1], [1, 0])
-    assert hand.couplings["far"] == Coupling("near", 0.5, 0.1)
+    assert hand.couplings["far"] == Coupling({"near": 0.5}, 0.1)
 
 
 def test_one_follower_of_three_can_be_replaced():

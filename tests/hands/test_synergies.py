@@ -6,9 +6,10 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.files import bundled
+from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling, Joint
-from synergrip.hands.synergies import coupling_map, joint_posture, joint_vector, outside_limits, posture, select
+from synergrip.hands.synergies import coupling_map, joint_posture, joint_vector, outside_limits, posture
 
 DEG = math.pi / 180
 ABCD = ("a", "b", "c", "d")
@@ -38,25 +39,35 @@ def refused(call, *arguments):
 
 
 def test_followers_take_their_value_from_the_driver():
-    E, e = coupling_map(ABCD, {"c": Coupling("a", 0.5, 0.25)})
+    E, e = coupling_map(ABCD, {"c": Coupling({"a": 0.5}, 0.25)})
     np.testing.assert_array_equal(E @ [2, 3, 99, 5] + e, [2, 3, 1.25, 5])
 
 
 def test_a_chain_of_followers_is_followed_to_its_driver_in_any_order():
-    chain = {"d": Coupling("c", -3, 1), "c": Coupling("a", 0.5, 0.25)}
+    chain = {"d": Coupling({"c": -3}, 1), "c": Coupling({"a": 0.5}, 0.25)}
     for couplings in (chain, dict(reversed(chain.items()))):
         E, e = coupling_map(ABCD, couplings)
         np.testing.assert_allclose(E @ [2, 3, 99, 99] + e, [2, 3, 1.25, -3 * 1.25 + 1])
 
 
+def test_a_joint_may_follow_several_others():
+    E, e = coupling_map(ABCD, {"d": Coupling({"a": 2, "b": -1}, 0.5), "b": Coupling({"c": 3}, 0.1)})
+    np.testing.assert_allclose(E, [[1, 0, 0, 0], [0, 0, 3, 0], [0, 0, 1, 0], [2, 0, -3, 0]])
+    np.testing.assert_allclose(e, [0, 0.1, 0, 0.4])
+
+
 @pytest.mark.parametrize(
     ("couplings", "key", "fragment"),
     [
-        ({"x": Coupling("a", 1)}, "x", "'x' is not one of 'a'"),
-        ({"a": Coupling("x", 1)}, "a.joint", "'x' is not one of 'a'"),
-        ({"a": Coupling("a", 1)}, "a.joint", "'a' would follow itself"),
-        ({"a": Coupling("b", 1), "b": Coupling("a", 1)}, "a.joint", "'a' would follow itself"),
-        ({"c": Coupling("a", 1), "a": Coupling("b", 1), "b": Coupling("a", 1)}, "c.joint", "'a' would follow itself"),
+        ({"x": Coupling({"a": 1})}, "x", "'x' is not one of 'a'"),
+        ({"a": Coupling({"x": 1})}, "a.joint", "'x' is not one of 'a'"),
+        ({"a": Coupling({"a": 1})}, "a.joint", "'a' would follow itself"),
+        ({"a": Coupling({"b": 1}), "b": Coupling({"a": 1})}, "a.joint", "'a' would follow itself"),
+        (
+            {"c": Coupling({"a": 1}), "a": Coupling({"b": 1}), "b": Coupling({"a": 1})},
+            "c.joint",
+            "'a' would follow itself",
+        ),
     ],
 )
 def test_couplings_that_lead_nowhere_are_refused(couplings, key, fragment):
@@ -68,12 +79,12 @@ def test_couplings_that_lead_nowhere_are_refused(couplings, key, fragment):
 def test_a_column_names_joints_that_are_driven():
     np.testing.assert_array_equal(joint_vector(ABCD, {"d": 2, "b": -1}, {}), [0, -1, 0, 2])
     assert refused(joint_vector, ABCD, {"e": 1}, {}) == ("e", "'e' is not one of 'a', 'b', 'c' or 'd'")
-    key, message = refused(joint_vector, ABCD, {"c": 1}, {"c": Coupling("a", 1)})
+    key, message = refused(joint_vector, ABCD, {"c": 1}, {"c": Coupling({"a": 1})})
     assert (key, message) == ("c", "'c' follows 'a'; name that one only")
 
 
 def test_in_a_posture_a_follower_follows_unless_it_is_named():
-    couplings = {"c": Coupling("a", 0.5, 0.25)}
+    couplings = {"c": Coupling({"a": 0.5}, 0.25)}
     np.testing.assert_array_equal(joint_posture(ABCD, {"a": 2}, couplings), [2, 0, 1.25, 0])
     np.testing.assert_array_equal(joint_posture(ABCD, {"a": 2, "c": 7}, couplings), [2, 0, 7, 0])
 

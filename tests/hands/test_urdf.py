@@ -2,6 +2,7 @@ import math
 import re
 
 import pytest
+from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
 from synergrip.hands.urdf import read_urdf
@@ -41,7 +42,8 @@ def test_links_and_joints_are_read(tmp_path):
     joint = urdf.joints["bend"]
     assert (joint.kind, joint.parent, joint.child) == ("hinge", "palm", "finger")
     assert joint.xyz == (1, 2, 3)
-    assert joint.rpy == (0.1, 0.2, 0.3)
+    rotation = Rotation.from_euler("xyz", (0.1, 0.2, 0.3))  # about the fixed axes of the parent, as URDF has it
+    assert joint.quaternion == pytest.approx(rotation.as_quat(scalar_first=True), abs=1e-15)
     assert joint.axis == (0, 0, 1)
     assert (joint.lower, joint.upper) == (-1, 2)
 
@@ -49,7 +51,7 @@ def test_links_and_joints_are_read(tmp_path):
 def test_defaults_are_those_of_the_format(tmp_path):
     text = TWO_LINKS.replace('<origin xyz="1 2 3" rpy="0.1 0.2 0.3"/><axis xyz="0 0 2"/>', "")
     joint = read(tmp_path, text.replace('<limit lower="-1" upper="2"/>', "<limit/>")).joints["bend"]
-    assert (joint.xyz, joint.rpy, joint.axis) == ((0, 0, 0), (0, 0, 0), (1, 0, 0))
+    assert (joint.xyz, joint.quaternion, joint.axis) == ((0, 0, 0), (1, 0, 0, 0), (1, 0, 0))
     assert (joint.lower, joint.upper) == (0, 0)
 
 

@@ -61,13 +61,23 @@ def place(
     motions = hand.kinematics.at(q, [(touch.pad.link, touch.pad.point) for touch in touches])
     placed = _position(thing, touches, motions)
     contacts = _contacts(placed, touches, motions)
+    moved = [
+        moved_to(motion, contact.point + placed.position) for motion, contact in zip(motions, contacts, strict=True)
+    ]
     C_s = np.diag([1.0 / k for touch in touches for k in touch.stiffness])
     grasp = Grasp(
-        title, contacts, grasp_matrix(contacts), hand_jacobian(contacts, [m.jacobian for m in motions]),
+        title, contacts, grasp_matrix(contacts), hand_jacobian(contacts, [m.jacobian for m in moved]),
         frozen(synergies.S), frozen(C_s), frozen(C_q), frozen(C_z), None, frozen(np.zeros(6)),
         hand.joint_names, synergies.synergies,
     )  # fmt: skip
     return grasp, placed
+
+
+def moved_to(motion: PointMotion, point: Array) -> PointMotion:
+    """Return the motion of another point (3,) of the same link, given in the palm frame [m]."""
+    arm = point - motion.position
+    velocity = motion.jacobian[:3] + np.cross(motion.jacobian[3:], arm, axis=0)
+    return replace(motion, position=frozen(point), jacobian=frozen(np.vstack([velocity, motion.jacobian[3:]])))
 
 
 def _position(thing: Object | None, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> Object:
@@ -126,6 +136,7 @@ def _contact(thing: Object, touch: Touch, motion: PointMotion) -> Contact:
     pushing = motion.rotation @ touch.pad.normal
     if thing.shape is not None:
         distance, outward = thing.shape.surface(point)
+        distance -= touch.pad.radius
         if abs(distance) > REACH:
             where = "outside" if distance > 0 else "inside"
             message = (
@@ -134,8 +145,10 @@ def _contact(thing: Object, touch: Touch, motion: PointMotion) -> Contact:
             )
             raise InputError.at(touch.key, message)
         inward = -outward
+        point = point + touch.pad.radius * inward
     else:
         inward = -point / np.linalg.norm(point) if np.any(point) else pushing
+        point = point + touch.pad.radius * pushing
     normal = pushing if touch.normals == "pad" else inward
     if normal @ pushing <= 0 or normal @ inward <= 0:
         angle = np.degrees(np.arccos(np.clip(inward @ pushing, -1, 1)))

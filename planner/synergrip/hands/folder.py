@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,20 +13,17 @@ from synergrip.documents import parse, read_document
 from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.files import bundled
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
-from synergrip.hands.hand_file import HandFile, JointTable, PadTable, PostureTable, SynergyTable
+from synergrip.hands.hand_file import HandFile, JointTable, PadTable, PostureTable
 from synergrip.hands.kinematics import kinematics
+from synergrip.hands.sets import each_of, synergy_sets
 from synergrip.hands.synergies import (
-    ALL,
-    JOINTS,
-    coupling_map,
     joint_posture,
-    joint_set,
     joint_values,
-    joint_vector,
     outside_limits,
     override,
 )
-from synergrip.hands.urdf import Urdf, read_urdf
+from synergrip.hands.tree import LinkTree
+from synergrip.hands.urdf import read_urdf
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
@@ -64,7 +61,7 @@ def load_hand(
     folder = _find(name_or_path, relative_to, key)
     document = read_document(folder / FILE, "hand file")
     file = parse(document, HandFile)
-    couplings = {name: Coupling(each.joint, each.ratio, each.offset) for name, each in file.couplings.items()}
+    couplings = {name: Coupling({each.joint: each.ratio}, each.offset) for name, each in file.couplings.items()}
     beside = key.rpartition(".")[0]
     chosen = override(couplings, coupling, f"{beside}.coupling" if beside else "coupling")
     try:
@@ -88,50 +85,38 @@ def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
 
 
 def _hand(folder: Path, file: HandFile, couplings: dict[str, Coupling], *, judge_postures: bool) -> Hand:
-    urdf = read_urdf(folder / file.model, "model")
+    tree = read_urdf(folder / file.model, "model")
     names = [table.name for table in file.joint]
-    _check_names(urdf, names)
+    _check_names(tree, names)
     rows = {f"joint[{index}]": table for index, table in enumerate(file.joint)}
-    joints = tuple(_each("", rows, lambda _, table: _joint(urdf, table)).values())
-    compliance = _each("", rows, lambda _, table: _compliance(urdf, table)).values()
-    sets = _synergy_sets(file, names, couplings)
-    postures = _each("postures", file.postures, lambda _, table: _posture(table, sets, names, couplings))
+    joints = tuple(each_of("", rows, lambda _, table: _joint(tree, table)).values())
+    compliance = each_of("", rows, lambda _, table: _compliance(tree, table)).values()
+    sets = synergy_sets(file, folder, names, couplings)
+    postures = each_of("postures", file.postures, lambda _, table: _posture(table, sets, names, couplings))
     if judge_postures:
-        _each("postures", postures, lambda _, q: _within_limits(joints, q))
+        each_of("postures", postures, lambda _, q: _within_limits(joints, q))
     return Hand(
         name=folder.name,
         title=file.title,
         joints=joints,
         C_q=frozen(np.diag(list(compliance))),
-        pads=_each("pads", file.pads, lambda name, table: _pad(urdf, name, table)),
+        pads=each_of("pads", file.pads, lambda name, table: _pad(tree, name, table)),
         synergy_sets=sets,
         postures=postures,
-        kinematics=kinematics(urdf, names),
+        kinematics=kinematics(tree, names),
         couplings=couplings,
+        parents=tree.parents,
     )
 
 
-def _each(prefix: str, tables: Mapping[str, Given], make: Callable[[str, Given], Value]) -> dict[str, Value]:
-    """Return what `make` makes of each table, or raise the issues of all of them with their keys."""
-    made, issues = dict[str, Value](), list[Issue]()
-    for name, table in tables.items():
-        try:
-            made[name] = make(name, table)
-        except InputError as error:
-            issues += error.under(f"{prefix}.{name}" if prefix else name).issues
-    if issues:
-        raise InputError(issues)
-    return made
-
-
-def _check_names(urdf: Urdf, names: Sequence[str]) -> None:
+def _check_names(tree: LinkTree, names: Sequence[str]) -> None:
     issues = []
     for index, name in enumerate(names):
         if name in names[:index]:
             issues.append(Issue(f"'{name}' is listed twice", key=f"joint[{index}].name"))
-        elif name not in urdf.moving:
-            issues.append(Issue(f"moving joint {one_of(name, urdf.moving)}", key=f"joint[{index}].name"))
-    missing = [name for name in urdf.moving if name not in names]
+        elif name not in tree.moving:
+            issues.append(Issue(f"moving joint {one_of(name, tree.moving)}", key=f"joint[{index}].name"))
+    missing = [name for name in tree.moving if name not in names]
     if missing and not issues:
         listed = ", ".join(f"'{name}'" for name in missing)
         issues.append(Issue(f"the URDF also moves {listed}; list every moving joint", key="joint"))
@@ -139,61 +124,30 @@ def _check_names(urdf: Urdf, names: Sequence[str]) -> None:
         raise InputError(issues)
 
 
-def _joint(urdf: Urdf, table: JointTable) -> Joint:
-    joint = urdf.joints[table.name]
+def _joint(tree: LinkTree, table: JointTable) -> Joint:
+    joint = tree.joints[table.name]
     limit = math.inf
     if table.torque_limit is not None:
         limit = quantity(table.torque_limit, "torque" if joint.kind == "hinge" else "force", "torque_limit")
     if not limit > 0:
         raise InputError.at("torque_limit", f"must be greater than 0, got {table.torque_limit!r}")
-    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit)
+    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit, joint.child)
 
 
-def _compliance(urdf: Urdf, table: JointTable) -> float:
+def _compliance(tree: LinkTree, table: JointTable) -> float:
     if table.compliance is None:
         return 0.0
-    kind = "joint compliance" if urdf.joints[table.name].kind == "hinge" else "slide compliance"
+    kind = "joint compliance" if tree.joints[table.name].kind == "hinge" else "slide compliance"
     value = quantity(table.compliance, kind, "compliance")
     if value < 0:
         raise InputError.at("compliance", f"must be at least 0, got {table.compliance!r}")
     return value
 
 
-def _pad(urdf: Urdf, name: str, table: PadTable) -> Pad:
-    if table.link not in urdf.links:
-        raise InputError.at("link", one_of(table.link, urdf.links))
-    return Pad(name, table.link, frozen(table.point), frozen(table.normal))
-
-
-def _synergy_sets(file: HandFile, names: Sequence[str], couplings: Mapping[str, Coupling]) -> dict[str, SynergySet]:
-    try:
-        coupled = coupling_map(names, couplings)
-    except InputError as error:
-        raise error.under("couplings") from None
-    made = _each("synergies", file.synergies, lambda name, table: _synergies(name, table, names, couplings, coupled))
-    return {**made, JOINTS: joint_set(names)}
-
-
-def _synergies(
-    name: str,
-    table: SynergyTable,
-    names: Sequence[str],
-    couplings: Mapping[str, Coupling],
-    coupled: tuple[Array, Array],
-) -> SynergySet:
-    if name in (JOINTS, ALL):
-        raise InputError.at(
-            "", f"'{name}' is the set of all joints, which every hand has; choose another name", on_key=True
-        )
-    E, e = coupled
-    columns = _each("columns", table.columns, lambda _, weights: joint_vector(names, weights, couplings))
-    offset = _each("", {"offset": table.offset}, lambda _, values: joint_vector(names, values, couplings))["offset"]
-    for each in table.effort_limits:
-        if each not in columns:
-            raise InputError.at(f"effort_limits.{each}", one_of(each, columns), on_key=True)
-    limits = frozen([table.effort_limits.get(each, math.inf) for each in columns])
-    S = E @ np.column_stack(list(columns.values()))
-    return SynergySet(name, table.title, tuple(columns), frozen(S), frozen(E @ offset + e), limits)
+def _pad(tree: LinkTree, name: str, table: PadTable) -> Pad:
+    if table.link not in tree.links:
+        raise InputError.at("link", one_of(table.link, tree.links))
+    return Pad(name, table.link, frozen(table.point), frozen(table.normal), table.radius or 0.0)
 
 
 def _posture(

@@ -40,6 +40,8 @@ class Joint:
     upper: float  # [rad] or [m]
     torque_limit: float
     """|tau| allowed [N m] or [N]; infinity when the hand states none."""
+    link: str = ""
+    """The link that it turns or shifts."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ class Pad:
     """(3,) in link coordinates [m]."""
     normal: Array
     """(3,) unit outward normal in link coordinates: the direction in which the pad pushes."""
+    radius: float = 0.0
+    """[m] of a round pad with its centre at `point`, which touches where the object is nearest; 0 for the point."""
 
 
 @dataclass(frozen=True)
@@ -71,11 +75,10 @@ class SynergySet:
 
 @dataclass(frozen=True)
 class Coupling:
-    """A joint moved by another joint: q_follower = ratio q_joint + offset."""
+    """A joint moved by other joints: q_follower = sum of ratio q_driver, + offset."""
 
-    joint: str
-    """The driver."""
-    ratio: float
+    ratios: Mapping[str, float]
+    """Driver -> ratio."""
     offset: float = 0.0  # [rad] or [m]
 
 
@@ -94,7 +97,9 @@ class Hand:
     """Named joint values (n_q,)."""
     kinematics: Kinematics
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
-    """Follower -> its driver; already in every synergy set but "joints"."""
+    """Follower -> its drivers; already in every synergy set but "joints"."""
+    parents: Mapping[str, str] = field(default_factory=dict)
+    """Link -> the link that carries it; parents before their children, the palm left out."""
 
     @property
     def joint_names(self) -> tuple[str, ...]:

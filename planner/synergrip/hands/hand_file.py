@@ -14,6 +14,7 @@ from synergrip.fields import (
     Name,
     Number,
     Ratio,
+    Size,
     Table,
     Text,
     Torque,
@@ -49,6 +50,9 @@ class PadTable(Table):
     link: Text = Field(description="name of the link in the URDF")
     point: Point = Field(description="place in the frame of the link")
     normal: Axis = Field(description="direction in which the pad pushes, in the frame of the link")
+    radius: Size | None = Field(
+        default=None, description="of a round pad about that place, which touches where the object is nearest"
+    )
 
 
 class CouplingTable(Table):
@@ -63,15 +67,22 @@ class SynergyTable(Table):
     """A synergy set."""
 
     title: str = Field(default="", description="what it is, for people")
-    columns: dict[Text, dict[str, Number]] = Field(
-        min_length=1, description="weight of each joint in each synergy; followers are added through the couplings"
+    columns: dict[Text, dict[str, Number]] | None = Field(
+        default=None,
+        min_length=1,
+        description="weight of each joint in each synergy; followers are added through the couplings",
     )
+    file: Text | None = Field(default=None, description="a synergy file beside hand.toml; instead of columns")
     offset: dict[str, Angle] = Field(default_factory=dict, description="joint values when every synergy is at 0")
     effort_limits: dict[str, Torque] = Field(default_factory=dict, description="largest actuator effort by synergy")
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse an empty column and a limit that is not positive."""
-        for name, column in self.columns.items():
+        """Refuse two sources of columns or none, an empty column and a limit that is not positive."""
+        if (self.columns is None) == (self.file is None):
+            yield Issue("a synergy set gives either 'columns' or 'file'")
+        elif self.file is not None and self.offset:
+            yield Issue("'offset' goes with 'columns'; a file has its own", key="offset", on_key=True)
+        for name, column in (self.columns or {}).items():
             if not any(column.values()):
                 yield Issue("a synergy moves at least one joint", key=f"columns.{name}")
         for name, limit in self.effort_limits.items():

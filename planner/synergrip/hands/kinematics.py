@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 
 from synergrip.errors import InputError, one_of
 from synergrip.hands.hand import PointMotion
-from synergrip.hands.urdf import Urdf, UrdfJoint
+from synergrip.hands.tree import LinkTree
 from synergrip.linalg import Array, frozen
 
 
@@ -56,54 +55,44 @@ class MujocoKinematics:
         return PointMotion(frozen(position), frozen(rotation), frozen(jacobian[:, list(self.places)]))
 
 
-def kinematics(urdf: Urdf, joints: Sequence[str]) -> MujocoKinematics:
-    """Return the kinematics of `urdf` in its palm frame.
+def kinematics(tree: LinkTree, joints: Sequence[str]) -> MujocoKinematics:
+    """Return the kinematics of `tree` in its palm frame.
 
     Args:
-        urdf: the tree of links.
+        tree: the links.
         joints: the names of all its moving joints, in the order wanted for q.
 
     Raises:
         InputError: `joints` is no permutation of the moving joints; under the key ``joints``.
     """
     for index, name in enumerate(joints):
-        if name not in urdf.moving:
-            raise InputError.at(f"joints[{index}]", one_of(name, urdf.moving))
-    if sorted(joints) != sorted(urdf.moving):
-        raise InputError.at("joints", f"expected each of {', '.join(urdf.moving)} once")
-    model = _spec(urdf).compile()
-    places = {name: int(model.joint(f"joint:{name}").qposadr[0]) for name in urdf.moving}
-    bodies = {link: int(model.body(f"link:{link}").id) for link in urdf.links}
+        if name not in tree.moving:
+            raise InputError.at(f"joints[{index}]", one_of(name, tree.moving))
+    if sorted(joints) != sorted(tree.moving):
+        raise InputError.at("joints", f"expected each of {', '.join(tree.moving)} once")
+    model = _spec(tree).compile()
+    places = {name: int(model.joint(f"joint:{name}").qposadr[0]) for name in tree.moving}
+    bodies = {link: int(model.body(f"link:{link}").id) for link in tree.links}
     return MujocoKinematics(tuple(joints), bodies, model, tuple(places[name] for name in joints))
 
 
-def _spec(urdf: Urdf) -> Any:
+def _spec(tree: LinkTree) -> Any:
     """Return the model as a `mujoco.MjSpec`; names get a prefix because "world" is taken there."""
     import mujoco
 
     kinds = {"hinge": mujoco.mjtJoint.mjJNT_HINGE, "slide": mujoco.mjtJoint.mjJNT_SLIDE}
     inertia = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "explicitinertial": True}  # kinematics needs none, MuJoCo does
     spec = mujoco.MjSpec()
-    bodies = {urdf.root: spec.worldbody.add_body(name=f"link:{urdf.root}", **inertia)}
-    above = {joint.child: joint for joint in urdf.joints.values()}
-    for link in urdf.links[1:]:
+    bodies = {tree.root: spec.worldbody.add_body(name=f"link:{tree.root}", **inertia)}
+    above = {joint.child: joint for joint in tree.joints.values()}
+    for link in tree.links[1:]:
         joint = above[link]
-        place = {"pos": list(joint.xyz), "quat": _quaternion(joint)}
+        place = {"pos": list(joint.xyz), "quat": list(joint.quaternion)}
         bodies[link] = bodies[joint.parent].add_body(name=f"link:{link}", **place, **inertia)
         if joint.kind != "fixed":
-            bodies[link].add_joint(name=f"joint:{joint.name}", type=kinds[joint.kind], axis=list(joint.axis))
+            where = {"axis": list(joint.axis), "pos": list(joint.anchor)}
+            bodies[link].add_joint(name=f"joint:{joint.name}", type=kinds[joint.kind], **where)
     return spec
-
-
-def _quaternion(joint: UrdfJoint) -> list[float]:
-    """Return (w, x, y, z) of the rotation Rz(yaw) Ry(pitch) Rx(roll)."""
-    (r, p, y), (sr, sp, sy) = ([f(angle / 2) for angle in joint.rpy] for f in (math.cos, math.sin))
-    return [
-        y * p * r + sy * sp * sr,
-        y * p * sr - sy * sp * r,
-        y * sp * r + sy * p * sr,
-        sy * p * r - y * sp * sr,
-    ]
 
 
 def _finite(values: Array, size: int, key: str) -> Array:

@@ -31,22 +31,27 @@ def coupling_map(joints: Sequence[str], couplings: Mapping[str, Coupling]) -> tu
     for follower, coupling in couplings.items():
         if follower not in index:
             raise InputError.at(follower, one_of(follower, joints), on_key=True)
-        if coupling.joint not in index:
-            raise InputError.at(f"{follower}.joint", one_of(coupling.joint, joints))
-    E, e = np.eye(len(joints)), np.zeros(len(joints))
+        for driver in coupling.ratios:
+            if driver not in index:
+                raise InputError.at(f"{follower}.joint", one_of(driver, joints))
+    known: dict[str, tuple[Array, float]] = {}
+
+    def resolve(joint: str, passed: tuple[str, ...]) -> tuple[Array, float]:
+        """Return the row of E and the entry of e of a joint."""
+        if joint in passed:
+            raise InputError.at(f"{passed[0]}.joint", f"'{joint}' would follow itself")
+        if joint not in couplings:
+            return np.eye(len(joints))[index[joint]], 0.0
+        if joint not in known:
+            parts = [(k, *resolve(name, (*passed, joint))) for name, k in couplings[joint].ratios.items()]
+            row = sum((k * row for k, row, _ in parts), np.zeros(len(joints)))
+            known[joint] = row, couplings[joint].offset + sum(k * constant for k, _, constant in parts)
+        return known[joint]
+
     for follower in couplings:
-        row, constant, ratio = np.zeros(len(joints)), 0.0, 1.0
-        joint, passed = follower, [follower]
-        while joint in couplings:
-            constant += ratio * couplings[joint].offset
-            ratio *= couplings[joint].ratio
-            joint = couplings[joint].joint
-            if joint in passed:
-                raise InputError.at(f"{follower}.joint", f"'{joint}' would follow itself")
-            passed.append(joint)
-        row[index[joint]] = ratio
-        E[index[follower]], e[index[follower]] = row, constant
-    return frozen(E), frozen(e)
+        resolve(follower, ())
+    rows = [resolve(joint, ()) for joint in joints]
+    return frozen([row for row, _ in rows]), frozen([constant for _, constant in rows])
 
 
 def joint_vector(joints: Sequence[str], values: Mapping[str, float], followers: Mapping[str, Coupling]) -> Array:
@@ -60,7 +65,7 @@ def joint_vector(joints: Sequence[str], values: Mapping[str, float], followers: 
         if name not in joints:
             raise InputError.at(name, one_of(name, joints), on_key=True)
         if name in followers:
-            raise InputError.at(name, f"'{name}' follows '{followers[name].joint}'; name that one only", on_key=True)
+            raise InputError.at(name, f"'{name}' follows {drivers(followers[name])}; name that one only", on_key=True)
         result[list(joints).index(name)] = value
     return result
 
@@ -87,54 +92,6 @@ def columns_of(chosen: SynergySet, names: Sequence[str]) -> SynergySet:
         S=frozen(chosen.S[:, picks]),
         effort_limits=frozen(chosen.effort_limits[picks]),
     )
-
-
-def select(hand: Hand, wish: int | str | Sequence[str] | None, key: str = "hand.synergies") -> SynergySet:
-    """Return the synergies a user asks for.
-
-    Args:
-        hand: the hand.
-        wish: nothing (the default set), a number K (the first K of the default set), the name of a set,
-            ``"all"`` (every joint) or a list of names of synergies of one set.
-        key: where it stands, for the error.
-
-    Raises:
-        InputError: an unknown name, a number below 1 or above n_z, names of different sets, no name, a name twice.
-    """
-    if wish is None:
-        return next(iter(hand.synergy_sets.values()))
-    if isinstance(wish, str):
-        if wish not in hand.synergy_sets and wish != ALL:
-            raise InputError.at(key, f"synergies {one_of(wish, [*hand.synergy_sets, ALL])}")
-        return hand.synergy_sets[JOINTS if wish == ALL else wish]
-    if isinstance(wish, int):
-        return _first(hand, wish, key)
-    return _named(hand, list(wish), key)
-
-
-def _first(hand: Hand, count: int, key: str) -> SynergySet:
-    default = next(iter(hand.synergy_sets.values()))
-    available = len(default.synergies)
-    if isinstance(count, bool) or not 1 <= count <= available:
-        every = "" if default.name == JOINTS else f'; write "{ALL}" for the {len(hand.joints)} joints'
-        message = f"expected 1 to {available}, the number of synergies of '{default.name}', got {count}{every}"
-        raise InputError.at(key, message)
-    return columns_of(default, default.synergies[:count])
-
-
-def _named(hand: Hand, names: Sequence[str], key: str) -> SynergySet:
-    if not names:
-        raise InputError.at(key, "expected at least one synergy")
-    for index, name in enumerate(names):
-        if name in names[:index]:
-            raise InputError.at(f"{key}[{index}]", f"'{name}' is listed twice")
-        if not any(name in synergies.synergies for synergies in hand.synergy_sets.values()):
-            known = dict.fromkeys(n for synergies in hand.synergy_sets.values() for n in synergies.synergies)
-            raise InputError.at(f"{key}[{index}]", one_of(name, known))
-    for synergies in hand.synergy_sets.values():
-        if all(name in synergies.synergies for name in names):
-            return columns_of(synergies, names)
-    raise InputError.at(key, f"no synergy set has all of {', '.join(names)}; use names of one set")
 
 
 def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "hand.posture") -> Array:
@@ -210,10 +167,22 @@ def override(
     if not couplings:
         raise InputError.at(key, "no joint of this hand follows another one; leave the coupling out", on_key=True)
     if not isinstance(wish, Mapping):
-        return {name: replace(coupling, ratio=float(wish)) for name, coupling in couplings.items()}
+        return {name: _with_ratio(name, each, wish, key) for name, each in couplings.items()}
     for name in wish:
         if name not in couplings:
             listed = ", ".join(couplings)
             message = f"'{name}' follows no other joint (followers: {listed}){suggest(name, couplings)}"
             raise InputError.at(f"{key}.{name}", message, on_key=True)
-    return {name: replace(each, ratio=float(wish.get(name, each.ratio))) for name, each in couplings.items()}
+    changed = {name: _with_ratio(name, couplings[name], wish[name], f"{key}.{name}") for name in wish}
+    return {**couplings, **changed}
+
+
+def _with_ratio(name: str, coupling: Coupling, ratio: float, key: str) -> Coupling:
+    if len(coupling.ratios) != 1:
+        raise InputError.at(key, f"'{name}' follows {drivers(coupling)}; one ratio does not say how")
+    return replace(coupling, ratios=dict.fromkeys(coupling.ratios, float(ratio)))
+
+
+def drivers(coupling: Coupling) -> str:
+    """Return the names of the joints that are followed, as text."""
+    return " and ".join(f"'{name}'" for name in coupling.ratios) or "no joint (it is locked)"

@@ -7,52 +7,17 @@ its couplings stand in hand.toml.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
 from synergrip.documents import read_text
 from synergrip.errors import InputError, Issue, one_of
+from synergrip.hands.tree import LinkTree, TreeJoint, order_of_links
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
 """URDF joint type -> kind; the others ("floating", "planar") move in more than one direction."""
-
-
-@dataclass(frozen=True)
-class UrdfJoint:
-    """A joint of the file; the frame of its child link is the joint frame."""
-
-    name: str
-    kind: str
-    """"hinge", "slide" or "fixed"."""
-    parent: str
-    child: str
-    xyz: tuple[float, ...]
-    """(3,) origin of the child frame in the parent frame [m]."""
-    rpy: tuple[float, ...]
-    """(3,) roll, pitch, yaw about the fixed axes x, y, z of the parent [rad]."""
-    axis: tuple[float, ...]
-    """(3,) unit vector in the child frame."""
-    lower: float  # [rad] or [m]
-    upper: float  # [rad] or [m]
-
-
-@dataclass(frozen=True)
-class Urdf:
-    """A tree of links."""
-
-    root: str
-    """The palm: the one link that is no child."""
-    links: tuple[str, ...]
-    """Parents before their children."""
-    joints: Mapping[str, UrdfJoint]
-    """By name, in file order."""
-
-    @property
-    def moving(self) -> tuple[str, ...]:
-        """Names of the joints that are not fixed."""
-        return tuple(joint.name for joint in self.joints.values() if joint.kind != "fixed")
 
 
 @dataclass
@@ -70,7 +35,7 @@ class _Element:
         return next(self.all(tag), _Element(tag, {}, self.line))
 
 
-def read_urdf(path: Path, key: str = "") -> Urdf:
+def read_urdf(path: Path, key: str = "") -> LinkTree:
     """Read the links and joints of the URDF file at `path`.
 
     Args:
@@ -84,7 +49,7 @@ def read_urdf(path: Path, key: str = "") -> Urdf:
     root = _parse(path, read_text(path, "URDF file", key))
     if root.tag != "robot":
         raise _refused(path, root, f"expected a URDF, whose outermost element is <robot>, got <{root.tag}>")
-    joints: dict[str, UrdfJoint] = {}
+    joints: dict[str, TreeJoint] = {}
     for element in root.all("joint"):
         joint = _joint(path, element)
         if joint.name in joints:
@@ -150,7 +115,7 @@ def _numbers(path: Path, element: _Element, attribute: str, default: str) -> tup
     return values
 
 
-def _joint(path: Path, element: _Element) -> UrdfJoint:
+def _joint(path: Path, element: _Element) -> TreeJoint:
     name = _required(path, element, "name")
     sort = _required(path, element, "type")
     if sort not in KINDS:
@@ -167,37 +132,44 @@ def _joint(path: Path, element: _Element) -> UrdfJoint:
         (lower,), (upper,) = _numbers(path, limit, "lower", "0"), _numbers(path, limit, "upper", "0")
         if lower > upper:
             raise _refused(path, limit, f"joint '{name}': the lower limit {lower:g} is above the upper limit {upper:g}")
-    return UrdfJoint(
+    return TreeJoint(
         name,
         KINDS[sort],
         _required(path, element.child("parent"), "link"),
         _required(path, element.child("child"), "link"),
         _numbers(path, origin, "xyz", "0 0 0"),
-        _numbers(path, origin, "rpy", "0 0 0"),
+        _quaternion(_numbers(path, origin, "rpy", "0 0 0")),
         tuple(part / length for part in axis),
-        lower,
-        upper,
+        lower=lower,
+        upper=upper,
     )
 
 
-def _tree(path: Path, root: _Element, names: list[str], joints: dict[str, UrdfJoint]) -> Urdf:
-    children: dict[str, list[str]] = {name: [] for name in names}
+def _tree(path: Path, root: _Element, names: list[str], joints: dict[str, TreeJoint]) -> LinkTree:
     parents: dict[str, str] = {}
     for element, joint in zip(root.all("joint"), joints.values(), strict=True):
         for end in (joint.parent, joint.child):
-            if end not in children:
+            if end not in names:
                 raise _refused(path, element, f"joint '{joint.name}': link {one_of(end, names)}")
         if joint.child in parents:
             raise _refused(path, element, f"link '{joint.child}' is the child of two joints")
         parents[joint.child] = joint.parent
-        children[joint.parent].append(joint.child)
     roots = [name for name in names if name not in parents]
     if len(roots) > 1:
         raise _refused(path, root, f"one link is the palm, but {', '.join(map(repr, roots))} are no child of a joint")
-    order = list(roots)
-    for name in order:
-        order += children[name]
+    order = list(order_of_links(roots[0], joints)) if roots else []
     if len(order) < len(names):
         rest = ", ".join(repr(name) for name in names if name not in order)
         raise _refused(path, root, f"the links {rest} form a loop; a hand is a tree")
-    return Urdf(order[0], tuple(order), joints)
+    return LinkTree(root.attributes.get("name", ""), order[0], tuple(order), joints)
+
+
+def _quaternion(rpy: Sequence[float]) -> tuple[float, ...]:
+    """Return (w, x, y, z) of the rotation Rz(yaw) Ry(pitch) Rx(roll)."""
+    (r, p, y), (sr, sp, sy) = ([f(angle / 2) for angle in rpy] for f in (math.cos, math.sin))
+    return (
+        y * p * r + sy * sp * sr,
+        y * p * sr - sy * sp * r,
+        y * sp * r + sy * p * sr,
+        sy * p * r - y * sp * sr,
+    )

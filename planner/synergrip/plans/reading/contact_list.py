@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from synergrip.errors import InputError, Issue
-from synergrip.plans.reading.setup_file import ContactEntry, ContactModel, ContactsTable, ContactTable
+from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,10 @@ from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue
 from synergrip.fields import Schema, Table, Version
 from synergrip.plans.reading.contact_list import ContactSpec, contact_list
+from synergrip.plans.reading.contact_tables import ContactEntry, ContactsTable
+from synergrip.plans.reading.hand_table import GraspTable, HandTable
 from synergrip.plans.reading.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
-from synergrip.plans.reading.setup_file import ContactEntry, ContactsTable, GraspTable, HandTable, ObjectTable
+from synergrip.plans.reading.object_table import ObjectTable
 from synergrip.plans.reading.task_file import TaskTable
 
 

@@ -12,14 +12,16 @@ from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
 from synergrip.grasps.placing import Touch, place
+from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import posture, select
+from synergrip.hands.synergies import posture
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
+from synergrip.plans.reading.hand_table import HandTable
 from synergrip.plans.reading.limits_table import HandLimits
+from synergrip.plans.reading.object_table import ObjectTable, ShapeTable
 from synergrip.plans.reading.problem_file import ProblemFile
-from synergrip.plans.reading.setup_file import HandTable, ObjectTable, ShapeTable
 
 
 def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, HandLimits]:
@@ -43,7 +45,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, Han
         except InputError as error:
             issues += error.issues
     try:
-        synergies, q, C_q, C_z = _state(hand, table)
+        synergies, q, C_q, C_z = _state(hand, table, folder)
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
     if issues:
@@ -53,9 +55,9 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, Han
     return grasp, thing, hand.title, HandLimits(torque, synergies.effort_limits)
 
 
-def _state(hand: Hand, table: HandTable) -> tuple[SynergySet, Array, Array, Array]:
+def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Array, Array, Array]:
     """Return synergies, joint values (n_q,), joint and synergy compliance of a hand."""
-    synergies = select(hand, table.synergies, "hand.synergies")
+    synergies = select(hand, table.synergies, "hand.synergies", folder)
     if table.posture is None:
         raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint angles")
     q = posture(hand, synergies, table.posture, "hand.posture")

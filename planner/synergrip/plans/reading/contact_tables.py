@@ -1,0 +1,85 @@
+"""The tables of a problem file that say where it touches, and how: [contacts] and [[contact]]."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from synergrip.errors import InputError, suggest
+from synergrip.fields import (
+    Name,
+    Positive,
+    Size,
+    Table,
+    Written,
+    unit_schema,
+    with_unit,
+)
+from synergrip.validation import shown
+
+ContactModel = Literal["hard", "soft", "frictionless"]
+
+SOFTEST = 1e-6
+"""A contact that yields a kilometre under a millinewton holds nothing [N/m, N m/rad]."""
+
+
+def _rigid_or(kind: str) -> Callable[[Any], float]:
+    read = with_unit(kind, above=0)
+
+    def stiffness(value: object) -> float:
+        if isinstance(value, str) and value.strip().isalpha():
+            if value == "rigid":
+                return math.inf
+            raise InputError.at("", f"{value!r} is neither 'rigid' nor a {kind}{suggest(value, ['rigid'])}")
+        result = read(value)
+        if result < SOFTEST:
+            raise InputError.at("", f"{shown(value)} is too soft to hold anything")
+        return result
+
+    return stiffness
+
+
+def _rigid_schema(kind: str) -> dict[str, Any]:
+    return {"anyOf": [unit_schema(kind), {"const": "rigid"}]}
+
+
+Stiffness = Annotated[float, Written(_rigid_or("stiffness"), _rigid_schema("stiffness"))]
+SpinStiffness = Annotated[float, Written(_rigid_or("spin stiffness"), _rigid_schema("spin stiffness"))]
+
+
+class ContactTable(Table):
+    """What can be said of one contact, or of all as a default."""
+
+    model: ContactModel | None = Field(
+        default=None, description="hard (3 force components), soft (4) or frictionless (1)"
+    )
+    friction: Positive | None = Field(default=None, description="coefficient of friction")
+    spin_friction: Size | None = Field(
+        default=None, description="moment about the normal per normal force, for soft contacts"
+    )
+    stiffness: Stiffness | None = Field(default=None, description='stiffness along the normal, or "rigid"')
+    tangential_stiffness: Stiffness | None = Field(
+        default=None, description="stiffness across the normal; as along it when absent"
+    )
+    spin_stiffness: SpinStiffness | None = Field(
+        default=None, description="stiffness about the normal, for soft contacts"
+    )
+    normals: Literal["object", "pad"] | None = Field(
+        default=None, description="normal toward the object's centre, or straight out of the pad"
+    )
+
+
+class ContactsTable(ContactTable):
+    """Defaults for every contact, and the pads that touch."""
+
+    at: tuple[Name, ...] = Field(default=(), description="names of the hand's pads that touch the object")
+
+
+class ContactEntry(ContactTable):
+    """One contact: a pad, and what differs from the defaults."""
+
+    name: Name | None = Field(default=None, description="name of the contact; that of the pad when absent")
+    at: Name = Field(description="name of the hand's pad that touches the object")

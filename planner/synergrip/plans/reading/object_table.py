@@ -1,0 +1,70 @@
+"""The table of a problem file that says what is grasped: [object]."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated
+
+from pydantic import Field
+
+from synergrip.errors import Issue
+from synergrip.fields import (
+    Mass,
+    Size,
+    Table,
+    Written,
+    array_of,
+    listed,
+    unit_schema,
+    with_unit,
+)
+
+
+class SphereTable(Table):
+    """A ball."""
+
+    radius: Size = Field(description="radius")
+
+
+class BoxTable(Table):
+    """A box."""
+
+    size: Annotated[
+        tuple[float, ...],
+        Written(lambda v: listed(with_unit("length", above=0), v, 3, "lengths"), array_of(unit_schema("length"), 3)),
+    ] = Field(description="length of the three edges")
+
+
+class CylinderTable(Table):
+    """A cylinder."""
+
+    radius: Size = Field(description="radius")
+    height: Size = Field(description="height")
+
+
+class ShapeTable(Table):
+    """Exactly one shape."""
+
+    sphere: SphereTable | None = Field(default=None, description="a ball")
+    box: BoxTable | None = Field(default=None, description="a box")
+    cylinder: CylinderTable | None = Field(default=None, description="a cylinder")
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse none and more than one."""
+        given = [name for name in ("sphere", "box", "cylinder") if getattr(self, name) is not None]
+        if not given:
+            yield Issue("name one shape: sphere, box or cylinder")
+        for name in given[1:]:
+            yield Issue(f"an object has one shape; '{given[0]}' is given already", key=name, on_key=True)
+
+
+class ObjectTable(Table):
+    """The grasped object."""
+
+    title: str = Field(default="", description="name of the object, for people")
+    shape: ShapeTable | None = Field(default=None, description="exactly one of sphere, box and cylinder")
+    mass: Mass | None = Field(default=None, description="mass; needed for gravity")
+    position: Annotated[
+        tuple[float, ...] | None,
+        Written(lambda v: listed(with_unit("length"), v, 3, "lengths"), array_of(unit_schema("length"), 3)),
+    ] = Field(default=None, description="centre of the object in the palm frame")
