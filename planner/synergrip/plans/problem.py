@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -13,12 +13,14 @@ from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.plans.reading.limits_table import HandLimits, limits_of
 from synergrip.plans.reading.loads import Loads, loads
 from synergrip.plans.reading.problem_file import ProblemFile, read_problem_file
 from synergrip.plans.task import Task
+
+if TYPE_CHECKING:
+    from synergrip.plans.reading.setup import Held
 
 T = TypeVar("T")
 
@@ -33,10 +35,8 @@ class Problem:
     document: Document
     grasp: Grasp
     task: Task
-    hand_title: str
-    """Title of the hand; empty for a grasp given as matrices."""
-    thing: Object | None
-    """The grasped object, where it is; None for a grasp given as matrices."""
+    held: Held | None
+    """The hand, its synergies and posture, and the object; None for a grasp given as matrices."""
 
     @property
     def title(self) -> str:
@@ -91,9 +91,9 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     except InputError as error:
         raise error.located(document.locate) from None
     grasp = touching.grasp
-    if touching.thing is not None and happening.wrench is not None:
+    if touching.held is not None and happening.wrench is not None:
         grasp = replace(grasp, w_0=frozen(happening.wrench[0]))  # a hand holds its load when the task begins
-    return Problem(path.stem, path, file, document, grasp, task, touching.hand_title, touching.thing)
+    return Problem(path.stem, path, file, document, grasp, task, touching.held)
 
 
 @dataclass(frozen=True)
@@ -101,9 +101,11 @@ class _Touching:
     """What touches what, and what the hand says of its limits."""
 
     grasp: Grasp
-    thing: Object | None
-    hand_title: str
-    limits: HandLimits
+    held: Held | None
+
+    @property
+    def limits(self) -> HandLimits:
+        return self.held.limits if self.held else HandLimits()
 
 
 def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
@@ -129,7 +131,7 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
         from synergrip.grasps.given import read_given
 
-        return _Touching(read_given(path.parent / file.grasp.file, "grasp.file"), None, "", HandLimits())
+        return _Touching(read_given(path.parent / file.grasp.file, "grasp.file"), None)
     from synergrip.plans.reading.setup import hand_grasp
 
     return _Touching(*hand_grasp(file, path.parent))

@@ -13,13 +13,14 @@ from synergrip.plans.problem import Problem
 def problem_lines(problem: Problem) -> Iterator[str]:
     """Yield the lines ``read`` and ``task``."""
     grasp = problem.grasp
-    hand = problem.hand_title or "grasp given as matrices"
+    held = problem.held
+    hand = held.hand.title if held else "grasp given as matrices"
     kinds = Counter(contact.kind.title for contact in grasp.contacts)
     contacts = " and ".join(many(n, f"{kind} contact") for kind, n in kinds.items())
     parts = [hand, f"{many(grasp.n_q, 'joint')}, {many(grasp.n_z, 'synergy')}"]
-    if problem.thing is not None:
-        mass = f", {1e3 * problem.thing.mass:.4g} g" if problem.thing.mass else ""
-        parts.append((problem.thing.shape.title if problem.thing.shape else problem.thing.title) + mass)
+    if held is not None:
+        mass = f", {1e3 * held.thing.mass:.4g} g" if held.thing.mass else ""
+        parts.append((held.thing.shape.title if held.thing.shape else held.thing.title) + mass)
     yield "read     " + " · ".join([*parts, contacts])
     yield "task     " + " · ".join(_task(problem))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +25,26 @@ from synergrip.plans.reading.object_table import ObjectTable, ShapeTable
 from synergrip.plans.reading.problem_file import ProblemFile
 
 
-def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, HandLimits]:
-    """Return grasp, placed object, title of the hand, and the limits that the hand states.
+@dataclass(frozen=True)
+class Held:
+    """What holds the object: a hand in a posture."""
+
+    hand: Hand
+    synergies: SynergySet
+    q: Array
+    """(n_q,) joint values [rad or m]."""
+    thing: Object
+    """The object, where it is."""
+
+    @property
+    def limits(self) -> HandLimits:
+        """What the hand itself allows."""
+        torque = frozen([joint.torque_limit for joint in self.hand.joints])
+        return HandLimits(torque, self.synergies.effort_limits)
+
+
+def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
+    """Return the grasp, and what holds what in it.
 
     Args:
         file: a problem file with [hand], [object] and contacts.
@@ -51,8 +70,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Object, str, Han
     if issues:
         raise InputError(issues)
     grasp, thing = place(file.title, hand, synergies, q, _object(file.object), touches, C_q, C_z)
-    torque = frozen([joint.torque_limit for joint in hand.joints])
-    return grasp, thing, hand.title, HandLimits(torque, synergies.effort_limits)
+    return grasp, Held(hand, synergies, q, thing)
 
 
 def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Array, Array, Array]:
