@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from random_grasps import random_grasp
 
-from synergrip.conic.box import force_bounds
 from synergrip.conic.build import build
 from synergrip.conic.cones import distance_to_cones
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -161,7 +160,10 @@ def test_a_coupled_limit_leaves_the_first_knot_free() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) -> None:
     rng, situation = random_situation(seed)
-    bounds = force_bounds(situation, 3.0)
+    limit = NormalForce(0.0, 3.0)
+    assert limit.bounded(situation, cones_hold=False) is None
+    assert NormalForce(0.0, np.inf).bounded(situation, cones_hold=True) is None
+    _, bounds = limit.bounded(situation, cones_hold=True) or pytest.fail("a largest normal force bounds the forces")
     for contact, rows in zip(situation.response.grasp.contacts, situation.response.grasp.rows, strict=True):
         rest = rng.normal(size=(2000, contact.n_rows - 1))
         rest /= np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-300)
@@ -171,3 +173,15 @@ def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) 
         reached = np.abs(rim).max(axis=0)
         assert np.all(reached <= bounds[rows] * (1 + 1e-12))
         assert np.all(reached >= 0.98 * bounds[rows])
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_a_loosened_limit_has_that_much_more_room(name: str) -> None:
+    _, situation = random_situation(3)
+    limit = LIMITS[name](situation.response.grasp)
+    still = motion_of(situation, np.zeros((KNOTS, situation.n_v)))
+    tight, loose = limit.usage(situation, still), limit.loosened(0.1).usage(situation, still)
+    for before, after, sign in ((tight.lower, loose.lower, -1.0), (tight.upper, loose.upper, 1.0)):
+        finite = np.isfinite(before)
+        assert np.allclose(after[finite], before[finite] + sign * 0.1 * np.abs(before[finite]))
+        assert np.array_equal(after[~finite], before[~finite])

@@ -12,7 +12,6 @@ import numpy as np
 
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, split
 
@@ -23,23 +22,12 @@ LARGEST = 1e6
 def box(situation: Situation, limits: Sequence[Limit]) -> Array:
     """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
     result = np.full(situation.n_v, LARGEST)
-    held = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
+    cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
     for limit in limits:
-        if isinstance(limit, NormalForce):
-            if held and np.isfinite(limit.upper):
-                result = np.minimum(result, _implied(situation.force, force_bounds(situation, limit.upper)))
-        elif (pair := limit.bounded(situation)) is not None:
+        pair = limit.bounded(situation, cones_hold=cones_hold)
+        if pair is not None:
             result = np.minimum(result, _implied(*pair))
     return result
-
-
-def force_bounds(situation: Situation, upper: float) -> Array:
-    """Return (n_l,) bounds on |lambda| from a largest normal force and the friction cones."""
-    bounds = []
-    for contact in situation.response.grasp.contacts:
-        sizes = np.diag(contact.cone)  # mu, 1, 1, mu / nu: the cone is ||rest|| <= mu n
-        bounds += [upper, *(sizes[0] * upper / sizes[1:])]
-    return np.array(bounds)
 
 
 def _implied(value: Affine, limit: Array) -> Array:

@@ -17,13 +17,11 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.conic.limits.synergy_rate import SynergyRate
-from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import Situation, situate
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.clash import clashes
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
@@ -158,8 +156,7 @@ class _Planner:
         v = self._unknowns()
         if v.shape[1] == self.situation.n_alpha:
             return
-        watching = [limit for limit in self.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
-        loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
+        loosened = tuple(limit.loosened(LOOSE) for limit in self.task.limits if limit.watches_references)
         if not self._ask(loosened, LeastReconfiguration(v)).optimal:
             self.decisions.pop()  # the redundancy stays as the goal before left it, which is within all limits
             self.notes.append("the smallest use of redundancy was not verified; it is within its limits")

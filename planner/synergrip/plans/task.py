@@ -8,8 +8,6 @@ from typing import Literal
 import numpy as np
 
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.synergy_rate import SynergyRate
-from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array
 
 GoalName = Literal["margin", "effort", "torque", "peak_force"]
@@ -45,8 +43,8 @@ class Task:
 
     @property
     def watches_references(self) -> bool:
-        """True when some limit looks at the synergy references, so that redundancy matters."""
-        return any(isinstance(limit, SynergyReference | SynergyRate) for limit in self.limits)
+        """True when some limit looks at more than the forces, so that redundancy matters."""
+        return any(limit.watches_references for limit in self.limits)
 
 
 def still(times: Array) -> Wanted:

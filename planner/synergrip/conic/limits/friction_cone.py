@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -20,13 +21,18 @@ class FrictionCone:
 
     margin: float = 0.0  # [N]
     key: str = "limits.margin"
+    watches_references: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per contact (a plain bound for a frictionless one)."""
         return friction_rows(situation, self.margin, 0.0, self.key)
 
-    def bounded(self, situation: Situation) -> None:
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
         """Return nothing: a cone alone bounds no force."""
+
+    def loosened(self, share: float) -> Self:
+        """Return it with a margin smaller by `share`."""
+        return replace(self, margin=self.margin - share * abs(self.margin))
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the slip margins, by the contacts' own formula."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Affine, Situation
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
 
@@ -19,14 +20,19 @@ class JointTorque:
 
     limit: Array
     key: str = "limits.joint_torque"
+    watches_references: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""
         return symmetric_rows(self.key, situation.response.grasp.joints, situation.torque, self.limit)
 
-    def bounded(self, situation: Situation) -> tuple[Affine, Array]:
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return them and their limits."""
         return situation.torque, self.limit
+
+    def loosened(self, share: float) -> Self:
+        """Return it with every bound larger by `share`."""
+        return replace(self, limit=frozen(self.limit * (1 + share)))
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""

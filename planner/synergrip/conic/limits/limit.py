@@ -53,11 +53,21 @@ class Limit(Protocol):
     def key(self) -> str:
         """Key in the problem file."""
 
+    @property
+    def watches_references(self) -> bool:
+        """Whether it looks at more than the forces, so that the redundancy gamma matters."""
+
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return the rows it adds to the program."""
 
-    def bounded(self, situation: Situation) -> tuple[Affine, Array] | None:
-        """Return quantities and the sizes (m,) that this limit alone keeps them within; None when it keeps none."""
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+        """Return quantities and the sizes (m,) that this limit keeps them within; None when it keeps none.
+
+        `cones_hold` says whether the friction cones hold as well, which bound tangential by normal forces.
+        """
+
+    def loosened(self, share: float) -> Limit:
+        """Return the same limit with that share of itself more room, for rounding."""
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return what a motion makes of it, from the motion alone."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.rows import Rows, within
-from synergrip.conic.situation import Situation
+from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -21,6 +22,7 @@ class NormalForce:
     lower: float  # [N]
     upper: float  # [N], infinity for none
     key: str = "limits.normal_force"
+    watches_references: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds per contact, in force units."""
@@ -29,8 +31,19 @@ class NormalForce:
         bounds = (np.full(grasp.n_c, self.lower), np.full(grasp.n_c, self.upper))
         return within(self.key, _names(situation), value, *bounds, np.full(grasp.n_c, situation.force_unit))
 
-    def bounded(self, situation: Situation) -> None:
-        """Return nothing: the normal force alone bounds no tangential force (see `box`)."""
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+        """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""
+        if not cones_hold or not np.isfinite(self.upper):
+            return None
+        bounds = []
+        for contact in situation.response.grasp.contacts:
+            sizes = np.diag(contact.cone)  # mu, 1, 1, mu / nu: the cone is ||rest|| <= mu n
+            bounds += [self.upper, *(sizes[0] * self.upper / sizes[1:])]
+        return situation.force, np.array(bounds)
+
+    def loosened(self, share: float) -> Self:
+        """Return it with a range wider by `share` of its ends."""
+        return replace(self, lower=self.lower - share * abs(self.lower), upper=self.upper + share * abs(self.upper))
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the normal forces."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -21,6 +22,7 @@ class SynergyRate:
 
     limit: Array
     key: str = "limits.synergy_rate"
+    watches_references: ClassVar[bool] = True
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each synergy and step, in units of the limit."""
@@ -40,8 +42,12 @@ class SynergyRate:
             result.append(nonnegative(self.key, items, value, previous=frozen(-sign * matrix)))
         return result
 
-    def bounded(self, situation: Situation) -> None:
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
         """Return nothing: a rate bounds no value."""
+
+    def loosened(self, share: float) -> Self:
+        """Return it with every bound larger by `share`."""
+        return replace(self, limit=frozen(self.limit * (1 + share)))
 
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the rates, each at the knot where its step ends."""
