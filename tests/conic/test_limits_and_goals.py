@@ -50,7 +50,8 @@ def random_situation(seed: int, redundancy: bool = True) -> tuple[np.random.Gene
 
 
 def motion_of(situation: Situation, v: np.ndarray) -> Motion:
-    return forward(situation.response, situation.times, situation.references(v), situation.wrench)
+    references = situation.coordinates.references(*situation.parts(v))
+    return forward(situation.response, situation.times, references, situation.wrench)
 
 
 @pytest.mark.parametrize("name", LIMITS)

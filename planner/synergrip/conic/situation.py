@@ -1,8 +1,9 @@
 """A task in the coordinates of the program: everything a limit or goal may speak about, affine in the unknowns.
 
-At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit)``; beta_k is known
-from the wanted motion. Then ``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k`` and torques, actuator efforts
-and synergy references follow (docs/theory.md).
+At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit, beta_k / motion_unit)``. gamma is
+left out (zero) when no limit looks at more than forces, beta when the wanted motion fixes it. Then
+``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k``, the references follow by (35), and the rest from these two
+(docs/theory.md).
 """
 
 from __future__ import annotations
@@ -27,22 +28,41 @@ class Affine:
         """Return ``linear @ y`` for linear (p, m)."""
         return Affine(frozen(linear @ self.matrix), frozen(self.constant @ linear.T))
 
+    def plus(self, known: Array) -> Affine:
+        """Return ``y_k + known[k]`` for known (T, m)."""
+        return replace(self, constant=frozen(self.constant + known))
+
+    def minus(self, other: Affine) -> Affine:
+        """Return ``y - other`` of the same unknowns."""
+        return Affine(frozen(self.matrix - other.matrix), frozen(self.constant - other.constant))
+
+    def at(self, v: Array) -> Array:
+        """Return y (T, m) at unknowns v (T, n_v)."""
+        return np.asarray(self.constant + v @ self.matrix.T)
+
+
+@dataclass(frozen=True)
+class Units:
+    """Sizes that bring the unknowns near 1 before solving."""
+
+    force: float  # [N]
+    reference: float
+    motion: float = 1.0  # [m]
+
 
 @dataclass(frozen=True)
 class Situation:
     """What the program's unknowns mean."""
 
     response: Response
+    spaces: Subspaces
     coordinates: Coordinates
     times: Array  # (T,) [s]
     wrench: Array  # (T, 6)
-    beta: Array  # (T, dim Gamma_ucs) [m]
-    force: Affine  # lambda (n_l) [N, N m]
-    torque: Affine  # tau (n_q) [N m]
-    effort: Affine  # sigma (n_z)
-    reference: Affine  # dz_r (n_z)
-    force_unit: float  # [N]
-    reference_unit: float
+    alpha: Affine  # (dim E_s) [N]
+    beta: Affine  # (dim Gamma_ucs) [m]
+    gamma: Affine  # (dim Gamma_zr)
+    units: Units
 
     @property
     def knots(self) -> int:
@@ -52,54 +72,89 @@ class Situation:
     @property
     def n_v(self) -> int:
         """Unknowns at each knot."""
-        return int(self.force.matrix.shape[1])
+        return int(self.alpha.matrix.shape[1])
 
     @property
     def n_alpha(self) -> int:
-        """Of these, the coordinates of the internal force."""
+        """Of these, the coordinates of the internal force; they come first."""
         return self.coordinates.dimensions[0]
 
-    def alpha_gamma(self, v: Array) -> tuple[Array, Array]:
-        """Return alpha (T, dim E_s) [N] and gamma (T, dim Gamma_zr) of unknowns v (T, n_v).
+    @property
+    def frees_gamma(self) -> bool:
+        """Whether the redundancy is an unknown."""
+        return bool(np.any(self.gamma.matrix))
 
-        gamma is zero, the smallest reference, when nothing in the task asks about it.
-        """
-        alpha = v[:, : self.n_alpha] * self.force_unit
-        gamma = np.zeros((len(v), self.coordinates.dimensions[2]))
-        if v.shape[1] > self.n_alpha:
-            gamma = v[:, self.n_alpha :] * self.reference_unit
-        return alpha, gamma
+    @property
+    def frees_beta(self) -> bool:
+        """Whether the rigid motion is an unknown."""
+        return bool(np.any(self.beta.matrix))
+
+    @property
+    def force_unit(self) -> float:
+        """[N]."""
+        return self.units.force
+
+    @property
+    def load_change(self) -> Array:
+        """(T, 6) wrench on the object beyond the one at the start."""
+        return np.asarray(self.wrench - self.response.grasp.w_0)
+
+    @property
+    def force(self) -> Affine:
+        """Contact forces lambda (n_l) [N, N m]."""
+        known = forces_at_start(self.response) - self.load_change @ self.response.right_inverse.T
+        return self.alpha.after(self.spaces.E_s).plus(known)
+
+    @property
+    def torque(self) -> Affine:
+        """Joint torques tau = J' lambda (n_q) (6) [N m]."""
+        return self.force.after(self.response.grasp.J.T)
+
+    @property
+    def effort(self) -> Affine:
+        """Actuator efforts sigma = S' tau (n_z)."""
+        return self.torque.after(self.response.grasp.S.T)
+
+    @property
+    def reference(self) -> Affine:
+        """Synergy references dz_r (n_z) by (35)."""
+        parts = (self.alpha, self.beta, self.gamma)
+        inverse = self.coordinates.inverse
+        return Affine(
+            frozen(inverse @ np.vstack([part.matrix for part in parts])),
+            frozen(np.hstack([part.constant for part in parts]) @ inverse.T),
+        )
+
+    @property
+    def joint(self) -> Affine:
+        """Joint displacements dq (n_q) from the start [rad or m]."""
+        return self.reference.after(self.response.dq_dzr).plus(self.load_change @ self.response.dq_dw.T)
+
+    @property
+    def displacement(self) -> Affine:
+        """Object displacement du (6) from the start, sag under load included [m, rad]."""
+        return self.reference.after(self.response.du_dzr).plus(self.load_change @ self.response.du_dw.T)
+
+    @property
+    def elastic(self) -> Affine:
+        """What the references move the object beyond the rigid motion Gamma_ucs beta (6) [m, rad]."""
+        return self.reference.after(self.response.du_dzr).minus(self.beta.after(self.spaces.Gamma_ucs))
 
     def in_units_of(self, force: float) -> Situation:
         """Return the same situation with another force unit [N]: the unknowns become smaller or larger."""
         columns = np.ones(self.n_v)
         columns[: self.n_alpha] = force / self.force_unit
+        alpha = replace(self.alpha, matrix=frozen(self.alpha.matrix * columns))
+        return replace(self, alpha=alpha, units=replace(self.units, force=force))
 
-        def scaled(value: Affine) -> Affine:
-            return Affine(frozen(value.matrix * columns), value.constant)
-
-        return replace(
-            self, force_unit=force, force=scaled(self.force), torque=scaled(self.torque),
-            effort=scaled(self.effort), reference=scaled(self.reference),
-        )  # fmt: skip
-
-    def references(self, v: Array) -> Array:
-        """Return the synergy references dz_r (T, n_z) of unknowns v (T, n_v), by (35)."""
-        alpha, gamma = self.alpha_gamma(v)
-        return self.coordinates.references(alpha, self.beta, gamma)
-
-
-@dataclass(frozen=True)
-class Units:
-    """Sizes that bring the unknowns near 1 before solving."""
-
-    force: float  # [N]
-    reference: float
+    def parts(self, v: Array) -> tuple[Array, Array, Array]:
+        """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""
+        return self.alpha.at(v), self.beta.at(v), self.gamma.at(v)
 
 
 def situate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
-    times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
+    times: Array, wrench: Array, beta: Array | None, units: Units, redundancy: bool,
 ) -> Situation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -109,21 +164,23 @@ def situate(
         coords: its M (35).
         times: (T,) [s].
         wrench: (T, 6) external wrench on the object.
-        beta: (T, dim Gamma_ucs) wanted rigid motion.
-        units: sizes of alpha and gamma.
-        redundancy: whether gamma is an unknown (some limit looks at the references) or zero.
+        beta: (T, dim Gamma_ucs) wanted rigid motion; unknown when None.
+        units: sizes of the unknowns.
+        redundancy: whether gamma is an unknown (some limit looks at more than forces) or zero.
     """
     n_alpha, n_beta, n_gamma = spaces.dimensions
-    free = n_gamma if redundancy else 0
-    inverse = coords.inverse
-    reference = np.hstack([inverse[:, :n_alpha] * units.force,
-                           inverse[:, n_alpha + n_beta : n_alpha + n_beta + free] * units.reference])  # fmt: skip
-    base = forces_at_start(response) - (wrench - response.grasp.w_0) @ response.right_inverse.T
-    force = Affine(frozen(np.hstack([spaces.E_s * units.force, np.zeros((response.grasp.n_l, free))])), frozen(base))
-    torque = force.after(response.grasp.J.T)
+    free = (n_alpha, n_gamma if redundancy else 0, n_beta if beta is None else 0)
+    ends = np.cumsum(free)
+    identity = np.eye(ends[-1])
+
+    def part(rows: int, kind: int, unit: float, known: Array | None = None) -> Affine:
+        matrix = np.zeros((rows, len(identity)))
+        if free[kind]:
+            matrix = unit * identity[ends[kind] - free[kind] : ends[kind]]
+        return Affine(frozen(matrix), frozen(np.zeros((len(times), rows)) if known is None else known))
+
     return Situation(
-        response, coords, frozen(times), frozen(wrench), frozen(beta),
-        force, torque, torque.after(response.grasp.S.T),
-        Affine(frozen(reference), frozen(beta @ inverse[:, n_alpha : n_alpha + n_beta].T)),
-        units.force, units.reference,
+        response, spaces, coords, frozen(times), frozen(wrench),
+        part(n_alpha, 0, units.force), part(n_beta, 2, units.motion, beta), part(n_gamma, 1, units.reference),
+        units,
     )  # fmt: skip

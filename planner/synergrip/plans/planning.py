@@ -154,7 +154,7 @@ class _Planner:
         Fixed forces leave a limit that they touch no room for rounding; the limits are loosened by `LOOSE`.
         """
         v = self._unknowns()
-        if v.shape[1] == self.situation.n_alpha:
+        if not self.situation.frees_gamma:
             return
         loosened = tuple(limit.loosened(LOOSE) for limit in self.task.limits if limit.watches_references)
         if not self._ask(loosened, LeastReconfiguration(v)).optimal:

@@ -30,16 +30,17 @@ def verified_plan(
         SelfCheckError: a check of the plan fails.
     """
     v = decisions[-1].program.unknowns(decisions[-1].solution.x)
-    alpha, gamma = situation.alpha_gamma(v)
-    motion = forward(analysis.response, task.times, situation.references(v), task.wrench)
+    alpha, beta, gamma = situation.parts(v)
+    references = analysis.coordinates.references(alpha, beta, gamma)
+    motion = forward(analysis.response, task.times, references, task.wrench)
     usages = limit_usages(task, situation, motion)
-    checks = (*identities(analysis, motion, (alpha, situation.beta, gamma)), *limit_checks(usages))
+    checks = (*identities(analysis, motion, (alpha, beta, gamma)), *limit_checks(usages))
     failed = [f"{c.name}: {c.error:.2e} exceeds {c.tolerance:.0e}" for c in checks if not c.passed]
     if failed:
         raise SelfCheckError("the plan fails its own check (" + "; ".join(failed) + "); please report this problem")
-    rigid = situation.beta @ analysis.spaces.Gamma_ucs.T
+    rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
-        task, analysis, situation, motion, frozen(alpha), situation.beta, frozen(gamma),
+        task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, decisions, largest,
     )  # fmt: skip
 

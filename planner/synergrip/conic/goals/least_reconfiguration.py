@@ -1,4 +1,4 @@
-"""The smallest use of redundancy, with all forces held."""
+"""The smallest use of redundancy, with all forces and rigid motions held."""
 
 from __future__ import annotations
 
@@ -15,20 +15,25 @@ from synergrip.linalg import Array, frozen
 
 @dataclass(frozen=True)
 class LeastReconfiguration:
-    """Minimise ``sum ||gamma||^2`` with alpha fixed: the last word, so that no part of the answer is arbitrary."""
+    """Minimise ``sum ||gamma||^2`` with alpha and beta fixed: the last word, so that nothing is left arbitrary."""
 
     v: Array
-    """(T, n_v) unknowns whose alpha is held."""
+    """(T, n_v) unknowns of which all but gamma is held."""
     name: str = "least reconfiguration"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
-        """Return ``alpha = alpha of v``."""
-        n, m = situation.n_v, situation.n_alpha
-        held = frozen(-self.v[:, :m])
-        items = tuple(f"alpha_{i + 1}" for i in range(m))
-        return [Rows("forces", Kind.ZERO, 1, items, frozen(np.eye(m, n)), held, frozen(np.zeros(m)))]
+        """Return ``alpha = alpha of v`` and, where it is an unknown, ``beta = beta of v``."""
+        result = []
+        parts = (("forces", "alpha", situation.alpha), ("rigid motion", "beta", situation.beta))
+        for key, letter, part in parts:
+            kept = np.flatnonzero(np.any(part.matrix, axis=0))
+            if len(kept):
+                items = tuple(f"{letter}_{i + 1}" for i in range(len(kept)))
+                chosen, zero = np.eye(situation.n_v)[kept], np.zeros(len(kept))
+                result.append(Rows(key, Kind.ZERO, 1, items, frozen(chosen), frozen(-self.v[:, kept]), frozen(zero)))
+        return result
 
     def objective(self, situation: Situation) -> Objective:
         """Return the squares of gamma in reference units."""
-        n, m = situation.n_v, situation.n_alpha
-        return Objective(np.diag(np.r_[np.zeros(m), np.ones(n - m)]), np.zeros((situation.knots, n)), None)
+        free = np.any(situation.gamma.matrix, axis=0).astype(float)
+        return Objective(np.diag(free), np.zeros((situation.knots, situation.n_v)), None)

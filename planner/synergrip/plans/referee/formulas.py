@@ -155,10 +155,16 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
 def _least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
     import cvxpy as cp
 
-    held = goal.v[:, : model.alpha.shape[1]]
-    names = tuple(f"alpha_{i + 1}" for i in range(held.shape[1]))
-    cones = (Cone("forces", names, model.alpha / model.force_unit - held, equality=True),) if names else ()
-    return Wish(0.5 * cp.sum_squares(model.gamma / model.reference_unit), cones)
+    n_alpha, n_beta = model.alpha.shape[1], model.beta.shape[1]
+    held = [("forces", "alpha", model.alpha / model.units.force, goal.v[:, :n_alpha])]
+    if goal.v.shape[1] > n_alpha + model.gamma.shape[1]:
+        held.append(("rigid motion", "beta", model.beta / model.units.motion, goal.v[:, -n_beta:]))
+    cones = tuple(
+        Cone(key, tuple(f"{letter}_{i + 1}" for i in range(known.shape[1])), value - known, equality=True)
+        for key, letter, value, known in held
+        if known.size
+    )
+    return Wish(0.5 * cp.sum_squares(model.gamma / model.units.reference), cones)
 
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {

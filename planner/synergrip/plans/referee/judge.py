@@ -17,7 +17,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.program import Program
-from synergrip.conic.situation import Situation
+from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
@@ -81,7 +81,7 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     unit, options = _force_unit(analysis, task), TIGHT.get(cvxpy_solver, {})
     model = write_model(
         analysis.response, analysis.coordinates, times=task.times, wrench=task.wrench, beta=beta,
-        force_unit=unit, reference_unit=1.0, redundancy=task.watches_references,
+        units=Units(unit, 1.0), redundancy=task.watches_references,
     )  # fmt: skip
     limits = [cone for limit in task.limits for cone in write_limit(model, limit)]
     asked = [*limits, *friction(model, task.margin / unit)]
@@ -158,8 +158,8 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     situation = question.situation
     model = write_model(
         situation.response, situation.coordinates, times=situation.times, wrench=situation.wrench,
-        beta=situation.beta, force_unit=situation.force_unit, reference_unit=situation.reference_unit,
-        redundancy=situation.n_v > situation.n_alpha,
+        beta=None if situation.frees_beta else situation.beta.constant, units=situation.units,
+        redundancy=situation.frees_gamma,
     )  # fmt: skip
     wish = write_goal(model, question.goal)
     limits = [cone for limit in question.limits for cone in write_limit(model, limit)]
@@ -181,10 +181,14 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
 
 def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:
     """Return x (n,) of the references found."""
-    alpha, _, gamma = situation.coordinates.coordinates(model.dz_r.value)
-    parts = [alpha / situation.force_unit, gamma / situation.reference_unit]
-    x = np.zeros(len(program.q))
-    x[: program.knots * program.n_v] = np.hstack(parts)[:, : program.n_v].ravel()
+    alpha, beta, gamma = situation.coordinates.coordinates(model.dz_r.value)
+    units, x = situation.units, np.zeros(len(program.q))
+    parts = [alpha / units.force]
+    if situation.frees_gamma:
+        parts.append(gamma / units.reference)
+    if situation.frees_beta:
+        parts.append(beta / units.motion)
+    x[: program.knots * program.n_v] = np.hstack(parts).ravel()
     if wish.scalar is not None and wish.scalar.value is not None:
         x[-1] = float(wish.scalar.value)
     return x

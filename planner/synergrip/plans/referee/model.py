@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.situation import Units
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response
 from synergrip.statics.motion import forces_at_start
@@ -63,11 +64,16 @@ class Model:
     dz_r: Expression  # (T, n_z)
     force: Expression  # (T, n_l) [N, N m]
     alpha: Expression  # (T, dim E_s) [N]
+    beta: Expression  # (T, dim Gamma_ucs) [m]
     gamma: Expression  # (T, dim Gamma_zr)
     tracking: tuple[Cone, ...]
-    """beta as wanted, and gamma = 0 where nothing asks about it."""
-    force_unit: float  # [N]
-    reference_unit: float
+    """beta as wanted where it is, and gamma = 0 where nothing asks about it."""
+    units: Units
+
+    @property
+    def force_unit(self) -> float:
+        """[N]."""
+        return self.units.force
 
     @property
     def torque(self) -> Expression:
@@ -77,26 +83,26 @@ class Model:
 
 def write_model(
     response: Response, coordinates: Coordinates, *,
-    times: Array, wrench: Array, beta: Array, force_unit: float, reference_unit: float, redundancy: bool,
+    times: Array, wrench: Array, beta: Array | None, units: Units, redundancy: bool,
 ) -> Model:  # fmt: skip
-    """Write a task down; the arguments are those of `situate`, the units without `Units`."""
+    """Write a task down; the arguments are those of `situate`."""
     import cvxpy as cp
 
     grasp = response.grasp
-    dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, force_unit)
+    dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
     known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
     n_alpha, n_beta, _ = coordinates.dimensions
     to_alpha, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
     gamma = dz_r @ to_gamma.T
     tracking = []
-    if n_beta:
+    if n_beta and beta is not None:
         sizes = np.linalg.norm(to_beta, axis=1)
         tracking.append(_equal("beta", dz_r @ (to_beta / sizes[:, None]).T - beta / sizes))
     if len(to_gamma) and not redundancy:
         tracking.append(_equal("gamma", gamma))
     return Model(
-        response, times, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T, gamma, tuple(tracking),
-        force_unit, reference_unit,
+        response, times, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T,
+        dz_r @ to_beta.T, gamma, tuple(tracking), units,
     )  # fmt: skip
 
 
