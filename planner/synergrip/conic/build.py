@@ -48,20 +48,24 @@ def _entries(rows: Rows, top: int, knots: int, last: int) -> Iterator[Triplets]:
     count = len(rows.constant)
     steps = np.arange(count)
     yield _repeated(-rows.matrix, steps, top, knots - count)
-    if rows.previous is not None:
-        yield _repeated(-rows.previous, steps, top, 0)
+    for part in rows.earlier:
+        yield _repeated(-part.matrix, steps, top, knots - count - part.lag, part.weights)
     used = np.flatnonzero(rows.epigraph)
     where = (top + steps[:, None] * len(rows.epigraph) + used).ravel()
     yield where, np.full(where.size, last), np.tile(-rows.epigraph[used], count)
 
 
-def _repeated(matrix: Array, steps: NDArray[np.intp], top: int, first: int) -> Triplets:
-    """Return the entries of one dense block repeated down the diagonal, from row `top` and knot `first` on."""
+def _repeated(matrix: Array, steps: NDArray[np.intp], top: int, first: int, weights: Array | None = None) -> Triplets:
+    """Return the entries of one dense block repeated down the diagonal, from row `top` and knot `first` on.
+
+    `weights` (len(steps),) multiply the copies.
+    """
     i, j = np.nonzero(matrix)
     height, width = matrix.shape
     rows = top + steps[:, None] * height + i
     columns = (first + steps[:, None]) * width + j
-    return rows.ravel(), columns.ravel(), np.tile(matrix[i, j], len(steps))
+    values = np.broadcast_to(matrix[i, j], rows.shape) if weights is None else weights[:, None] * matrix[i, j]
+    return rows.ravel(), columns.ravel(), values.ravel()
 
 
 def _sparse(entries: Sequence[Triplets], shape: tuple[int, int]) -> sparse.csc_matrix:

@@ -20,8 +20,18 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True)
+class Earlier:
+    """What an earlier knot adds to a row: ``weights[k] matrix v_(k-lag)``."""
+
+    lag: int
+    matrix: Array  # (len(items) * dim, n_v)
+    weights: Array
+    """(K,) one for each of the K knots that have rows."""
+
+
+@dataclass(frozen=True)
 class Rows:
-    """``matrix v_k + previous v_(k-1) + epigraph s + constant[k]`` lies in a cone, for each item and knot."""
+    """``matrix v_k + epigraph s + constant[k]``, and what earlier knots add, lies in a cone, for each item and knot."""
 
     limit: str
     """Key in the problem file of what asks for it."""
@@ -31,15 +41,30 @@ class Rows:
     items: tuple[str, ...]
     """Names of the cones of one knot: contacts, joints, synergies."""
     matrix: Array  # (len(items) * dim, n_v)
-    constant: Array  # (T, len(items) * dim), or (T - 1, ...) for rows that couple a knot to the one before
+    constant: Array
+    """(K, len(items) * dim); K = T, or T - lag for rows that couple a knot to one that is `lag` earlier."""
     epigraph: Array  # (len(items) * dim,) coefficient of the goal's scalar s
-    previous: Array | None = None
-    """(len(items) * dim, n_v) for rows that couple a knot to the one before."""
+    earlier: tuple[Earlier, ...] = ()
 
 
-def nonnegative(limit: str, items: tuple[str, ...], value: Affine, previous: Array | None = None) -> Rows:
-    """Return rows ``value >= 0``."""
-    return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, frozen(np.zeros(len(items))), previous)
+def nonnegative(limit: str, items: tuple[str, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
+    """Return rows ``value >= 0``, with what earlier knots add to the value."""
+    return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, frozen(np.zeros(len(items))), earlier)
+
+
+def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
+    """Return the cone ``||value|| <= bound``, divided by the bound: one for each knot.
+
+    Args:
+        limit: key in the problem file.
+        item: its name.
+        value: m affine quantities of one unit.
+        bound: greater than 0.
+    """
+    matrix = np.vstack([np.zeros(value.matrix.shape[1]), value.matrix / bound])
+    constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
+    zero = frozen(np.zeros(len(matrix)))
+    return Rows(limit, Kind.SECOND_ORDER, len(matrix), (item,), frozen(matrix), frozen(constant), zero)
 
 
 def within(limit: str, items: tuple[str, ...], value: Affine, lower: Array, upper: Array, unit: Array) -> list[Rows]:

@@ -1,7 +1,7 @@
 """A task in the coordinates of the program: everything a limit or goal may speak about, affine in the unknowns.
 
 At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit, beta_k / motion_unit)``. gamma is
-left out (zero) when no limit looks at more than forces, beta when the wanted motion fixes it. Then
+left out (zero) when no limit looks at more than forces, beta as far as the wanted motion fixes it. Then
 ``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k``, the references follow by (35), and the rest from these two
 (docs/theory.md).
 """
@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
 
@@ -62,6 +62,7 @@ class Situation:
     alpha: Affine  # (dim E_s) [N]
     beta: Affine  # (dim Gamma_ucs) [m]
     gamma: Affine  # (dim Gamma_zr)
+    wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
     units: Units
 
     @property
@@ -85,9 +86,9 @@ class Situation:
         return bool(np.any(self.gamma.matrix))
 
     @property
-    def frees_beta(self) -> bool:
-        """Whether the rigid motion is an unknown."""
-        return bool(np.any(self.beta.matrix))
+    def beta_basis(self) -> Array:
+        """(dim Gamma_ucs, m) orthonormal directions in which the rigid motion is an unknown."""
+        return np.asarray(self.beta.matrix[:, np.any(self.beta.matrix, axis=0)] / self.units.motion)
 
     @property
     def force_unit(self) -> float:
@@ -154,7 +155,8 @@ class Situation:
 
 def situate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
-    times: Array, wrench: Array, beta: Array | None, units: Units, redundancy: bool,
+    times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
+    beta_basis: Array | None = None, wanted: Array | None = None,
 ) -> Situation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -164,23 +166,22 @@ def situate(
         coords: its M (35).
         times: (T,) [s].
         wrench: (T, 6) external wrench on the object.
-        beta: (T, dim Gamma_ucs) wanted rigid motion; unknown when None.
+        beta: (T, dim Gamma_ucs) rigid motion.
         units: sizes of the unknowns.
         redundancy: whether gamma is an unknown (some limit looks at more than forces) or zero.
+        beta_basis: (dim Gamma_ucs, m) orthonormal directions in which beta may differ from what is given; none.
+        wanted: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
     """
     n_alpha, n_beta, n_gamma = spaces.dimensions
-    free = (n_alpha, n_gamma if redundancy else 0, n_beta if beta is None else 0)
-    ends = np.cumsum(free)
-    identity = np.eye(ends[-1])
-
-    def part(rows: int, kind: int, unit: float, known: Array | None = None) -> Affine:
-        matrix = np.zeros((rows, len(identity)))
-        if free[kind]:
-            matrix = unit * identity[ends[kind] - free[kind] : ends[kind]]
-        return Affine(frozen(matrix), frozen(np.zeros((len(times), rows)) if known is None else known))
-
+    basis = np.zeros((n_beta, 0)) if beta_basis is None else beta_basis
+    blocks = (np.eye(n_alpha) * units.force, np.eye(n_gamma)[:, : n_gamma * redundancy] * units.reference,
+              basis * units.motion)  # fmt: skip
+    whole = block_diagonal(blocks)
+    alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
+    zeros = np.zeros((len(times), n_alpha + n_gamma))
     return Situation(
         response, spaces, coords, frozen(times), frozen(wrench),
-        part(n_alpha, 0, units.force), part(n_beta, 2, units.motion, beta), part(n_gamma, 1, units.reference),
-        units,
+        Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
+        Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
+        frozen(beta @ spaces.Gamma_ucs.T if wanted is None else wanted), units,
     )  # fmt: skip

@@ -16,7 +16,7 @@ from synergrip.plans.outcome import Check
 from synergrip.plans.reading.loads import distinct
 from synergrip.plans.references import References
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import rigid_coordinates
+from synergrip.plans.tracking import Followed, followed
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
 from synergrip.statics.motion import Motion, forward
@@ -60,15 +60,16 @@ def judge_references(grasp: Grasp, task: Task, references: References) -> Judgem
     task = _at(task, times)
     dz_r = interpolated(times, references.times, references.values)
     analysis = analyse(grasp, task.wrench)
-    beta = rigid_coordinates(analysis, task)
+    follow = followed(analysis, task)
     situation = situate(
         analysis.response, analysis.spaces, analysis.coordinates,
-        times=times, wrench=task.wrench, beta=beta, units=units_of(analysis, task), redundancy=True,
+        times=times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
+        units=units_of(analysis, task), redundancy=True,
     )  # fmt: skip
     motion = forward(analysis.response, times, dz_r, task.wrench)
     usages = limit_usages(task, situation, motion)
     reached = analysis.coordinates.coordinates(dz_r)
-    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], beta), *limit_checks(usages))
+    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], follow), *limit_checks(usages))
     checks += _claims(references, motion)
     return Judgement(analysis, motion, frozen(usages[0].value), usages, checks)
 
@@ -89,8 +90,10 @@ def _claims(references: References, motion: Motion) -> tuple[Check, ...]:
     return tuple(found)
 
 
-def _tracking(task: Task, reached: Array, wanted: Array) -> Check:
-    error = float(np.linalg.norm(reached - wanted, axis=1).max(initial=0.0))
+def _tracking(task: Task, reached: Array, follow: Followed) -> Check:
+    """Judge the rigid motion as far as the wanted motion fixes it."""
+    beyond = reached - follow.beta
+    error = float(np.linalg.norm(beyond - beyond @ follow.basis @ follow.basis.T, axis=1).max(initial=0.0))
     return Check("rigid motion [m]", error, max(task.tolerance, TRACKED))
 
 

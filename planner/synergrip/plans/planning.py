@@ -30,7 +30,7 @@ from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import rigid_coordinates
+from synergrip.plans.tracking import followed
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
@@ -53,12 +53,12 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     except NotRestrainedError as refusal:
         return _refused(grasp, task, None, refusal)
     try:
-        beta = rigid_coordinates(analysis, task)
+        follow = followed(analysis, task)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
     situation = situate(
         analysis.response, analysis.spaces, analysis.coordinates,
-        times=task.times, wrench=task.wrench, beta=beta,
+        times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
         units=units_of(analysis, task), redundancy=task.watches_references,
     )  # fmt: skip
     return _Planner(task, analysis, situation, solver).outcome()
@@ -92,7 +92,7 @@ class _Planner:
         return decision
 
     def _largest_margin(self) -> Outcome:
-        best = self._ask(self.task.limits, LargestMargin())
+        best = self._ask(self.task.kept, LargestMargin())
         if not best.optimal:
             if best.solution.claim is Claim.UNBOUNDED:
                 raise unbounded()
@@ -100,23 +100,23 @@ class _Planner:
         largest, unit = self._scalar(best), self.situation.force_unit
         if largest < self.task.margin - SLACKS[0] * unit:
             return self._short_of_margin(best, largest)
-        self._least_effort_at(lambda slack: (FrictionCone(largest - slack), *self.task.limits))
+        self._least_effort_at(lambda slack: (FrictionCone(largest - slack), *self.task.kept))
         return self._plan(largest)
 
     def _least_peak(self) -> Outcome:
         cones = FrictionCone(self.task.margin)
-        best = self._ask((cones, *self.task.limits), LeastPeak())
+        best = self._ask((cones, *self.task.kept), LeastPeak())
         if not best.optimal:
             return self._without_optimum(best)
         peak = self._scalar(best)
         self._least_effort_at(
-            lambda slack: (cones, *self.task.limits, NormalForce(-np.inf, peak + slack, "goal.minimise"))
+            lambda slack: (cones, *self.task.kept, NormalForce(-np.inf, peak + slack, "goal.minimise"))
         )
         return self._plan()
 
     def _least_effort(self) -> Outcome:
         goal = LeastEffort("torque" if self.task.goal == "torque" else "contact")
-        best = self._ask((FrictionCone(self.task.margin), *self.task.limits), goal)
+        best = self._ask((FrictionCone(self.task.margin), *self.task.kept), goal)
         return self._plan() if best.optimal else self._without_optimum(best)
 
     def _least_effort_at(self, limits: Callable[[float], tuple[Limit, ...]]) -> None:
@@ -156,14 +156,14 @@ class _Planner:
         v = self._unknowns()
         if not self.situation.frees_gamma:
             return
-        loosened = tuple(limit.loosened(LOOSE) for limit in self.task.limits if limit.watches_references)
+        loosened = tuple(limit.loosened(LOOSE) for limit in self.task.kept if limit.watches_references)
         if not self._ask(loosened, LeastReconfiguration(v)).optimal:
             self.decisions.pop()  # the redundancy stays as the goal before left it, which is within all limits
             self.notes.append("the smallest use of redundancy was not verified; it is within its limits")
 
     def _without_optimum(self, decision: Decision) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
-        first = self._ask(self.task.limits, LargestMargin())
+        first = self._ask(self.task.kept, LargestMargin())
         largest = self._scalar(first) if first.optimal else None
         if decision.infeasible:
             return self._infeasible(decision, largest)
@@ -179,7 +179,7 @@ class _Planner:
 
     def _short_of_margin(self, first: Decision, largest: float) -> Outcome:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
-        limits = (*self.task.limits, FrictionCone(self.task.margin))
+        limits = (*self.task.kept, FrictionCone(self.task.margin))
         program = Question(self.situation, limits, LeastEffort()).program()
         certificate = judge_infeasible(program, first.solution.z)
         proof = replace(first, program=program, certificate=certificate)

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.object_error import AXES, ObjectError
 from synergrip.linalg import Array
 
 GoalName = Literal["margin", "effort", "torque", "peak_force"]
@@ -39,12 +40,31 @@ class Task:
     """All limits but the friction cones."""
     goal: GoalName
     tolerance: float = 0.0
-    """How far the wanted motion may leave Gamma_ucs before it is refused [m, rotations times length]."""
+    """Rigid tracking: how far the wanted motion may leave Gamma_ucs before it is refused; compliant tracking: how
+    far the object may be from where it is wanted [m, rotations times length]."""
+    tracking: Literal["rigid", "compliant"] = "rigid"
+    """What follows the wanted motion: the rigid motion Gamma_ucs beta, or the object with its elastic motion."""
+    axes: tuple[str, ...] = AXES
+    """On which of the six axes about B the wanted motion is asked for."""
+    drift: float | None = None
+    """How far the object may move on the other axes [m, rotations times length]; None when as far as it likes."""
 
     @property
     def watches_references(self) -> bool:
         """True when some limit looks at more than the forces, so that redundancy matters."""
         return any(limit.watches_references for limit in self.limits)
+
+    @property
+    def kept(self) -> tuple[Limit, ...]:
+        """All limits but the friction cones: those stated, and those that tracking adds."""
+        part: Literal["rigid", "whole"] = "rigid" if self.tracking == "rigid" else "whole"
+        rest = tuple(axis for axis in AXES if axis not in self.axes)
+        limits = list(self.limits)
+        if self.tracking == "compliant":
+            limits.append(ObjectError(self.tolerance, self.axes, part, "task.tolerance", "tracking error"))
+        if rest and self.drift is not None:
+            limits.append(ObjectError(self.drift, rest, part, "task.drift", "drift on free axes"))
+        return tuple(limits)
 
 
 def still(times: Array) -> Wanted:

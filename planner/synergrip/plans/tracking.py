@@ -1,11 +1,14 @@
-"""Rigid tracking: beta from the wanted motion, or the refusal that says what leaves Gamma_ucs."""
+"""From the wanted motion to the rigid motion beta, as far as it is fixed, or the refusal that says why not."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
+from synergrip.conic.limits.object_error import AXES, axis_weights
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import RANK_TOLERANCE, Array, frozen, split
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.statics.theorem1 import motion_coordinates
@@ -13,6 +16,73 @@ from synergrip.statics.twists import describe_displacement
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What the wanted motion says about the rigid motion."""
+
+    beta: Array  # (T, dim Gamma_ucs) [m]
+    basis: Array
+    """(dim Gamma_ucs, m) orthonormal directions in which beta is the program's choice."""
+    wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
+
+
+def followed(analysis: Analysis, task: Task) -> Followed:
+    """Return what the wanted motion fixes: all of beta, the part that the asked axes see, or nothing.
+
+    Rigid tracking asks Gamma_ucs beta to be the wanted motion on the asked axes; compliant tracking leaves beta to
+    the program, which keeps the object within the tolerance.
+
+    Raises:
+        MotionCountError: more independent motions are asked for than there are synergies.
+        MotionDirectionError: the motion leaves Gamma_ucs by more than the tolerance.
+        InputError: modes are given with another number of columns than Gamma_ucs has.
+    """
+    dimension = analysis.spaces.Gamma_ucs.shape[1]
+    if task.wanted.kind == "motion":
+        wanted = np.asarray(task.wanted.values)
+    else:
+        wanted = rigid_coordinates(analysis, task) @ analysis.spaces.Gamma_ucs.T
+    if task.tracking == "compliant":
+        return Followed(frozen(np.zeros((len(task.times), dimension))), frozen(np.eye(dimension)), frozen(wanted))
+    if len(task.axes) == len(AXES):
+        beta = rigid_coordinates(analysis, task)
+        return Followed(beta, frozen(np.zeros((dimension, 0))), frozen(beta @ analysis.spaces.Gamma_ucs.T))
+    return _on_axes(analysis, task, wanted)
+
+
+def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
+    """Fix beta as far as the asked axes see it."""
+    scale = analysis.response.scale
+    weights = axis_weights(task.axes, scale.length)
+    chosen = np.isin(AXES, task.axes)
+    wanted = np.where(chosen, wanted, 0.0)
+    seen = weights @ analysis.spaces.Gamma_ucs  # (asked, dim Gamma_ucs)
+    beta = wanted @ weights.T @ np.linalg.pinv(seen, rcond=RANK_TOLERANCE).T
+    outside = wanted @ weights.T - beta @ seen.T
+    k = int(np.argmax(np.linalg.norm(outside, axis=1)))
+    # outside is orthogonal to all that the asked axes see of Gamma_ucs; the same covector in scaled coordinates
+    covector = np.linalg.solve(scale.motion.T, weights.T @ outside[k])
+    reach = float(abs(scale.twist(wanted[k]) @ covector)) / max(float(np.linalg.norm(covector)), 1e-300)
+    wish = float(np.linalg.norm(scale.twist(wanted), axis=1).max(initial=0.0))
+    if reach > max(RIGID_TOLERANCE * wish, task.tolerance):
+        missed, whole = (
+            describe_displacement(twist, scale.length) for twist in (_twist(weights, outside[k]), wanted[k])
+        )
+        message = (
+            f"the rigid motions that these {analysis.grasp.n_z} synergies can produce (Gamma_ucs, dimension "
+            f"{len(beta.T)}) cannot follow the wanted motion on the axes {', '.join(task.axes)}: at t = "
+            f"{task.times[k]:.3g} s, of {whole} about B, they miss {missed} at best"
+        )
+        residual = np.linalg.solve(scale.motion, covector)
+        raise MotionDirectionError(message, frozen(residual), float(task.times[k]), reach / wish, reach)
+    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), frozen(wanted))
+
+
+def _twist(weights: Array, values: Array) -> Array:
+    """Return the twist (6,) with these values on the asked axes and 0 on the others."""
+    return np.asarray(np.linalg.lstsq(weights, values, rcond=None)[0])
 
 
 def rigid_coordinates(analysis: Analysis, task: Task) -> Array:

@@ -47,7 +47,7 @@ def verified_plan(
 
 def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
-    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.limits)
+    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.kept)
     return tuple(limit.usage(situation, motion) for limit in limits)
 
 

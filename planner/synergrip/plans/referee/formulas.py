@@ -14,15 +14,20 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.object_error import ObjectError
+from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
 from synergrip.plans.referee.model import Cone, Expression, Model
+from synergrip.plans.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
 
 
 class NotWrittenError(SynergripError, TypeError):
@@ -155,10 +160,10 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
 def _least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
     import cvxpy as cp
 
-    n_alpha, n_beta = model.alpha.shape[1], model.beta.shape[1]
+    n_alpha, n_beta = model.alpha.shape[1], model.beta_free.shape[1]
     held = [("forces", "alpha", model.alpha / model.units.force, goal.v[:, :n_alpha])]
-    if goal.v.shape[1] > n_alpha + model.gamma.shape[1]:
-        held.append(("rigid motion", "beta", model.beta / model.units.motion, goal.v[:, -n_beta:]))
+    if n_beta:
+        held.append(("rigid motion", "beta", model.beta_free / model.units.motion, goal.v[:, -n_beta:]))
     cones = tuple(
         Cone(key, tuple(f"{letter}_{i + 1}" for i in range(known.shape[1])), value - known, equality=True)
         for key, letter, value, known in held
@@ -174,6 +179,10 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     ActuatorEffort: _actuator_effort,
     SynergyReference: _synergy_reference,
     SynergyRate: _synergy_rate,
+    SynergyAcceleration: synergy_acceleration,
+    JointRange: joint_range,
+    ElasticMotion: elastic_motion,
+    ObjectError: object_error,
 }
 GOALS: dict[type, Callable[[Model, Any], Wish]] = {
     LargestMargin: _largest_margin,

@@ -25,6 +25,7 @@ from synergrip.plans.analysis import Analysis
 from synergrip.plans.question import Question
 from synergrip.plans.referee.formulas import Wish, friction, write_goal, write_limit
 from synergrip.plans.referee.model import Model, Posed, pose, pose_relaxed, write_model
+from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
 
@@ -44,9 +45,6 @@ TIGHT: Mapping[str, Mapping[str, float]] = {
 
 BAND = 1e-8
 """Relaxation, in force units and shares of a limit, below which feasible and infeasible are too close to tell."""
-
-OUTSIDE = 1e-6
-"""Share of the wanted motion that may lie outside Gamma_ucs."""
 
 
 @dataclass(frozen=True)
@@ -75,15 +73,16 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     Raises:
         NotWrittenError: the task has a limit of a type that has no formula.
     """
-    beta = _wanted(analysis, task)
+    beta, basis, wanted = followed(analysis, task)
     if beta is None:
         return RefereeAnswer("infeasible", "the wanted motion leaves Gamma_ucs")
     unit, options = _force_unit(analysis, task), TIGHT.get(cvxpy_solver, {})
     model = write_model(
         analysis.response, analysis.coordinates, times=task.times, wrench=task.wrench, beta=beta,
+        beta_basis=basis, wanted=wanted, rigid_basis=analysis.spaces.Gamma_ucs,
         units=Units(unit, 1.0), redundancy=task.watches_references,
     )  # fmt: skip
-    limits = [cone for limit in task.limits for cone in write_limit(model, limit)]
+    limits = [cone for limit in task.kept for cone in write_limit(model, limit)]
     asked = [*limits, *friction(model, task.margin / unit)]
     relaxed, wish, largest = pose_relaxed(model, asked), write_goal(model, GOALS[task.goal]), None
     relaxed.run(cvxpy_solver, options)
@@ -106,20 +105,6 @@ GOALS: Mapping[str, Goal] = {
     "torque": LeastEffort("torque"),
     "peak_force": LeastPeak(),
 }
-
-
-def _wanted(analysis: Analysis, task: Task) -> Array | None:
-    """Return beta (T, dim Gamma_ucs), or None when the wanted motion is no motion of Gamma_ucs."""
-    basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
-    if task.wanted.kind != "motion":  # beta itself; columns that are not there stand for zero
-        beta = np.zeros((len(task.times), basis.shape[1]))
-        beta[:, : task.wanted.values.shape[1]] = task.wanted.values
-        return beta
-    wish = scale.twist(task.wanted.values)
-    beta = np.asarray(np.linalg.lstsq(scale.motion @ basis, wish.T, rcond=None)[0].T)
-    outside = np.linalg.norm(wish - scale.twist(beta @ basis.T), axis=1).max(initial=0.0)
-    allowed = max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance)
-    return beta if outside <= allowed else None
 
 
 def _force_unit(analysis: Analysis, task: Task) -> float:
@@ -158,8 +143,8 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     situation = question.situation
     model = write_model(
         situation.response, situation.coordinates, times=situation.times, wrench=situation.wrench,
-        beta=None if situation.frees_beta else situation.beta.constant, units=situation.units,
-        redundancy=situation.frees_gamma,
+        beta=situation.beta.constant, units=situation.units, redundancy=situation.frees_gamma,
+        beta_basis=situation.beta_basis, wanted=situation.wanted, rigid_basis=situation.spaces.Gamma_ucs,
     )  # fmt: skip
     wish = write_goal(model, question.goal)
     limits = [cone for limit in question.limits for cone in write_limit(model, limit)]
@@ -186,8 +171,7 @@ def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) 
     parts = [alpha / units.force]
     if situation.frees_gamma:
         parts.append(gamma / units.reference)
-    if situation.frees_beta:
-        parts.append(beta / units.motion)
+    parts.append((beta - situation.beta.constant) @ situation.beta_basis / units.motion)
     x[: program.knots * program.n_v] = np.hstack(parts).ravel()
     if wish.scalar is not None and wish.scalar.value is not None:
         x[-1] = float(wish.scalar.value)

@@ -61,19 +61,34 @@ class Model:
 
     response: Response
     times: Array  # (T,) [s]
+    wrench: Array  # (T, 6) external wrench on the object
     dz_r: Expression  # (T, n_z)
     force: Expression  # (T, n_l) [N, N m]
     alpha: Expression  # (T, dim E_s) [N]
     beta: Expression  # (T, dim Gamma_ucs) [m]
+    rigid_basis: Array  # (6, dim Gamma_ucs)
+    beta_free: Expression
+    """(T, m) beta beyond what is given, in the directions in which it may leave it [m]."""
     gamma: Expression  # (T, dim Gamma_zr)
     tracking: tuple[Cone, ...]
     """beta as wanted where it is, and gamma = 0 where nothing asks about it."""
+    wanted: Array  # (T, 6) wanted displacement of the object
     units: Units
 
     @property
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
+
+    @property
+    def moved(self) -> Expression:
+        """Object motion U dz_r (T, 6) that the references make [m, rad]."""
+        return self.dz_r @ self.response.du_dzr.T
+
+    @property
+    def rigid(self) -> Expression:
+        """Its rigid part Gamma_ucs beta (T, 6) [m, rad]."""
+        return self.beta @ self.rigid_basis.T
 
     @property
     def torque(self) -> Expression:
@@ -83,7 +98,8 @@ class Model:
 
 def write_model(
     response: Response, coordinates: Coordinates, *,
-    times: Array, wrench: Array, beta: Array | None, units: Units, redundancy: bool,
+    times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
+    beta_basis: Array, wanted: Array, rigid_basis: Array,
 ) -> Model:  # fmt: skip
     """Write a task down; the arguments are those of `situate`."""
     import cvxpy as cp
@@ -95,14 +111,16 @@ def write_model(
     to_alpha, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
     gamma = dz_r @ to_gamma.T
     tracking = []
-    if n_beta and beta is not None:
-        sizes = np.linalg.norm(to_beta, axis=1)
-        tracking.append(_equal("beta", dz_r @ (to_beta / sizes[:, None]).T - beta / sizes))
+    beyond = dz_r @ to_beta.T - beta
+    fixed = np.linalg.svd(beta_basis, full_matrices=True)[0][:, beta_basis.shape[1] :]  # where beta may not leave it
+    if fixed.size:
+        sizes = np.linalg.norm(fixed.T @ to_beta, axis=1)
+        tracking.append(_equal("beta", beyond @ (fixed / sizes)))
     if len(to_gamma) and not redundancy:
         tracking.append(_equal("gamma", gamma))
     return Model(
-        response, times, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T,
-        dz_r @ to_beta.T, gamma, tuple(tracking), units,
+        response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T,
+        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), wanted, units,
     )  # fmt: skip
 
 

@@ -1,0 +1,51 @@
+"""How far the grip may push the object beyond the rigid motion Gamma_ucs beta."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.rows import Rows, norm_within
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array, frozen
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class ElasticMotion:
+    """``||U dz_r - Gamma_ucs beta|| <= limit``: contacts' deformation under the squeeze, sag under load excluded.
+
+    Rotations count with the grasp's characteristic length, about the contacts' centroid.
+    """
+
+    limit: float  # [m]
+    key: str = "limits.elastic_motion"
+    watches_references: ClassVar[bool] = False
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return one second-order cone per knot, in units of the limit."""
+        return [norm_within(self.key, "object", self._scaled(situation), self.limit)]
+
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+        """Return the elastic motion and its limit."""
+        return self._scaled(situation), np.full(6, self.limit)
+
+    def loosened(self, share: float) -> Self:
+        """Return it with a limit larger by `share`."""
+        return replace(self, limit=self.limit * (1 + share))
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return its size."""
+        spaces, coordinates = situation.spaces, situation.coordinates
+        _, beta, _ = coordinates.coordinates(motion.dz_r)
+        elastic = motion.du - motion.sag - beta @ spaces.Gamma_ucs.T
+        size = np.linalg.norm(situation.response.scale.twist(elastic), axis=1)[:, None]
+        none, bound = frozen([-np.inf]), frozen([self.limit])
+        return Usage("elastic motion", "m", ("object",), size, none, bound, bound, motion.times)
+
+    def _scaled(self, situation: Situation) -> Affine:
+        return situation.elastic.after(situation.response.scale.motion)

@@ -1,0 +1,69 @@
+"""How far the object may be from where it is wanted, in all or some of its six axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.rows import Rows, norm_within
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array, frozen
+from synergrip.statics.motion import Motion
+
+AXES = ("x", "y", "z", "rx", "ry", "rz")
+"""Translations along and rotations about the palm's axes, about B."""
+
+
+@dataclass(frozen=True)
+class ObjectError:
+    """``||D (u - wanted)|| <= limit`` over the chosen axes, D = diag(1, 1, 1, L, L, L), L the characteristic length.
+
+    u is the whole displacement of the object, sag under load included, or the rigid part Gamma_ucs beta of it.
+    """
+
+    limit: float  # [m]
+    axes: tuple[str, ...] = AXES
+    part: Literal["whole", "rigid"] = "whole"
+    key: str = "limits.drift"
+    title: str = "object error"
+    watches_references: ClassVar[bool] = False
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return one second-order cone per knot, in units of the limit."""
+        return [norm_within(self.key, "object", self._error(situation), self.limit)]
+
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+        """Return the error in each of the axes, and the limit."""
+        return self._error(situation), np.full(len(self.axes), self.limit)
+
+    def loosened(self, share: float) -> Self:
+        """Return it with a limit larger by `share`."""
+        return replace(self, limit=self.limit * (1 + share))
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the size of the error."""
+        reached = motion.du
+        if self.part == "rigid":
+            _, beta, _ = situation.coordinates.coordinates(motion.dz_r)
+            reached = beta @ situation.spaces.Gamma_ucs.T
+        size = np.linalg.norm((reached - situation.wanted) @ self._weights(situation).T, axis=1)[:, None]
+        none, bound = frozen([-np.inf]), frozen([self.limit])
+        return Usage(self.title, "m", ("object",), size, none, bound, bound, motion.times)
+
+    def _error(self, situation: Situation) -> Affine:
+        whole = situation.displacement if self.part == "whole" else situation.beta.after(situation.spaces.Gamma_ucs)
+        return whole.plus(-situation.wanted).after(self._weights(situation))
+
+    def _weights(self, situation: Situation) -> Array:
+        """Return the rows of D (len(axes), 6) that count."""
+        return axis_weights(self.axes, situation.response.scale.length)
+
+
+def axis_weights(axes: Sequence[str], length: float) -> Array:
+    """Return the rows of diag(1, 1, 1, L, L, L) of the named axes, (len(axes), 6)."""
+    whole = np.diag([1.0] * 3 + [length] * 3)
+    return whole[[AXES.index(axis) for axis in axes]]
