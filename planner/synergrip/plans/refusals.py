@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.certificate import Certificate
+from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
@@ -46,7 +47,7 @@ def _outside(task: Task, analysis: Analysis, scale: Scale, refusal: MotionDirect
     direction = scale.twist(refusal.residual)
     direction = direction / np.linalg.norm(direction)
     leak = float(np.abs(direction @ scale.motion @ analysis.spaces.Gamma_ucs).max(initial=0.0))
-    wish = scale.twist(task.wanted.values)
+    wish = scale.twist(np.where(np.isin(AXES, task.axes), task.wanted.values, 0.0))
     reach = float(np.abs(wish @ direction).max())
     size = float(np.linalg.norm(wish, axis=1).max())
     counts = reach * (1 + RANK_TOLERANCE) > max(RIGID_TOLERANCE * size, task.tolerance)

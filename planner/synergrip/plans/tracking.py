@@ -66,7 +66,8 @@ def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
     covector = np.linalg.solve(scale.motion.T, weights.T @ outside[k])
     reach = float(abs(scale.twist(wanted[k]) @ covector)) / max(float(np.linalg.norm(covector)), 1e-300)
     wish = float(np.linalg.norm(scale.twist(wanted), axis=1).max(initial=0.0))
-    if reach > max(RIGID_TOLERANCE * wish, task.tolerance):
+    allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
+    if min(reach, float(np.linalg.norm(outside[k]))) > allowed:
         missed, whole = (
             describe_displacement(twist, scale.length) for twist in (_twist(weights, outside[k]), wanted[k])
         )

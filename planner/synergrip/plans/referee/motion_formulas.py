@@ -48,7 +48,7 @@ def joint_range(model: Model, limit: JointRange) -> tuple[Cone, ...]:
     for side, bound, sign in (("lowest", limit.lower, 1.0), ("highest", limit.upper, -1.0)):
         keep = np.flatnonzero(np.isfinite(bound))
         if len(keep):
-            room = sign * (q[:, keep] - bound[keep]) @ np.diag(1 / unit[keep])
+            room = sign * (q[:, keep] - np.tile(bound[keep], (len(model.times), 1))) @ np.diag(1 / unit[keep])
             cones.append(Cone(limit.key, tuple(f"{names[i]} ({side})" for i in keep), room))
     return tuple(cones)
 
