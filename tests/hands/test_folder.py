@@ -189,7 +189,7 @@ BAD = [
     ("test.urdf", "nothing.urdf", "model", "not found"),
     ('name = "far"', 'name = "fra"', "joint[1].name", "'fra' is not one of 'near', 'far' or 'push'; did you mean"),
     ('name = "far"', 'name = "near"', "joint[2].name", "'near' is listed twice"),
-    ('[[joint]]\nname = "far"\n\n', "", "joint", "the URDF also moves 'far'"),
+    ('[[joint]]\nname = "far"\n\n', "", "joint", "the model also moves 'far'"),
     ('"5 N"', '"5 N m"', "joint[0].torque_limit", "'N m' is a unit of torque; expected a force"),
     ('"5 N"', '"0 N"', "joint[0].torque_limit", "must be greater than 0"),
     ('"1500 N mm"', "1.5", "joint[2].torque_limit", "expected a string"),
@@ -245,3 +245,44 @@ def test_all_issues_are_told_at_once(tmp_path):
     with pytest.raises(InputError) as caught:
         load_hand(folder(tmp_path, toml))
     assert [issue.key for issue in caught.value.issues] == ["joint[0].torque_limit", "joint[2].torque_limit"]
+
+
+MIMIC = URDF.replace('upper="1"/>', 'upper="1"/><mimic joint="near" multiplier="0.5" offset="0.2"/>')
+
+
+def test_mimic_tags_hold_unless_hand_toml_says_otherwise(tmp_path):
+    hand = load_hand(folder(tmp_path, urdf=MIMIC))
+    assert hand.couplings == {"far": Coupling({"near": 0.25}, 0.1)}
+    (tmp_path / "test-hand" / "hand.toml").write_text(without("couplings"), encoding="utf-8")
+    hand = load_hand(tmp_path / "test-hand")
+    assert hand.couplings == {"far": Coupling({"near": 0.5}, 0.2)}
+    np.testing.assert_allclose(hand.synergy_sets["motors"].S, [[0, 0.5], [1, 0], [2, 0]])
+    assert load_hand(tmp_path / "test-hand", coupling={"far": 0.75}).couplings == {"far": Coupling({"near": 0.75}, 0.2)}
+
+
+def test_a_broken_mimic_matters_only_when_hand_toml_is_silent(tmp_path):
+    place = folder(tmp_path, urdf=MIMIC.replace('mimic joint="near"', 'mimic joint="nobody"'))
+    assert load_hand(place).couplings == {"far": Coupling({"near": 0.25}, 0.1)}
+    (place / "hand.toml").write_text(without("couplings"), encoding="utf-8")
+    with pytest.raises(InputError, match="mimics a joint that is not there") as caught:
+        load_hand(place)
+    assert (Path(caught.value.issues[0].file), caught.value.issues[0].line) == (place / "test.urdf", 7)
+
+
+def test_hand_toml_may_name_an_mjcf_file(tmp_path):
+    place = folder(tmp_path)
+    mjcf = """<mujoco><worldbody><body name="palm">
+      <body name="one"><joint name="near" range="-57 114"/>
+        <body name="two" pos="1 0 0"><joint name="far"/></body>
+      </body>
+      <body name="rail"><joint name="push" type="slide" range="0 0.1"/></body>
+    </body></worldbody><equality><joint joint1="far" joint2="near" polycoef="0.2 3"/></equality></mujoco>"""
+    (place / "test.xml").write_text(mjcf, encoding="utf-8")
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "hand.toml").write_text(TOML.replace("test.urdf", "../test-hand/test.xml"), encoding="utf-8")
+    q, point = np.array([0.02, 0.3, -0.4]), [("two", np.array([0.1, 0.2, 0.3]))]
+    ours, theirs = (load_hand(path).kinematics.at(q, point)[0] for path in (place, other))
+    np.testing.assert_allclose(ours.position, theirs.position, atol=1e-15)
+    np.testing.assert_allclose(ours.jacobian, theirs.jacobian, atol=1e-15)
+    assert load_hand(other).couplings == {"far": Coupling({"near": 0.25}, 0.1)}

@@ -26,7 +26,6 @@ SLIDER = """<robot name="r">
   </joint>
   <joint name="turn" type="continuous">
     <parent link="rail"/><child link="crank"/><origin xyz="1 0 0" rpy="0.3 -0.4 0.5"/><axis xyz="0 0 1"/>
-    <mimic joint="nobody" multiplier="2"/>
   </joint>
   <joint name="end" type="fixed"><parent link="crank"/><child link="tip"/><origin xyz="0 0 0.5" rpy="0 1 0"/></joint>
 </robot>

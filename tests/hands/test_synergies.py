@@ -8,8 +8,8 @@ from synergrip.errors import InputError
 from synergrip.files import bundled
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
-from synergrip.hands.hand import Coupling, Joint
-from synergrip.hands.synergies import coupling_map, joint_posture, joint_vector, outside_limits, posture
+from synergrip.hands.hand import Coupling, Joint, SynergySet
+from synergrip.hands.synergies import coupling_map, joint_posture, joint_vector, outside_limits, posture, resting
 
 DEG = math.pi / 180
 ABCD = ("a", "b", "c", "d")
@@ -181,3 +181,10 @@ def test_limits_are_told_in_the_unit_of_the_joint_and_reached_exactly():
     assert outside_limits((slide, hinge), np.array([0.02, -1.0]), "k") == []
     (issue,) = outside_limits((slide, hinge), np.array([0.03, 0.0]), "k")
     assert issue.message == "joint 'rail' would be at 30 mm, outside 0 to 20 mm"
+
+
+def test_at_rest_a_hand_is_at_the_offset_of_the_set_inside_its_ranges():
+    joints = (Joint("a", "hinge", -1.0, 1.0, math.inf), Joint("b", "hinge", 0.5, math.inf, math.inf))
+    for offset, expected in (([0.2, 0.7], [0.2, 0.7]), ([3, 0], [1, 0.5]), ([-3, 1e9], [-1, 1e9])):
+        chosen = SynergySet("s", "", ("z",), np.ones((2, 1)), np.array(offset), np.full(1, math.inf))
+        np.testing.assert_array_equal(resting(joints, chosen), expected)

@@ -9,10 +9,7 @@ from pathlib import Path
 from synergrip.errors import InputError, one_of
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies import ALL, JOINTS, columns_of
-from synergrip.hands.synergy_file import read_synergies
-
-SUFFIX = ".toml"
-"""A wish that ends with it is the path of a synergy file."""
+from synergrip.hands.synergy_file import SUFFIX, read_synergies
 
 
 @dataclass(frozen=True)
@@ -47,11 +44,12 @@ def select(
         return default
     if isinstance(wish, SetChoice):
         chosen = _set(hand, wish.set, f"{key}.set", folder)
-        return chosen if wish.first is None else _first(hand, chosen, wish.first, f"{key}.first")
+        return chosen if wish.first is None else first_of(chosen, wish.first, f"{key}.first")
     if isinstance(wish, str):
         return _set(hand, wish, key, folder)
     if isinstance(wish, int):
-        return _first(hand, default, wish, key)
+        every = "" if default.name == JOINTS else f'; write "{ALL}" for the {len(hand.joints)} joints'
+        return first_of(default, wish, key, every)
     return _named(hand, list(wish), key)
 
 
@@ -63,11 +61,15 @@ def _set(hand: Hand, wish: str, key: str, folder: Path) -> SynergySet:
     return hand.synergy_sets[JOINTS if wish == ALL else wish]
 
 
-def _first(hand: Hand, chosen: SynergySet, count: int, key: str) -> SynergySet:
+def first_of(chosen: SynergySet, count: int, key: str, advice: str = "") -> SynergySet:
+    """Return the set with its first `count` columns only.
+
+    Raises:
+        InputError: a number below 1 or above n_z, at `key`, with the `advice`.
+    """
     available = len(chosen.synergies)
     if isinstance(count, bool) or not 1 <= count <= available:
-        every = "" if chosen.name == JOINTS else f'; write "{ALL}" for the {len(hand.joints)} joints'
-        message = f"expected 1 to {available}, the number of synergies of '{chosen.name}', got {count}{every}"
+        message = f"expected 1 to {available}, the number of synergies of '{chosen.name}', got {count}{advice}"
         raise InputError.at(key, message)
     return columns_of(chosen, chosen.synergies[:count])
 

@@ -1,9 +1,11 @@
-"""From a folder with hand.toml and a URDF to a `Hand`."""
+"""From a folder with hand.toml, or from a model file alone, to a `Hand`."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from os.path import isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,9 +14,11 @@ import numpy as np
 from synergrip.documents import parse, read_document
 from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.files import bundled
+from synergrip.hands.bare import bare_hand
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
 from synergrip.hands.hand_file import HandFile, JointTable, PadTable, PostureTable
 from synergrip.hands.kinematics import kinematics
+from synergrip.hands.model_file import SUFFIXES, read_model
 from synergrip.hands.sets import each_of, synergy_sets
 from synergrip.hands.synergies import (
     joint_posture,
@@ -23,7 +27,6 @@ from synergrip.hands.synergies import (
     override,
 )
 from synergrip.hands.tree import LinkTree
-from synergrip.hands.urdf import read_urdf
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
@@ -46,46 +49,65 @@ def load_hand(
     coupling: Mapping[str, float] | float | None = None,
     key: str = "hand.model",
 ) -> Hand:
-    """Return a hand by the name of a bundled one, or by the path of a folder that holds hand.toml.
+    """Return a hand by the name of a bundled one, or by a path.
 
     Args:
-        name_or_path: a name of `bundled_hands`, or a path.
+        name_or_path: a name of `bundled_hands`, or the path of a folder that holds hand.toml, of a hand.toml, or of a
+            URDF or MJCF file (``.urdf``, ``.xml``) that stands for itself, see `bare_hand`.
         relative_to: the folder a path is relative to; the current one when absent.
         coupling: ratios that replace those of the hand: one for all followers, or by follower.
         key: where the name stands, for the error; the coupling stands beside it.
 
     Raises:
-        InputError: no such hand, a hand.toml or URDF that cannot be used (located in that file), or a coupling
-            that the hand does not have (at the key of the coupling).
+        InputError: no such hand, a file that cannot be used (located in that file), or a coupling that the hand does
+            not have (at the key of the coupling).
     """
-    folder = _find(name_or_path, relative_to, key)
-    document = read_document(folder / FILE, "hand file")
-    file = parse(document, HandFile)
-    couplings = {name: Coupling({each.joint: each.ratio}, each.offset) for name, each in file.couplings.items()}
+    path = _find(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]
-    chosen = override(couplings, coupling, f"{beside}.coupling" if beside else "coupling")
+    at = f"{beside}.coupling" if beside else "coupling"
+    if path.name != FILE:
+        tree = read_model(path, key)
+        try:
+            return bare_hand(path.stem, tree, override(tree.couplings, coupling, at))
+        except InputError as error:
+            raise error.located(lambda issue: issue if issue.key else replace(issue, key=key)) from None
+    document = read_document(path, "hand file")
+    file = parse(document, HandFile)
     try:
-        return _hand(folder, file, chosen, judge_postures=coupling is None)
+        tree = read_model(path.parent / file.model, "model", file.couplings)
+    except InputError as error:
+        raise error.located(document.locate) from None
+    told = {name: Coupling({each.joint: each.ratio}, each.offset) for name, each in file.couplings.items()}
+    chosen = override({**tree.couplings, **told}, coupling, at)
+    try:
+        return _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
     except InputError as error:
         raise error.located(document.locate) from None
 
 
 def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
+    """Return the hand.toml of a hand, or its model file."""
     name = str(name_or_path)
     names = bundled_hands()
     if name in names:
-        return bundled("models") / "hands" / name
+        return bundled("models") / "hands" / name / FILE
     path = (relative_to or Path()) / name
+    if path.suffix in SUFFIXES and not isdir(path):
+        return path
     folder = path.parent if path.name == FILE else path
-    if name and (folder / FILE).is_file():
-        return folder.resolve()
+    if name and isfile(folder / FILE):
+        return (folder / FILE).resolve()
     listed = ", ".join(names)
-    message = f"{name!r} is neither a bundled hand ({listed}) nor a folder with {FILE}{suggest(name, names)}"
-    raise InputError.at(key, message)
+    raise InputError.at(
+        key,
+        f"{name!r} is neither a bundled hand ({listed}) nor a folder with {FILE} nor a .urdf or .xml file"
+        f"{suggest(name, names)}",
+    )
 
 
-def _hand(folder: Path, file: HandFile, couplings: dict[str, Coupling], *, judge_postures: bool) -> Hand:
-    tree = read_urdf(folder / file.model, "model")
+def _hand(
+    folder: Path, file: HandFile, tree: LinkTree, couplings: dict[str, Coupling], *, judge_postures: bool
+) -> Hand:
     names = [table.name for table in file.joint]
     _check_names(tree, names)
     rows = {f"joint[{index}]": table for index, table in enumerate(file.joint)}
@@ -119,7 +141,7 @@ def _check_names(tree: LinkTree, names: Sequence[str]) -> None:
     missing = [name for name in tree.moving if name not in names]
     if missing and not issues:
         listed = ", ".join(f"'{name}'" for name in missing)
-        issues.append(Issue(f"the URDF also moves {listed}; list every moving joint", key="joint"))
+        issues.append(Issue(f"the model also moves {listed}; list every moving joint", key="joint"))
     if issues:
         raise InputError(issues)
 

@@ -33,9 +33,9 @@ Point = Annotated[
 
 
 class JointTable(Table):
-    """A joint, in the order of q; its limits stand in the URDF."""
+    """A joint, in the order of q; its range stands in the model file."""
 
-    name: Name = Field(description="name of the joint in the URDF")
+    name: Name = Field(description="name of the joint in the model file")
     torque_limit: Text | None = Field(
         default=None, description='largest torque ("1.5 N m"), or force of a slide; none when absent'
     )
@@ -47,7 +47,7 @@ class JointTable(Table):
 class PadTable(Table):
     """A place that is made to touch things."""
 
-    link: Text = Field(description="name of the link in the URDF")
+    link: Text = Field(description="name of the link in the model file")
     point: Point = Field(description="place in the frame of the link")
     normal: Axis = Field(description="direction in which the pad pushes, in the frame of the link")
     radius: Size | None = Field(
@@ -111,9 +111,11 @@ class HandFile(Table):
 
     version: Version = Field(alias="schema", description="1")
     title: Text = Field(description="name of the hand, for people")
-    model: Text = Field(description="URDF file, relative to hand.toml")
+    model: Text = Field(description="URDF or MJCF file, relative to hand.toml")
     joint: tuple[JointTable, ...] = Field(min_length=1, description="every moving joint, in the order of q")
     pads: dict[str, PadTable] = Field(default_factory=dict, description="places that are made to touch things")
-    couplings: dict[str, CouplingTable] = Field(default_factory=dict, description="joints that follow others")
+    couplings: dict[str, CouplingTable] = Field(
+        default_factory=dict, description="joints that follow others; before what the model file says of them"
+    )
     synergies: dict[Text, SynergyTable] = Field(default_factory=dict, description="synergy sets, the default first")
     postures: dict[Text, PostureTable] = Field(default_factory=dict, description="postures with a name")

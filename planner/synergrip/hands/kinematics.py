@@ -1,4 +1,4 @@
-"""Forward kinematics and Jacobians of a tree of links; the only module that imports MuJoCo."""
+"""Forward kinematics and Jacobians of a tree of links, whatever file it comes from."""
 
 from __future__ import annotations
 

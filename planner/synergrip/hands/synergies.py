@@ -83,6 +83,12 @@ def joint_values(synergies: SynergySet, values: Mapping[str, float]) -> Array:
     return frozen(synergies.S @ z + synergies.offset)
 
 
+def resting(joints: Sequence[Joint], synergies: SynergySet) -> Array:
+    """Return the joint values (n_q,) at z = 0, each brought inside the range of its joint."""
+    lower, upper = ([getattr(joint, end) for joint in joints] for end in ("lower", "upper"))
+    return frozen(np.clip(synergies.offset, lower, upper))
+
+
 def columns_of(chosen: SynergySet, names: Sequence[str]) -> SynergySet:
     """Return the set with the named columns only, in that order."""
     picks = [chosen.synergies.index(name) for name in names]

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
-from synergrip.documents import parse, read_document
+from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, one_of
-from synergrip.fields import NUMBER, Name, Number, Table, Version, Written, array_of, listed, number
+from synergrip.fields import Name, Number, Table, Version
+from synergrip.files import atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.synergies import coupling_map, drivers
 from synergrip.linalg import Array, frozen
 
+SUFFIX = ".toml"
+"""What the name of a synergy file ends in."""
 AGREEMENT = 1e-6
 """How far the row of a follower may be from what its coupling says, relative to the largest entry of S."""
-
-Matrix = Annotated[
-    tuple[tuple[float, ...], ...],
-    Written(lambda value: listed(lambda row: listed(number, row), value, of="rows"), array_of(array_of(NUMBER))),
-]
 
 
 class SynergyFile(Table):
@@ -33,10 +31,13 @@ class SynergyFile(Table):
     title: str = Field(default="", description="what it is, for people")
     joints: tuple[Name, ...] = Field(min_length=1, description="names of the joints, one for each row")
     synergies: tuple[Name, ...] = Field(min_length=1, description="names of the synergies, one for each column")
-    S: Matrix = Field(description="synergy matrix, a row for each joint")
+    S: tuple[tuple[Number, ...], ...] = Field(description="synergy matrix, a row for each joint")
     offset: tuple[Number, ...] | None = Field(default=None, description="joint values at z = 0; 0 when absent")
     explained_variance: tuple[Number, ...] | None = Field(
         default=None, description="share of the variance of the recorded postures that each synergy explains"
+    )
+    standard_deviation: tuple[Number, ...] | None = Field(
+        default=None, description="of the recorded postures along each synergy: how far it is used"
     )
 
     def issues(self) -> Iterable[Issue]:
@@ -54,6 +55,7 @@ class SynergyFile(Table):
         for key, count, of in (
             ("offset", len(self.joints), "joints"),
             ("explained_variance", len(self.synergies), "synergies"),
+            ("standard_deviation", len(self.synergies), "synergies"),
         ):
             values = getattr(self, key)
             if values is not None and len(values) != count:
@@ -76,14 +78,72 @@ def read_synergies(
         InputError: no such file, numbers that do not fit, a joint that the hand does not have, a row against a
             coupling; with file, line and key.
     """
-    document = read_document(path, "synergy file", key)
-    file = parse(document, SynergyFile)
+    document, file = _parsed(path, key)
     try:
         S, offset = _matrix(file, joints, couplings)
     except InputError as error:
         raise error.located(document.locate) from None
     limits = frozen(np.full(len(file.synergies), math.inf))
     return SynergySet(name or path.stem, file.title, file.synergies, S, offset, limits)
+
+
+def read_synergy_file(path: Path, key: str = "") -> SynergyFile:
+    """Return a synergy file as it stands, whatever hand it is for.
+
+    Raises:
+        InputError: as `read_synergies`, as far as the hand has no part in it.
+    """
+    return _parsed(path, key)[1]
+
+
+def write_synergy_file(path: Path, file: SynergyFile, key: str = "") -> None:
+    """Write a synergy file, whole or not at all; read again it is the same to the last digit.
+
+    Args:
+        path: where; its name ends in ``.toml``. What stands there is replaced only when it is a synergy file.
+        file: the synergies.
+        key: what names the path, for the error.
+
+    Raises:
+        InputError: another name, something else stands there, or it cannot be written.
+    """
+    if path.suffix != SUFFIX:
+        raise InputError.at(key, f"the name of a synergy file ends in {SUFFIX}, got '{path}'")
+    try:
+        if path.exists():
+            read_synergy_file(path)
+        with atomic_path(path) as temporary:
+            temporary.write_text(synergy_text(file), encoding="utf-8")
+    except InputError as error:
+        message = f"'{path}' is there and is no synergy file ({error.issues[0].message}); choose another name"
+        raise InputError.at(key, message) from None
+    except OSError as error:
+        raise InputError.at(key, f"cannot write '{path}': {error.strerror or error}") from None
+
+
+def synergy_text(file: SynergyFile) -> str:
+    """Return the text of a synergy file, every number with all its digits."""
+    lists = {"offset": file.offset, "explained_variance": file.explained_variance,
+             "standard_deviation": file.standard_deviation}  # fmt: skip
+    rows = [f"    {_numbers(row)},  # {name}" for name, row in zip(file.joints, file.S, strict=True)]
+    lines = [f"schema = {file.version}", *([f"title = {_quoted(file.title)}"] if file.title else [])]
+    lines += [f"{key} = [{', '.join(map(_quoted, getattr(file, key)))}]" for key in ("joints", "synergies")]
+    lines += ["S = [", *rows, "]", *(f"{key} = {_numbers(values)}" for key, values in lists.items() if values)]
+    return "\n".join([*lines, ""])
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return f"[{', '.join(repr(value) for value in values)}]"
+
+
+def _quoted(text: str) -> str:
+    """Return a TOML string; what cannot be UTF-8, such as a strange file name, becomes ``?``."""
+    return json.dumps(text.encode("utf-8", "replace").decode(), ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _parsed(path: Path, key: str) -> tuple[Document, SynergyFile]:
+    document = read_document(path, "synergy file", key)
+    return document, parse(document, SynergyFile)
 
 
 def _matrix(file: SynergyFile, joints: Sequence[str], couplings: Mapping[str, Coupling]) -> tuple[Array, Array]:

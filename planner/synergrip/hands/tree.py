@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 
 from synergrip.hands.hand import Coupling
 
+MOST_MOVING = 200
+"""Joints that move; a file with more is no hand."""
+
 
 @dataclass(frozen=True)
 class TreeJoint:

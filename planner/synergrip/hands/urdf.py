@@ -1,108 +1,81 @@
-"""The links and joints of a URDF file, and nothing else of it.
+"""The links, joints and mimic tags of a URDF file, and nothing else of it.
 
-Meshes, inertias, transmissions and mimic tags are skipped, so none of them can stop a hand from loading:
-its couplings stand in hand.toml.
+Meshes, inertias and transmissions are skipped, so none of them can stop a hand from loading.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Sequence
 from pathlib import Path
-from xml.parsers import expat
 
-from synergrip.documents import read_text
-from synergrip.errors import InputError, Issue, one_of
-from synergrip.hands.tree import LinkTree, TreeJoint, order_of_links
+from synergrip.documents import LARGEST_NUMBER
+from synergrip.errors import InputError, one_of
+from synergrip.hands.hand import Coupling
+from synergrip.hands.synergies import coupling_map
+from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
+from synergrip.hands.xml_elements import Element, read_xml
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
-"""URDF joint type -> kind; the others ("floating", "planar") move in more than one direction."""
+"""URDF joint type -> kind."""
+LARGEST = 1e6
+"""[m, rad or 1] Larger numbers are no place or ratio of a joint."""
+MOST_ELEMENTS = 5000
+MANY_WAYS = ("floating", "planar")
+"""Types that move in more than one direction."""
 
 
-@dataclass
-class _Element:
-    tag: str
-    attributes: dict[str, str]
-    line: int
-    children: list[_Element] = field(default_factory=list)
-
-    def all(self, tag: str) -> Iterator[_Element]:
-        return (child for child in self.children if child.tag == tag)
-
-    def child(self, tag: str) -> _Element:
-        """Return the first child of that tag, or an empty one that stands for the defaults."""
-        return next(self.all(tag), _Element(tag, {}, self.line))
+def read_urdf(path: Path, key: str = "", told: Collection[str] = ()) -> LinkTree:
+    """Read the URDF file at `path`; the other arguments and errors are those of `read_xml` and `urdf_tree`."""
+    root = read_xml(path, "URDF file", key)
+    if root.tag != "robot":
+        raise root.refused(f"expected a URDF, whose outermost element is <robot>, got <{root.tag}>")
+    return urdf_tree(root, told)
 
 
-def read_urdf(path: Path, key: str = "") -> LinkTree:
-    """Read the links and joints of the URDF file at `path`.
+def urdf_tree(root: Element, told: Collection[str] = ()) -> LinkTree:
+    """Return the links and joints of a URDF.
 
     Args:
-        path: the file.
-        key: the key of another file that names this one, for a file that is missing.
+        root: its element <robot>.
+        told: joints whose <mimic> is passed over, because another file says what they follow.
 
     Raises:
-        InputError: no such file, not XML, a document type or an entity in it, not a URDF, no moving joint,
-            no tree, a joint without what its type needs; with file and line.
+        InputError: no moving joint, no tree, a joint without what its type needs, a <mimic> that cannot be; with
+            file and line.
     """
-    root = _parse(path, read_text(path, "URDF file", key))
-    if root.tag != "robot":
-        raise _refused(path, root, f"expected a URDF, whose outermost element is <robot>, got <{root.tag}>")
+    _plain(root)
     joints: dict[str, TreeJoint] = {}
     for element in root.all("joint"):
-        joint = _joint(path, element)
+        joint = _joint(element)
         if joint.name in joints:
-            raise _refused(path, element, f"two joints are named '{joint.name}'")
+            raise element.refused(f"two joints are named '{joint.name}'")
         joints[joint.name] = joint
-    names: list[str] = []
+    links: dict[str, Element] = {}
     for element in root.all("link"):
-        names.append(_required(path, element, "name"))
-        if names[-1] in names[:-1]:
-            raise _refused(path, element, f"two links are named '{names[-1]}'")
-    if all(joint.kind == "fixed" for joint in joints.values()):
-        raise _refused(path, root, "the file has no joint that moves")
-    return _tree(path, root, names, joints)
+        if element.required("name") in links:
+            raise element.refused(f"two links are named '{element.attributes['name']}'")
+        links[element.attributes["name"]] = element
+    moving = sum(joint.kind != "fixed" for joint in joints.values())
+    if moving == 0:
+        raise root.refused("the file has no joint that moves")
+    if moving > MOST_MOVING:
+        raise root.refused(f"{moving} joints move, and a hand has at most {MOST_MOVING}")
+    order = _order(root, list(links), joints)
+    title = root.attributes.get("name", "")
+    return LinkTree(title, order[0], tuple(order), joints, _couplings(root, joints, told))
 
 
-def _parse(path: Path, text: str) -> _Element:
-    parser = expat.ParserCreate(encoding="UTF-8")
-    top = _Element("", {}, 1)
-    stack = [top]
-
-    def start(tag: str, attributes: dict[str, str]) -> None:
-        element = _Element(tag, attributes, parser.CurrentLineNumber)
-        stack[-1].children.append(element)
-        stack.append(element)
-
-    def refuse(*_: object) -> None:
-        message = "a document type or entity declaration (<!DOCTYPE ...>) is not allowed; remove it"
-        raise InputError([Issue(message, file=str(path), line=parser.CurrentLineNumber, column=1)])
-
-    parser.StartElementHandler = start
-    parser.EndElementHandler = lambda _: stack.pop()
-    parser.StartDoctypeDeclHandler = refuse
-    parser.EntityDeclHandler = refuse
-    try:
-        parser.Parse(text.encode(), True)
-    except expat.ExpatError as error:
-        issue = Issue(f"not XML: {expat.ErrorString(error.code)}", file=str(path), line=error.lineno)
-        raise InputError([issue]) from None
-    return top.children[0]
+def _plain(root: Element) -> None:
+    """Refuse macros, and files that would take minutes."""
+    for element in root.children:
+        if element.tag.startswith("xacro:"):
+            raise element.refused(f"<{element.tag}> is a xacro macro; expand the file (xacro hand.xacro > hand.urdf)")
+    if len(root.children) > MOST_ELEMENTS:
+        raise root.refused(f"the file has {len(root.children)} links, joints and the like; give the hand alone")
 
 
-def _refused(path: Path, element: _Element, message: str) -> InputError:
-    return InputError([Issue(message, file=str(path), line=element.line, column=1)])
-
-
-def _required(path: Path, element: _Element, attribute: str) -> str:
-    value = element.attributes.get(attribute, "")
-    if not value:
-        raise _refused(path, element, f"<{element.tag}> needs the attribute '{attribute}'")
-    return value
-
-
-def _numbers(path: Path, element: _Element, attribute: str, default: str) -> tuple[float, ...]:
+def _numbers(element: Element, attribute: str, default: str, below: float = LARGEST_NUMBER) -> tuple[float, ...]:
     text = element.attributes.get(attribute, default)
     count = len(default.split())
     try:
@@ -111,57 +84,105 @@ def _numbers(path: Path, element: _Element, attribute: str, default: str) -> tup
         values = ()
     if len(values) != count or not all(math.isfinite(value) for value in values):
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
-        raise _refused(path, element, f"<{element.tag} {attribute}> is {text!r}; expected {wanted}")
+        raise element.refused(f"<{element.tag} {attribute}> is {text!r}; expected {wanted}")
+    if not all(abs(value) < below for value in values):
+        raise element.refused(f"<{element.tag} {attribute}> is {text!r}; expected numbers below {below:g}")
     return values
 
 
-def _joint(path: Path, element: _Element) -> TreeJoint:
-    name = _required(path, element, "name")
-    sort = _required(path, element, "type")
+def _joint(element: Element) -> TreeJoint:
+    name, sort = element.required("name"), element.required("type")
+    if sort in MANY_WAYS:
+        raise element.refused(
+            f"joint '{name}' is {sort}: it moves in more than one direction; the palm stands still and every other "
+            "joint turns or slides, so remove it with the link it hangs on"
+        )
     if sort not in KINDS:
-        raise _refused(path, element, f"joint '{name}': type {one_of(sort, KINDS)}")
-    origin, limit = element.child("origin"), element.child("limit")
-    axis = _numbers(path, element.child("axis"), "xyz", "1 0 0")
+        raise element.refused(f"joint '{name}': type {one_of(sort, KINDS)}")
+    origin = element.child("origin")
+    axis = _numbers(element.child("axis"), "xyz", "1 0 0")
     length = math.hypot(*axis)
-    if length == 0:
-        raise _refused(path, element, f"joint '{name}': the axis has no direction")
-    lower, upper = -math.inf, math.inf
-    if sort in ("revolute", "prismatic"):
-        if not any(element.all("limit")):
-            raise _refused(path, element, f"joint '{name}': a {sort} joint needs <limit lower upper>")
-        (lower,), (upper,) = _numbers(path, limit, "lower", "0"), _numbers(path, limit, "upper", "0")
-        if lower > upper:
-            raise _refused(path, limit, f"joint '{name}': the lower limit {lower:g} is above the upper limit {upper:g}")
+    if length == 0 and sort != "fixed":
+        raise element.refused(f"joint '{name}': the axis has no direction")
+    lower, upper = _range(element, name, sort)
     return TreeJoint(
         name,
         KINDS[sort],
-        _required(path, element.child("parent"), "link"),
-        _required(path, element.child("child"), "link"),
-        _numbers(path, origin, "xyz", "0 0 0"),
-        _quaternion(_numbers(path, origin, "rpy", "0 0 0")),
-        tuple(part / length for part in axis),
+        element.child("parent").required("link"),
+        element.child("child").required("link"),
+        _numbers(origin, "xyz", "0 0 0", LARGEST),
+        _quaternion(_numbers(origin, "rpy", "0 0 0")),
+        tuple(part / length for part in axis) if length else (1.0, 0.0, 0.0),
         lower=lower,
         upper=upper,
+        torque_limit=_effort(element.child("limit")),
     )
 
 
-def _tree(path: Path, root: _Element, names: list[str], joints: dict[str, TreeJoint]) -> LinkTree:
+def _range(element: Element, name: str, sort: str) -> tuple[float, float]:
+    if sort not in ("revolute", "prismatic"):
+        return -math.inf, math.inf
+    if not any(element.all("limit")):
+        raise element.refused(f"joint '{name}': a {sort} joint needs <limit lower upper>")
+    limit = element.child("limit")
+    (lower,), (upper,) = _numbers(limit, "lower", "0"), _numbers(limit, "upper", "0")
+    if lower > upper:
+        raise limit.refused(f"joint '{name}': the lower limit {lower:g} is above the upper limit {upper:g}")
+    return lower, upper
+
+
+def _effort(limit: Element) -> float:
+    """Return the torque limit; published files write 0, a negative number or inf when they know none."""
+    if limit.attributes.get("effort", "").strip().lower() in ("", "inf", "+inf"):
+        return math.inf
+    (effort,) = _numbers(limit, "effort", "0")
+    return effort if effort > 0 else math.inf
+
+
+def _order(root: Element, names: list[str], joints: dict[str, TreeJoint]) -> list[str]:
+    """Return the links, parents before their children."""
     parents: dict[str, str] = {}
     for element, joint in zip(root.all("joint"), joints.values(), strict=True):
         for end in (joint.parent, joint.child):
             if end not in names:
-                raise _refused(path, element, f"joint '{joint.name}': link {one_of(end, names)}")
+                raise element.refused(f"joint '{joint.name}': link {one_of(end, names)}")
         if joint.child in parents:
-            raise _refused(path, element, f"link '{joint.child}' is the child of two joints")
+            raise element.refused(f"link '{joint.child}' is the child of two joints")
         parents[joint.child] = joint.parent
     roots = [name for name in names if name not in parents]
     if len(roots) > 1:
-        raise _refused(path, root, f"one link is the palm, but {', '.join(map(repr, roots))} are no child of a joint")
+        raise root.refused(f"one link is the palm, but {', '.join(map(repr, roots))} are no child of a joint")
     order = list(order_of_links(roots[0], joints)) if roots else []
     if len(order) < len(names):
         rest = ", ".join(repr(name) for name in names if name not in order)
-        raise _refused(path, root, f"the links {rest} form a loop; a hand is a tree")
-    return LinkTree(root.attributes.get("name", ""), order[0], tuple(order), joints)
+        raise root.refused(f"the links {rest} form a loop; a hand is a tree")
+    return order
+
+
+def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str]) -> dict[str, Coupling]:
+    """Return what the <mimic> of each moving joint says."""
+    moving = [name for name, joint in joints.items() if joint.kind != "fixed"]
+    tags = {
+        element.attributes["name"]: element.child("mimic")
+        for element in root.all("joint")
+        if any(element.all("mimic")) and element.attributes["name"] in moving
+    }
+    couplings: dict[str, Coupling] = {}
+    for name, mimic in tags.items():
+        if name in told:
+            continue
+        driver = mimic.required("joint")
+        if driver in joints and driver not in moving:
+            raise mimic.refused(f"joint '{name}' mimics '{driver}', which is fixed")
+        if driver not in moving:
+            raise mimic.refused(f"joint '{name}' mimics a joint that is not there: {one_of(driver, moving)}")
+        (ratio,), (offset,) = _numbers(mimic, "multiplier", "1", LARGEST), _numbers(mimic, "offset", "0", LARGEST)
+        couplings[name] = Coupling({driver: ratio}, offset)
+    try:
+        coupling_map(moving, couplings)
+    except InputError as error:  # nothing but a loop is left to refuse
+        raise tags[error.issues[0].key.removesuffix(".joint")].refused(error.issues[0].message) from None
+    return couplings
 
 
 def _quaternion(rpy: Sequence[float]) -> tuple[float, ...]:

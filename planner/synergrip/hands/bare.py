@@ -1,0 +1,99 @@
+"""From a URDF or MJCF file alone to a `Hand`: what the file does not say is left to the problem."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
+from synergrip.hands.kinematics import kinematics
+from synergrip.hands.synergies import JOINTS, coupling_map, drivers, joint_posture, joint_set
+from synergrip.hands.tree import LinkTree
+from synergrip.linalg import Array, frozen, split
+
+FREE = "free"
+"""The set of a hand with couplings: every joint that follows no other one, by itself."""
+ZERO = "zero"
+"""The posture of a hand that has no other: every joint at 0, or as near as the ranges allow."""
+
+
+def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> Hand:
+    """Return the hand that the links of a file make.
+
+    Its joints are in the order of the file and rigid (C_q = 0), and it has no pads. Its set "free" has one synergy for
+    each joint that follows no other one, with the followers: q = E q_free + e, so that S = E. A hand without couplings
+    has the set "joints" only.
+
+    Args:
+        name: what the hand is to be called.
+        tree: the links and joints.
+        couplings: follower -> its drivers; in place of those of `tree`.
+
+    Raises:
+        InputError: couplings that leave no joint, that follow each other in a circle, or whose ratios are too large.
+    """
+    joints = tuple(
+        Joint(joint.name, joint.kind, joint.lower, joint.upper, joint.torque_limit, joint.child)
+        for joint in tree.joints.values()
+        if joint.kind != "fixed"
+    )
+    names = [joint.name for joint in joints]
+    sets = {JOINTS: joint_set(names)}
+    if couplings:
+        sets = {FREE: _free(names, couplings), **sets}
+    return Hand(
+        name=name,
+        title=tree.title or name,
+        joints=joints,
+        C_q=frozen(np.zeros((len(joints), len(joints)))),
+        pads={},
+        synergy_sets=sets,
+        postures={ZERO: _zero(joints, couplings)},
+        kinematics=kinematics(tree, names),
+        couplings=dict(couplings),
+        parents=tree.parents,
+    )
+
+
+def _free(names: Sequence[str], couplings: Mapping[str, Coupling]) -> SynergySet:
+    E, e = coupling_map(names, couplings)
+    free = [index for index, name in enumerate(names) if name not in couplings]
+    if not free:
+        raise InputError.at("", "every joint follows another one or is locked; nothing is left to move")
+    S = E[:, free]
+    if not (np.all(np.isfinite(S)) and np.all(np.isfinite(e))) or split(S).decision.rank < len(free):
+        raise InputError.at("", "the couplings multiply to ratios that no hand has; check their numbers")
+    title = f"each joint that follows no other one; {_followers(couplings)}"
+    limits = frozen(np.full(len(free), math.inf))
+    return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), e, limits)
+
+
+def _followers(couplings: Mapping[str, Coupling]) -> str:
+    told = [f"'{name}' follows {drivers(coupling)}" for name, coupling in couplings.items() if coupling.ratios]
+    told += [f"'{name}' is locked" for name, coupling in couplings.items() if not coupling.ratios]
+    return ", ".join(told)
+
+
+def _zero(joints: Sequence[Joint], couplings: Mapping[str, Coupling]) -> Array:
+    """Return the posture in which each free joint is at 0, or as near as its range and those of its followers allow."""
+    names = [joint.name for joint in joints]
+    E, e = coupling_map(names, couplings)
+    values = {}
+    for column, joint in enumerate(joints):
+        if joint.name not in couplings:
+            alone = [row for row in range(len(joints)) if E[row, column] and np.count_nonzero(E[row]) == 1]
+            ends = [_reach(joints[row], E[row, column], e[row]) for row in alone]
+            lower, upper = max(low for low, _ in ends), min(high for _, high in ends)
+            if lower > upper:  # no value suits all followers; the joint itself comes first
+                lower, upper = joint.lower, joint.upper
+            values[joint.name] = float(np.clip(0.0, lower, upper))
+    return joint_posture(names, values, couplings)
+
+
+def _reach(joint: Joint, ratio: float, offset: float) -> tuple[float, float]:
+    """Return the values x of a driver for which ratio x + offset is in the range of the joint."""
+    ends = [(float(end) - float(offset)) / float(ratio) for end in (joint.lower, joint.upper)]
+    return min(ends), max(ends)

@@ -1,0 +1,158 @@
+"""The part of an MJCF file that says how it moves, as one text for MuJoCo, with the place of every line.
+
+Everything else is left out before MuJoCo sees it, so that no missing mesh, texture or plugin can stop a hand from
+loading. Included files are put in where they are named.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from os.path import isfile  # unlike Path.is_file, no error for a name that is too long
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+from synergrip.documents import LARGEST_NUMBER
+from synergrip.hands.xml_elements import DEEPEST, Element, read_xml
+
+LEFT_OUT = {
+    "camera", "config", "contact", "custom", "deformable", "extension", "flex", "flexcomp", "flexstrain", "flexvert",
+    "geom", "hfield", "inertial", "keyframe", "lengthrange", "light", "material", "mesh", "option", "pair", "plugin",
+    "sensor", "size", "skin", "spatial", "statistic", "texture", "visual",
+}  # fmt: skip
+"""Elements without influence on the kinematics. Spatial tendons are among them: they are not linear in the joints."""
+COMPILER = ("angle", "autolimits", "coordinate", "eulerseq")
+"""Attributes of <compiler> with influence on the kinematics; "fusestatic", for one, would lose links."""
+ATTRIBUTES_LEFT_OUT = ("align", "material")
+DRIVEN = ("joint", "jointinparent", "tendon")
+"""Attributes that say what an actuator drives; the other actuators are left out."""
+OF_A_PLUGIN = ("name", "class", *DRIVEN, "gear", "forcelimited", "forcerange")
+"""Attributes that an actuator plugin shares with <general>, which stands in for it."""
+INERTIA = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
+ARMATURE = "1"
+"""Kinematics needs no inertia, MuJoCo does: of each body, and about each joint."""
+BOUNDED = ("coef", "gear", "polycoef", "pos", "ref")
+LARGEST = 1e6
+"""[m, rad or 1] Larger numbers are no place or ratio of a joint, and overflow in MuJoCo."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A text for MuJoCo with one element in each line."""
+
+    text: str
+    lines: tuple[Element, ...]
+    """The element of each line, as it stands in the user's file."""
+    equalities: tuple[Element, ...]
+    """In the order in which MuJoCo numbers them."""
+
+    def place(self, tag: str, name: str) -> Element:
+        """Return the element of that tag and name, or the outermost one."""
+        found = (element for element in self.lines if element.tag == tag and element.attributes.get("name") == name)
+        return next(found, self.lines[0])
+
+
+def kinematic_source(root: Element) -> Source:
+    """Return the text that MuJoCo is to compile.
+
+    Args:
+        root: the element <mujoco> of the file.
+
+    Raises:
+        InputError: an included file that cannot be read, a number that is not finite, an equality of a tendon that
+            is left out; with file and line.
+    """
+    whole = replace(root, children=list(_with_includes(root, root.path.parent, [root.path.resolve()], 1)))
+    spatial = {tendon.attributes.get("name", "") for part in whole.all("tendon") for tendon in part.all("spatial")}
+    parts = list(_written(whole, "", spatial))
+    kept = [element for _, _, element in parts if element is not None]
+    equalities = [element for _, parent, element in parts if element is not None and parent == "equality"]
+    return Source("".join(text for text, _, _ in parts), tuple(kept), tuple(equalities))
+
+
+def _with_includes(element: Element, folder: Path, opened: list[Path], depth: int) -> Iterator[Element]:
+    """Yield the children of `element`, with those of the included files (relative to `folder`) in their place."""
+    if depth > DEEPEST:
+        raise element.refused(f"elements are nested more than {DEEPEST} deep")
+    for child in element.children:
+        if child.tag != "include":
+            yield replace(child, children=list(_with_includes(child, folder, opened, depth + 1)))
+            continue
+        name = child.required("file")
+        path = next((p for p in (folder / name, child.path.parent / name) if isfile(p)), None)
+        if path is None:
+            raise child.refused(f"the included file '{folder / name}' is not there")
+        if path.resolve() in opened:
+            raise child.refused(f"'{name}' is included twice")
+        opened.append(path.resolve())
+        yield from _with_includes(read_xml(path, "MJCF file"), folder, opened, depth + 1)
+
+
+def _holds(element: Element, spatial: set[str]) -> bool:
+    """Tell whether an equality is to be kept; one of a spatial tendon only when it is switched off is left out."""
+    names = {element.attributes.get("tendon1", ""), element.attributes.get("tendon2", "")} & spatial - {""}
+    if names and element.attributes.get("active") != "false":
+        raise element.refused(
+            f"the equality holds the spatial tendon '{names.pop()}', which is not linear in the joints; leave it out "
+            "and give the synergies of the hand in a file"
+        )
+    return not names
+
+
+def _written(element: Element, parent: str, spatial: set[str]) -> Iterator[tuple[str, str, Element | None]]:
+    """Yield pieces of the text, with parent and element where a line begins."""
+    tag, attributes = _kept(element, parent, spatial)
+    if not tag:
+        return
+    _check_numbers(element, attributes)
+    yield ("\n" if parent else "") + f"<{tag}{_written_attributes(attributes)}>", parent, element
+    if tag == "body":
+        yield f"<inertial{_written_attributes(INERTIA)}/>", tag, None
+    for child in element.children:
+        yield from _written(child, tag, spatial)
+    if not parent:
+        yield '<compiler><lengthrange mode="none"/></compiler>', tag, None
+    yield f"</{tag}>", tag, None
+
+
+def _written_attributes(attributes: dict[str, str]) -> str:
+    return "".join(f" {name}={quoteattr(value)}" for name, value in attributes.items())
+
+
+def _kept(element: Element, parent: str, spatial: set[str]) -> tuple[str, dict[str, str]]:
+    """Return the tag and attributes that MuJoCo is to see; an empty tag for nothing."""
+    tag = element.tag
+    attributes = {name: value for name, value in element.attributes.items() if name not in ATTRIBUTES_LEFT_OUT}
+    if parent == "actuator":
+        driven = [attributes[name] for name in DRIVEN if name in attributes]
+        if not driven or attributes.get("tendon") in spatial:
+            return "", {}
+        if tag == "plugin":
+            return "general", {name: attributes[name] for name in OF_A_PLUGIN if name in attributes}
+        return tag, attributes
+    if tag in LEFT_OUT or (parent == "asset" and tag != "model"):
+        return "", {}
+    if parent == "equality" and not _holds(element, spatial):
+        return "", {}
+    if tag == "compiler":
+        return tag, {name: attributes[name] for name in COMPILER if name in attributes}
+    if tag == "joint" and parent in ("body", "frame"):
+        attributes["armature"] = ARMATURE
+    if parent == "asset" and "file" in attributes:
+        attributes["file"] = str((element.path.parent / attributes["file"]).resolve())
+    return tag, attributes
+
+
+def _check_numbers(element: Element, attributes: dict[str, str]) -> None:
+    """Refuse the numbers at which MuJoCo writes a log file beside its answer."""
+    for name, text in attributes.items():
+        for part in text.split():
+            try:
+                value = float(part)
+            except ValueError:
+                break
+            if math.isnan(value) or LARGEST_NUMBER < abs(value) < math.inf:
+                raise element.refused(f"<{element.tag} {name}> is {text!r}; expected finite numbers")
+            if name in BOUNDED and not abs(value) < LARGEST:
+                raise element.refused(f"<{element.tag} {name}> is {text!r}; expected numbers below {LARGEST:g}")
