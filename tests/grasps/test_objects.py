@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere
+from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere, Turned, turn
 
 SPHERE, BOX, CYLINDER = Sphere(0.03), Box((0.04, 0.06, 0.1)), Cylinder(0.02, 0.08)
-SHAPES: list[Shape] = [SPHERE, BOX, CYLINDER]
+AXIS = np.array([2, -3, 6]) / 7
+SHAPES: list[Shape] = [SPHERE, BOX, CYLINDER, *(Turned(shape, turn(AXIS, 0.9)) for shape in (BOX, CYLINDER))]
 STEP = 1e-6
 
 
@@ -19,6 +21,8 @@ def _titled(shape: Shape) -> str:
 def _surface_points(shape: Shape) -> np.ndarray:
     """Many points of the surface, faces, edges and corners included."""
     share = np.linspace(-1, 1, 81)
+    if isinstance(shape, Turned):
+        return _surface_points(shape.shape) @ shape.rotation.T
     if isinstance(shape, Sphere):
         z, angle = np.meshgrid(share, np.pi * share)
         across = np.sqrt(1 - z**2)
@@ -35,6 +39,8 @@ def _surface_points(shape: Shape) -> np.ndarray:
 
 
 def _inside(shape: Shape, point: np.ndarray) -> bool:
+    if isinstance(shape, Turned):
+        return _inside(shape.shape, shape.rotation.T @ point)
     if isinstance(shape, Sphere):
         return float(point @ point) < shape.radius**2
     if isinstance(shape, Box):
@@ -105,4 +111,22 @@ def test_known_places(shape: Shape, point: tuple[float, ...], distance: float, n
 
 
 def test_titles_are_short_and_in_millimetres() -> None:
-    assert [shape.title for shape in SHAPES] == ["ball r 30 mm", "box 40 x 60 x 100 mm", "cylinder r 20 x 80 mm"]
+    titles = ["ball r 30 mm", "box 40 x 60 x 100 mm", "cylinder r 20 x 80 mm"]
+    assert [shape.title for shape in SHAPES] == [*titles, *(f"{title} (turned)" for title in titles[1:])]
+
+
+def test_a_cylinder_turned_about_x_lies_along_y() -> None:
+    """A turn by 90 deg about x takes z to -y: (x, y, z) of the lying cylinder is (x, z, -y) of the standing one."""
+    lying = Turned(CYLINDER, turn((1, 0, 0), np.pi / 2))
+    for point in np.random.default_rng(4).uniform(-0.09, 0.09, (100, 3)):
+        x, y, z = point
+        distance, normal = lying.surface(point)
+        standing, across = CYLINDER.surface(np.array([x, z, -y]))
+        assert distance == pytest.approx(standing, abs=1e-15)
+        assert normal == pytest.approx([across[0], -across[2], across[1]], abs=1e-12)
+
+
+def test_a_turn_is_the_rotation_about_its_axis() -> None:
+    for axis in np.random.default_rng(5).normal(size=(20, 3)):
+        unit, angle = axis / np.linalg.norm(axis), float(axis[0])
+        assert turn(unit, angle) == pytest.approx(Rotation.from_rotvec(angle * unit).as_matrix(), abs=1e-14)

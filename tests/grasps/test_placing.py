@@ -74,7 +74,9 @@ def _placed(
     thing: Object | None, touches: Sequence[Touch], kinematics: Kinematics, q: Array = Q
 ) -> tuple[Grasp, Object]:
     hand, synergies = _hand(kinematics, len(q))
-    return place("test", hand, synergies, q, thing, touches, frozen(np.eye(len(q))), frozen(np.zeros((len(q), len(q)))))
+    C_q, C_z = frozen(np.eye(len(q))), frozen(np.zeros((len(q), len(q))))
+    placed = place("test", hand, synergies, q, thing, touches, C_q, C_z)
+    return placed.grasp, placed.thing
 
 
 def _ball_on(points: Array, radius: float, inward: Array, **changes: object) -> tuple[Grasp, Object]:
@@ -275,7 +277,7 @@ def test_compliances_friction_and_names_reach_the_grasp() -> None:
     hand, synergies = _hand(Fingers(), 6)
     synergies = replace(synergies, S=frozen(np.ones((6, 1))), synergies=("close",))
     C_q, C_z = frozen(np.diag(np.arange(6.0))), frozen([[0.3]])
-    grasp, _ = place("a title", hand, synergies, Q, None, touches, C_q, C_z)
+    grasp = place("a title", hand, synergies, Q, None, touches, C_q, C_z).grasp
     assert np.diag(grasp.C_s) == pytest.approx([1e-3, 1e-3, 1e-3, 5e-4, 2e-3, 0, 0.5, 1e-3])
     assert np.array_equal(grasp.C_q, C_q)
     assert np.array_equal(grasp.C_z, C_z)
@@ -294,3 +296,95 @@ def test_contact_frames_are_right_handed_and_start_with_the_normal() -> None:
         assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
         assert np.linalg.det(frame) == pytest.approx(1, abs=1e-12)
         assert frame[:, 0] == pytest.approx(normal / np.linalg.norm(normal), abs=1e-12)
+
+
+# Round pads, and pads without a normal
+
+
+def test_a_round_pad_touches_where_the_ball_is_nearest_and_carries_the_contact_there() -> None:
+    """The contact's rows of J are the motion of the material point that touches, by finite differences."""
+    radius, step, fingers = 0.006, 1e-6, Fingers()
+    touches = [_touch(i, (-0.8, 0.1, 0.6), point=(-0.01, 0.004, 0.03)) for i in range(FINGERS)]
+    touches = [replace(t, pad=replace(t.pad, radius=radius)) for t in touches]
+    tips = np.array([m.position for m in fingers.at(Q, [(t.pad.link, t.pad.point) for t in touches])])
+    size = float(np.linalg.norm(tips - tips.mean(axis=0), axis=1).max())
+    grasp, ball = _placed(Object("ball", 0.2, UNKNOWN, Sphere(1.2 * size)), touches, fingers)
+    for i, (contact, rows, tip) in enumerate(zip(grasp.contacts, grasp.rows, tips, strict=True)):
+        inward = (ball.position - tip) / np.linalg.norm(ball.position - tip)
+        assert np.linalg.norm(ball.position - tip) == pytest.approx(1.2 * size + radius, abs=1e-9)
+        assert contact.frame[:, 0] == pytest.approx(inward, abs=1e-9)
+        assert contact.point + ball.position == pytest.approx(tip + radius * inward, abs=1e-9)
+        (here,) = fingers.at(Q, [(str(i), touches[i].pad.point)])
+        material = touches[i].pad.point + here.rotation.T @ (radius * inward)
+        for joint in range(len(Q)):
+            (after,) = fingers.at(Q + step * np.eye(6)[joint], [(str(i), material)])
+            (before,) = fingers.at(Q - step * np.eye(6)[joint], [(str(i), material)])
+            velocity = contact.frame.T @ (after.position - before.position) / (2 * step)
+            assert grasp.J[rows, joint] == pytest.approx(velocity, abs=1e-8)
+
+
+def test_gaps_are_those_between_the_pads_and_the_surface() -> None:
+    points = np.array([[0.0203, 0, 0], [-0.0249, 0, 0], [0, 0.02, 0]])
+    touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0)), _touch(2, (0, -1, 0))]
+    touches[1] = replace(touches[1], pad=replace(touches[1].pad, radius=0.005))
+    hand, synergies = _hand(Standing(frozen(points)), 6)
+    none = frozen(np.zeros((6, 6)))
+    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    assert place("", hand, synergies, Q, cube, touches, none, none).gaps == pytest.approx((3e-4, -1e-4, 0), abs=1e-15)
+    bare = Object("mass", 0.1, frozen(np.zeros(3)), None)
+    assert place("", hand, synergies, Q, bare, touches, none, none).gaps == (None, None, None)
+
+
+def _unaimed(i: int, radius: float = 0.0) -> Touch:
+    touch = _touch(i, (1, 0, 0))
+    return replace(touch, pad=replace(touch.pad, normal=frozen(np.zeros(3)), radius=radius), aimed=False)
+
+
+@pytest.mark.parametrize("shape", [Sphere(0.04), None])
+@pytest.mark.parametrize("radius", [0.0, 0.01])
+def test_a_pad_without_a_normal_pushes_into_the_object_from_any_side(shape: Shape | None, radius: float) -> None:
+    points, inward = _on_sphere(SOMEWHERE, 0.04 + radius, ABOVE)
+    touches = [_unaimed(i, radius) for i in range(3)]
+    grasp, _ = _placed(Object("ball", 0.2, SOMEWHERE, shape), touches, Standing(frozen(points)))
+    for contact, point, normal in zip(grasp.contacts, points, inward, strict=True):
+        assert contact.frame[:, 0] == pytest.approx(normal, abs=1e-12)
+        assert contact.point + SOMEWHERE == pytest.approx(point + radius * normal, abs=1e-12)
+
+
+def test_a_pad_without_a_normal_at_the_centre_of_a_bare_mass_pushes_nowhere() -> None:
+    points = SOMEWHERE + np.array([[0, 0, 0], [0.01, 0, 0]])
+    with pytest.raises(InputError, match="pad 'pad0' is at the centre of the object; give the contact's normal"):
+        _placed(Object("mass", 0.2, SOMEWHERE, None), [_unaimed(0), _unaimed(1)], Standing(frozen(points)))
+
+
+def test_the_normals_that_are_known_put_a_ball_on_its_side() -> None:
+    points, inward = _on_sphere(SOMEWHERE, 0.04, ABOVE)
+    touches = [_unaimed(0), _unaimed(1), _touch(2, inward[2])]
+    assert _placed(Object("ball", 0.2, UNKNOWN, Sphere(0.04)), touches, Standing(frozen(points)))[1].position == (
+        pytest.approx(SOMEWHERE, abs=1e-9)
+    )
+
+
+@pytest.mark.parametrize(("apart", "refused"), [(0.0, True), (0.09e-3, True), (0.11e-3, False)])
+def test_two_contacts_on_the_same_spot_are_refused_with_both_names(apart: float, refused: bool) -> None:
+    points = np.array([[-0.02, 0, 0], [0.02, 0, 0], [0.02, 0.0, apart]])
+    touches = [_touch(0, (1, 0, 0)), _touch(1, (-1, 0, 0)), _touch(2, (-1, 0, 0))]
+    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    if not refused:
+        assert _placed(cube, touches, Standing(frozen(points)))[0].n_c == 3
+        return
+    with pytest.raises(InputError) as caught:
+        _placed(cube, touches, Standing(frozen(points)))
+    (issue,) = caught.value.issues
+    assert issue.key == "contacts.at[2]"
+    assert f"contacts 'C1' and 'C2' are on the same spot, {1e3 * apart:.2g} mm apart" in issue.message
+
+
+def test_round_pads_meet_on_the_spot_where_they_touch_and_not_at_their_centres() -> None:
+    """Two round pads of different size behind each other push at one point of the box."""
+    points = np.array([[-0.02, 0, 0], [0.025, 0, 0], [0.03, 0, 0]])
+    touches = [_touch(0, (1, 0, 0)), _touch(1, (-1, 0, 0)), _touch(2, (-1, 0, 0))]
+    touches[1:] = [replace(t, pad=replace(t.pad, radius=r)) for t, r in zip(touches[1:], (0.005, 0.01), strict=True)]
+    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    with pytest.raises(InputError, match="contacts 'C1' and 'C2' are on the same spot, 0 mm apart"):
+        _placed(cube, touches, Standing(frozen(points)))

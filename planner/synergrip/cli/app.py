@@ -9,6 +9,7 @@ from synergrip.cli.analyse import analyse
 from synergrip.cli.check import check
 from synergrip.cli.lists import hands, problems, schema
 from synergrip.cli.plan import plan
+from synergrip.cli.synergies import synergies
 from synergrip.cli.validate import validate
 
 app = typer.Typer(
@@ -23,6 +24,7 @@ app = typer.Typer(
 )
 for verb in (plan, analyse, check, validate, problems, hands, schema):
     app.command()(verb)
+app.add_typer(synergies, name="synergies")
 
 
 def _version(asked: bool) -> None:

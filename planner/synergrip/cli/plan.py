@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show, writing
 
 if TYPE_CHECKING:
     from synergrip.plans.outcome import Outcome
@@ -43,31 +41,20 @@ def plan(
         answers = answerer(solver)
         loaded = load_problem(problem, overrides or [])
         folder = output or Path("out") / loaded.name
-        with _writing("--output", folder):
+        with writing("--output", folder):
             folder.mkdir(parents=True, exist_ok=True)
         try:
             outcome = make(loaded.grasp, loaded.task, answers)
         except SynergripError as error:
             raise located(loaded, error) from None
-        document = outcome_document(loaded.title, loaded.grasp, outcome)
-        with _writing("--output", folder):
+        document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
+        with writing("--output", folder):
             written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
         if save_program:
-            with _writing("--save-program", save_program):
+            with writing("--save-program", save_program):
                 _save(outcome, save_program)
         show(form, lambda: outcome_text(loaded, outcome, folder, written, color()), lambda: document)
     raise typer.Exit(outcome.exit_code)
-
-
-@contextmanager
-def _writing(option: str, path: Path) -> Iterator[None]:
-    """Turn what the file system refuses into bad input at an option."""
-    try:
-        yield
-    except OSError as error:
-        from synergrip.errors import InputError
-
-        raise InputError.at(option, f"cannot write '{path}': {error.strerror or error}") from None
 
 
 def _save(outcome: Outcome, path: Path) -> None:

@@ -9,6 +9,7 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -51,6 +52,15 @@ def answering(form: Format) -> Iterator[None]:
         message = f"{type(defect).__name__}: {defect}; this is a defect of synergrip, please report it with the problem"
         _print_error(SelfCheckError(message), form)
         raise typer.Exit(SelfCheckError.exit_code) from None
+
+
+@contextmanager
+def writing(option: str, path: Path) -> Iterator[None]:
+    """Turn what the file system refuses into bad input at an option."""
+    try:
+        yield
+    except OSError as error:
+        raise InputError.at(option, f"cannot write '{path}': {error.strerror or error}") from None
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 
 
 class Shape(Protocol):
@@ -86,6 +87,32 @@ class Cylinder:
         if distance > 0:
             return distance, (outside[0] * side + outside[1] * cap) / distance
         return (float(over[0]), side) if over[0] >= over[1] else (float(over[1]), cap)
+
+
+@dataclass(frozen=True, eq=False)
+class Turned:
+    """A shape turned about its centre."""
+
+    shape: Shape
+    rotation: Array
+    """(3, 3) columns: the shape's own axes in those of B."""
+
+    @property
+    def title(self) -> str:
+        """Short text."""
+        return f"{self.shape.title} (turned)"
+
+    def surface(self, point: Array) -> tuple[float, Array]:
+        """Return signed distance and outward normal."""
+        distance, normal = self.shape.surface(self.rotation.T @ point)
+        return distance, self.rotation @ normal
+
+
+def turn(axis: Sequence[float], angle: float) -> Array:
+    """Return the rotation matrix (3, 3) about a unit vector (3,) by `angle` [rad]: the exponential of its cross."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return frozen(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
 @dataclass(frozen=True)

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from synergrip.errors import InputError, Issue
+from synergrip.grasps.ball import REACH, ball_centre
 from synergrip.grasps.contact import Contact, ContactKind, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.objects import Object, Sphere
 from synergrip.hands.hand import Hand, Pad, PointMotion, SynergySet
 from synergrip.linalg import Array, frozen
 
-REACH = 0.5e-3
-"""How far a pad may be from the surface of the object it is said to touch [m]."""
+SAME_SPOT = 0.1e-3
+"""Contacts closer than this are one contact told twice [m]."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +35,25 @@ class Touch:
     """Contact normal from the object (its surface, or its centre) or from the pad."""
     key: str
     """Key in the problem file, for errors."""
+    aimed: bool = True
+    """False for a pad without a normal of its own: it pushes toward the object, and its `normal` is 0."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A grasp, and what was found on the way to it."""
+
+    grasp: Grasp
+    thing: Object
+    """The object, where it is."""
+    gaps: tuple[float | None, ...]
+    """Distance of each pad from the surface, > 0 outside [m]; None for an object without a shape."""
 
 
 def place(
     title: str, hand: Hand, synergies: SynergySet, q: Array, thing: Object | None, touches: Sequence[Touch],
     C_q: Array, C_z: Array,
-) -> tuple[Grasp, Object]:  # fmt: skip
+) -> Placed:  # fmt: skip
     """Return the grasp of an object by a hand in a posture.
 
     Args:
@@ -52,15 +66,12 @@ def place(
         C_q: (n_q, n_q) joint compliance [rad/(N m)].
         C_z: (n_z, n_z) synergy compliance.
 
-    Returns:
-        The grasp, and the object with its position.
-
     Raises:
-        InputError: pads that do not reach the object, or face away from it; all of them.
+        InputError: pads that do not reach the object, or face away from it, or touch it on the same spot; all of them.
     """
     motions = hand.kinematics.at(q, [(touch.pad.link, touch.pad.point) for touch in touches])
     placed = _position(thing, touches, motions)
-    contacts = _contacts(placed, touches, motions)
+    contacts, gaps = _contacts(placed, touches, motions)
     moved = [
         moved_to(motion, contact.point + placed.position) for motion, contact in zip(motions, contacts, strict=True)
     ]
@@ -70,7 +81,7 @@ def place(
         frozen(synergies.S), frozen(C_s), frozen(C_q), frozen(C_z), None, frozen(np.zeros(6)),
         hand.joint_names, synergies.synergies,
     )  # fmt: skip
-    return grasp, placed
+    return Placed(grasp, placed, gaps)
 
 
 def moved_to(motion: PointMotion, point: Array) -> PointMotion:
@@ -80,78 +91,81 @@ def moved_to(motion: PointMotion, point: Array) -> PointMotion:
     return replace(motion, position=frozen(point), jacobian=frozen(np.vstack([velocity, motion.jacobian[3:]])))
 
 
+def same_spots(names: Sequence[str], points: Sequence[Array]) -> Iterator[tuple[int, str]]:
+    """Yield the number of each contact that lies on the spot of an earlier one, and a message with both names."""
+    for later, point in enumerate(points):
+        for earlier in range(later):
+            apart = float(np.linalg.norm(point - points[earlier]))
+            if apart < SAME_SPOT:
+                pair = f"'{names[earlier]}' and '{names[later]}'"
+                yield later, f"contacts {pair} are on the same spot, {round(1e3 * apart, 6):.2g} mm apart"
+
+
 def _position(thing: Object | None, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> Object:
     """Return the object where it is said to be, or where the contacts put it."""
-    points = np.array([motion.position for motion in motions])
     thing = thing or Object("object", 0.0, frozen(np.full(3, np.nan)), None)
     if np.all(np.isfinite(thing.position)):
         return thing
+    points = np.array([motion.position for motion in motions])
+    radii = np.array([touch.pad.radius for touch in touches])
+    pushing = np.array([m.rotation @ t.pad.normal for m, t in zip(motions, touches, strict=True)])
     if isinstance(thing.shape, Sphere):
-        pushing = np.mean([m.rotation @ t.pad.normal for m, t in zip(motions, touches, strict=True)], axis=0)
-        return replace(thing, position=_ball_centre(points, thing.shape.radius, pushing))
-    return replace(thing, position=frozen(points.mean(axis=0)))
+        return replace(thing, position=ball_centre(points, thing.shape.radius, radii, pushing.mean(axis=0)))
+    return replace(thing, position=frozen((points + radii[:, None] * pushing).mean(axis=0)))
 
 
-def _ball_centre(points: Array, radius: float, pushing: Array) -> Array:
-    """Return the centre (3,) of a ball of `radius` through three or more points, on the side they push to."""
-    middle = points.mean(axis=0)
-    _, sizes, directions = np.linalg.svd(points - middle)
-    rank = int(np.sum(sizes > 1e-6 * max(float(sizes[0]), 1e-300)))
-    across = directions[:rank]  # |p - c|^2 equal for all points fixes the centre within their plane
-    system = 2 * (points[1:] - points[0]) @ across.T
-    right = ((points[1:] - middle) ** 2).sum(axis=1) - ((points[0] - middle) ** 2).sum()
-    centre = middle + np.linalg.lstsq(system, right, rcond=None)[0] @ across
-    around = float(np.linalg.norm(points - centre, axis=1).mean())
-    if rank == 3 or around > radius:
-        if abs(around - radius) > REACH:
-            message = (
-                f"a ball of radius {1e3 * radius:.4g} mm cannot touch all pads in this posture: "
-                f"{'the one through them' if rank == 3 else 'the smallest one'} has radius {1e3 * around:.4g} mm; "
-                "change the radius or the posture"
-            )
-            raise InputError.at("object.shape.sphere.radius", message)
-        return frozen(centre)
-    normal = np.cross(across[0], across[1]) if rank == 2 else pushing - across.T @ (across @ pushing)
-    normal = normal / max(float(np.linalg.norm(normal)), 1e-300)
-    side = 1.0 if normal @ pushing >= 0 else -1.0
-    return frozen(centre + side * np.sqrt(radius**2 - around**2) * normal)
-
-
-def _contacts(thing: Object, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> tuple[Contact, ...]:
-    contacts, issues = list[Contact](), list[Issue]()
+def _contacts(
+    thing: Object, touches: Sequence[Touch], motions: Sequence[PointMotion]
+) -> tuple[tuple[Contact, ...], tuple[float | None, ...]]:
+    found, issues = list[tuple[Contact, float | None]](), list[Issue]()
     for touch, motion in zip(touches, motions, strict=True):
         try:
-            contacts.append(_contact(thing, touch, motion))
+            found.append(_contact(thing, touch, motion))
         except InputError as error:
             x, y, z = np.round(1e3 * motion.position, 2) + 0.0  # no -0
             where = f"; the pad is at ({x:g}, {y:g}, {z:g}) mm in the palm frame"
             issues += [replace(issue, message=issue.message + where) for issue in error.issues]
+    if not issues:
+        spots = same_spots([contact.name for contact, _ in found], [contact.point for contact, _ in found])
+        hint = "; move one of them, or leave it out"
+        issues = [Issue(message + hint, key=touches[later].key) for later, message in spots]
     if issues:
         raise InputError(issues)
-    return tuple(contacts)
+    return tuple(contact for contact, _ in found), tuple(gap for _, gap in found)
 
 
-def _contact(thing: Object, touch: Touch, motion: PointMotion) -> Contact:
+def _contact(thing: Object, touch: Touch, motion: PointMotion) -> tuple[Contact, float | None]:
     point = motion.position - thing.position
     pushing = motion.rotation @ touch.pad.normal
+    gap, inward = None, pushing
     if thing.shape is not None:
         distance, outward = thing.shape.surface(point)
-        distance -= touch.pad.radius
-        if abs(distance) > REACH:
-            where = "outside" if distance > 0 else "inside"
-            message = (
-                f"pad '{touch.pad.name}' is {1e3 * abs(distance):.3g} mm {where} the surface of the "
-                f"{thing.shape.title}; change the posture, or the object's size or position"
-            )
-            raise InputError.at(touch.key, message)
-        inward = -outward
-        point = point + touch.pad.radius * inward
-    else:
-        inward = -point / np.linalg.norm(point) if np.any(point) else pushing
-        point = point + touch.pad.radius * pushing
+        gap, inward = _reached(thing.shape.title, touch, distance - touch.pad.radius), -outward
+    elif np.any(point):
+        inward = -point / np.linalg.norm(point)
+    elif not touch.aimed:
+        message = f"pad '{touch.pad.name}' is at the centre of the object; give the contact's normal"
+        raise InputError.at(touch.key, message)
+    to_surface = inward if thing.shape is not None or not touch.aimed else pushing
     normal = pushing if touch.normals == "pad" else inward
-    if normal @ pushing <= 0 or normal @ inward <= 0:
+    if touch.aimed and (normal @ pushing <= 0 or normal @ inward <= 0):
         angle = np.degrees(np.arccos(np.clip(inward @ pushing, -1, 1)))
         message = f"pad '{touch.pad.name}' faces away from the object ({angle:.0f} deg from the inward normal)"
         raise InputError.at(touch.key, message)
-    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, frozen(point), contact_frame(normal))
+    spot = frozen(point + touch.pad.radius * to_surface)
+    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, contact_frame(normal)), gap
+
+
+def _reached(title: str, touch: Touch, gap: float) -> float:
+    """Return the gap of a pad that is close enough to touch.
+
+    Raises:
+        InputError: it is not.
+    """
+    if abs(gap) > REACH:
+        message = (
+            f"pad '{touch.pad.name}' is {1e3 * abs(gap):.3g} mm {'outside' if gap > 0 else 'inside'} the surface of "
+            f"the {title}; change the posture, or the object's size or position"
+        )
+        raise InputError.at(touch.key, message)
+    return gap

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from synergrip.conic.certificate import Certificate
@@ -15,8 +16,11 @@ from synergrip.plans.repairs import repairs
 from synergrip.reports.json_analysis import refusal_document, structure_document
 
 
-def outcome_document(title: str, grasp: Grasp, outcome: Outcome) -> dict[str, Any]:
-    """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout."""
+def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout.
+
+    The notes are those of the problem; a plan's own come before them.
+    """
     document: dict[str, Any] = {
         "title": title,
         "verdict": outcome.verdict,
@@ -27,6 +31,7 @@ def outcome_document(title: str, grasp: Grasp, outcome: Outcome) -> dict[str, An
         "synergies": list(grasp.synergies),
         "time_s": outcome.task.times.tolist(),
         "programs": [_program(decision) for decision in outcome.decisions],
+        "notes": [*(outcome.notes if isinstance(outcome, Plan) else ()), *notes],
     }
     if isinstance(outcome, Plan):
         return document | _plan(outcome)
@@ -46,7 +51,6 @@ def _plan(plan: Plan) -> dict[str, Any]:
     return {name: array.tolist() for name, array in arrays.items()} | {
         "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
         "largest_margin_N": plan.largest_margin,
-        "notes": list(plan.notes),
         "limits": [usage_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
         "checks": [check_document(check) for check in plan.checks],

@@ -10,10 +10,12 @@ import numpy as np
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.problem import Problem
-from synergrip.reports.tables import table
+from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import problem_lines
 from synergrip.statics.twists import describe_twist
 
+WIDTH = 120
+"""Longest line."""
 _DECISIONS = {
     "restraint": "G': contacts restrain the object",
     "redundancy": "J S: synergies that move contacts",
@@ -44,12 +46,14 @@ def _motions(analysis: Analysis) -> Iterator[str]:
     length = analysis.response.scale.length
     for i, motion in enumerate(analysis.spaces.Gamma_ucs.T):
         synergies = _combination(analysis.spaces.Gamma_zcs[:, i], analysis.grasp.synergies)
-        yield f"Γ_ucs {i + 1}  {describe_twist(motion, analysis.grasp.contacts, length)}; by {synergies}"
+        twist = describe_twist(motion, analysis.grasp.contacts, length)
+        yield from wrapped(f"Γ_ucs {i + 1}  ", f"{twist}; by {synergies}", WIDTH)
 
 
 def _redundancy(analysis: Analysis) -> Iterator[str]:
     for i, column in enumerate(analysis.spaces.Gamma_zr.T):
-        yield f"Γ_zr {i + 1}   {_combination(column, analysis.grasp.synergies)} moves no contact"
+        text = f"{_combination(column, analysis.grasp.synergies)} moves no contact"
+        yield from wrapped(f"Γ_zr {i + 1}   ", text, WIDTH)
 
 
 def _combination(column: np.ndarray, names: tuple[str, ...]) -> str:

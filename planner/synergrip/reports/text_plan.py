@@ -17,6 +17,8 @@ from synergrip.quantities import apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many, problem_lines
 
+_SHOWN = {"N": (1.0, " N"), "N m": (1.0, " N m"), "m": (1e3, " mm"), "rad": (180 / math.pi, " deg")}
+"""Unit of a usage -> factor and unit in which people read it."""
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"
 
@@ -32,6 +34,7 @@ def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequ
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]
     else:
         lines += ["", f"{word}  {outcome.why}"]
+    lines += [line for note in problem.notes for line in wrapped("note     ", note)]
     code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
@@ -93,9 +96,10 @@ def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], ti
 
 def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
     """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
-    unit = f" {usage.unit}" if usage.unit in ("N", "N m") else ""
+    factor, unit = _SHOWN.get(usage.unit, (1.0, ""))
     two_sided = np.all(usage.lower == -usage.upper)
-    sides = ("",) if two_sided else ("largest ", "smallest ") if np.all(np.isfinite(usage.upper)) else ("",)
+    bounds = {"largest ": usage.upper, "smallest ": usage.lower}
+    sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
     for side in sides:
         excess = {"largest ": usage.value - usage.upper, "smallest ": usage.lower - usage.value}.get(side, usage.excess)
         k, i = first_largest(excess / usage.scale)
@@ -103,10 +107,11 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
         if abs(value - bound) <= 1e-6 * float(usage.scale[i]):
             value = bound  # on the limit, as far as the check can tell
-        shown, limit = apart(value, bound)
+        shown, limit = apart(factor * value, factor * bound)
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
         where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
-        yield f"{side}{usage.title}", f"{shown}{unit}", where, f"{sign}{limit.lstrip('-')}{unit}"
+        limit = limit.lstrip("-") if two_sided else limit
+        yield f"{side if len(sides) > 1 else ''}{usage.title}", f"{shown}{unit}", where, f"{sign}{limit}{unit}"
 
 
 def _proof(outcome: Infeasible) -> str:

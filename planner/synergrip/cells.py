@@ -1,0 +1,120 @@
+"""A CSV file as lines of cells, each with its place; what is wrong is collected and told at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from synergrip.documents import LARGEST_NUMBER, MOST_ISSUES, read_text
+from synergrip.errors import InputError, Issue
+
+
+@dataclass(frozen=True)
+class Cell:
+    """The text of a cell, without blanks and quotes around it, and where it stands (from 1)."""
+
+    text: str
+    line: int
+    column: int
+
+
+@dataclass
+class CellReader:
+    """Goes through the lines of a CSV file and keeps what is wrong with them."""
+
+    path: Path
+    key: str
+    """The key of another file that names this one."""
+    lines: list[str]
+    issues: list[Issue] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, path: Path, key: str = "") -> CellReader:
+        """Read the file at `path`.
+
+        Raises:
+            InputError: no such file, or one that is no text; see `read_text`.
+        """
+        return cls(path, key, read_text(path, "CSV file", key).split("\n"))
+
+    def rows(self) -> Iterator[tuple[int, str]]:
+        """Yield number and text of every line that is neither blank nor a comment (``#``)."""
+        for number, line in enumerate(self.lines, start=1):
+            if line.strip() and not line.lstrip().startswith("#"):
+                yield number, line
+
+    def refuse(self, message: str, cell: Cell) -> None:
+        """Note what is wrong with a cell."""
+        source = self.lines[cell.line - 1]
+        issue = Issue(message, self.key, str(self.path), cell.line, cell.column, max(len(cell.text), 1), source)
+        self.issues.append(issue)
+
+    def raise_issues(self) -> None:
+        """Raise the `InputError` of all that was noted, in file order; nothing when all is well."""
+        if self.issues:
+            raise InputError(_shortened(sorted(self.issues, key=lambda issue: (issue.line, issue.column))))
+
+    def is_header(self, header: list[Cell], expected: str) -> bool:
+        """Note a first line that is no header: an empty file, or cells that no commas part."""
+        if [cell.text for cell in header] == [""]:
+            self.refuse(f"the file is empty; expected {expected}", header[0])
+        elif len(header) == 1 and any(mark in header[0].text for mark in ";\t"):
+            self.refuse("cells are separated by commas, not by semicolons or tabs", header[0])
+        else:
+            return True
+        return False
+
+    def numbers(self, number: int, line: str, count: int) -> list[float]:
+        """Return the `count` values of a line; none after noting what is wrong with them."""
+        try:
+            values = [float(text) for text in line.split(",")]
+        except ValueError:
+            values = []
+        if len(values) == count and all(abs(value) <= LARGEST_NUMBER for value in values) and _is_plain(line):
+            return values
+        cells = list(cells_of(line, number))
+        if len(cells) != count:
+            self.refuse(f"expected {count} cells as in the header, got {len(cells)}", cells[0])
+            return []
+        before = len(self.issues)
+        values = [self._number(cell) for cell in cells]
+        return values if len(self.issues) == before else []
+
+    def _number(self, cell: Cell) -> float:
+        try:
+            value = float(cell.text if _is_plain(cell.text) else "")
+        except ValueError:
+            found = f"'{cell.text}'" if cell.text else "nothing"
+            self.refuse(f"expected a number, got {found}", cell)
+            return 0.0
+        if not math.isfinite(value):
+            self.refuse(f"'{cell.text}' is not a finite number", cell)
+        elif abs(value) > LARGEST_NUMBER:
+            self.refuse(f"{cell.text} is too large", cell)
+        return value
+
+
+def cells_of(line: str, number: int) -> Iterator[Cell]:
+    """Yield the cells of line `number`."""
+    column = 1
+    for text in line.split(","):
+        bare = text.strip()
+        if len(bare) > 1 and bare.startswith('"') and bare.endswith('"'):
+            bare = bare[1:-1].strip()
+        yield Cell(bare, number, column + (text.find(bare) if bare else 0))
+        column += len(text) + 1
+
+
+def _is_plain(text: str) -> bool:
+    """Tell whether what Python reads as numbers here is a number to everyone: no 1_000, no digits of other scripts."""
+    return text.isascii() and "_" not in text
+
+
+def _shortened(issues: list[Issue]) -> list[Issue]:
+    if len(issues) <= MOST_ISSUES:
+        return issues
+    last = issues[MOST_ISSUES - 1]
+    more = f"{last.message} (and {len(issues) - MOST_ISSUES} more in this file)"
+    return [*issues[: MOST_ISSUES - 1], replace(last, message=more)]

@@ -1,0 +1,140 @@
+"""``synergrip synergies``: S from recorded postures; synergy sets listed, shown and compared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+
+from synergrip.cli.running import Format, FormatOption, answering, show, writing
+
+synergies = typer.Typer(
+    help="Synergy sets: fit to recorded postures, list, show, compare.", no_args_is_help=True, add_completion=False
+)
+HandArgument = Annotated[str, typer.Argument(metavar="HAND", help="A bundled hand, or a folder with hand.toml.")]
+FirstOption = Annotated[int | None, typer.Option("--first", metavar="K", help="Only the first K synergies.")]
+SET = "A set of the hand, or a synergy file."
+PictureOption = Annotated[Path | None, typer.Option("--picture", metavar="FILE", help="Draw into .svg, .png or .pdf.")]
+
+
+@synergies.command("fit")
+def fit(
+    postures: Annotated[Path, typer.Argument(metavar="POSTURES", help="CSV: names of joints, then postures.")],
+    count: Annotated[int, typer.Option("-n", "--number", metavar="K", help="How many synergies.")],
+    hand: Annotated[str | None, typer.Option("--hand", metavar="HAND", help="Whose joints they are.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE.toml", help="Write them here.")] = None,
+    name: Annotated[str, typer.Option("--name", help="Title of the set.")] = "",
+    picture: PictureOption = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="Angles are degrees, unless the header says.")] = False,
+    form: FormatOption = Format.TEXT,
+) -> None:
+    """Find the synergies that explain most of recorded postures (principal component analysis)."""
+    with answering(form):
+        from synergrip.hands.fitting import fit as make
+        from synergrip.hands.folder import load_hand
+        from synergrip.hands.synergy_file import write_synergy_file
+        from synergrip.reports.json_synergies import fit_document
+        from synergrip.reports.text_fit import fit_text
+
+        _judge_suffix(picture)
+        loaded = load_hand(hand, key="--hand") if hand is not None else None
+        made = make(postures, count, loaded, title=name, degrees=degrees, key="-n")
+        if output is not None:
+            write_synergy_file(output, made.file, "--output")
+        if picture is not None:
+            from synergrip.reports.pictures.variance import draw_variance
+
+            with writing("--picture", picture):
+                draw_variance(made.principal.shares[: made.principal.decision.rank], picture, made.file.title)
+        show(form, lambda: fit_text(made, output, picture), lambda: fit_document(made, output, picture))
+
+
+@synergies.command("list")
+def list_(
+    which: Annotated[str | None, typer.Argument(metavar="[HAND|FILE.toml]", help="Default: all hands.")] = None,
+    form: FormatOption = Format.TEXT,
+) -> None:
+    """List synergy sets with the number of synergies, the rank and the length of the columns."""
+    with answering(form):
+        from synergrip.hands.folder import FILE, bundled_hands, load_hand
+        from synergrip.hands.synergy_file import SUFFIX, read_synergies, read_synergy_file
+        from synergrip.reports.json_synergies import list_document
+        from synergrip.reports.text_synergies import list_text
+
+        if which is not None and which.endswith(SUFFIX) and Path(which).name != FILE:
+            joints = read_synergy_file(Path(which), "FILE.toml").joints
+            sets = [("", read_synergies(Path(which), joints, {}))]
+        else:
+            hands = [load_hand(name, key="HAND") for name in (bundled_hands() if which is None else [which])]
+            sets = [(hand.name, each) for hand in hands for each in hand.synergy_sets.values()]
+        show(form, lambda: list_text(sets), lambda: list_document(sets))
+
+
+@synergies.command("show")
+def show_(
+    hand: HandArgument,
+    chosen: Annotated[str | None, typer.Option("--set", metavar="SET", help=SET)] = None,
+    first: FirstOption = None,
+    posture: Annotated[str | None, typer.Option("--posture", metavar="P", help="A posture of the hand.")] = None,
+    picture: PictureOption = None,
+    form: FormatOption = Format.TEXT,
+) -> None:
+    """Show S with a row for each joint, its rank, and what repeats; draw what each synergy does."""
+    with answering(form):
+        from synergrip.hands.choice import first_of, select
+        from synergrip.hands.folder import load_hand
+        from synergrip.hands.synergies import posture as take
+        from synergrip.hands.synergies import resting
+        from synergrip.reports.json_synergies import show_document
+        from synergrip.reports.text_synergies import show_text
+
+        _judge_suffix(picture)
+        loaded = load_hand(hand, key="HAND")
+        whole = select(loaded, chosen, "--set")
+        shown = whole if first is None else first_of(whole, first, "--first")
+        q = None if posture is None else take(loaded, shown, posture, "--posture")
+        if picture is not None:
+            from synergrip.reports.pictures.synergies import draw_synergies
+
+            with writing("--picture", picture):
+                draw_synergies(loaded, shown, resting(loaded.joints, shown) if q is None else q, picture)
+        show(form, lambda: show_text(loaded, shown, q, picture), lambda: show_document(loaded, shown, q, picture))
+
+
+@synergies.command("compare")
+def compare(
+    sets: Annotated[list[str], typer.Argument(metavar="[HAND] A B", help="Two sets of a hand, or two synergy files.")],
+    first: FirstOption = None,
+    form: FormatOption = Format.TEXT,
+) -> None:
+    """Compare the ranges of two sets: principal angles, and what each reproduces of the other."""
+    with answering(form):
+        from synergrip.hands.angles import compare as measure
+        from synergrip.hands.folder import load_hand
+        from synergrip.hands.pairing import pair_of_files, pair_of_hand
+        from synergrip.reports.json_synergies import compare_document
+        from synergrip.reports.text_synergies import compare_text
+
+        *hand, a, b = sets if 2 <= len(sets) <= 3 else _usage(sets)
+        keys = ("A", "B", "--first")
+        if hand:
+            pair = pair_of_hand(load_hand(hand[0], key="HAND"), a, b, first, keys)
+        else:
+            pair = pair_of_files(a, b, first, keys)
+        found = measure(pair.first.S, pair.second.S)
+        show(form, lambda: compare_text(pair, found), lambda: compare_document(pair, found))
+
+
+def _usage(sets: list[str]) -> NoReturn:
+    from synergrip.errors import InputError
+
+    raise InputError.at("A B", f"expected a hand and two of its sets, or two synergy files; got {len(sets)}")
+
+
+def _judge_suffix(picture: Path | None) -> None:
+    """Refuse a picture whose suffix says no format before anything is done."""
+    if picture is not None:
+        from synergrip.reports.pictures.sheet import picture_suffix
+
+        picture_suffix(picture, "--picture")

@@ -1,0 +1,82 @@
+"""Where the skeleton of a hand runs through the object: the lines between its links, and to its pads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.grasps.golden_section import lowest
+from synergrip.grasps.objects import Object, Shape
+from synergrip.grasps.placing import Touch
+from synergrip.hands.hand import Hand, Pad
+from synergrip.linalg import Array
+
+DEEP = 0.5e-3
+"""A line of the skeleton that runs deeper inside the object is told [m]."""
+
+
+@dataclass(frozen=True)
+class _End:
+    """An end of a line of the skeleton."""
+
+    name: str
+    link: str
+    point: Array  # (3,) in link coordinates [m]
+
+    @classmethod
+    def of_link(cls, link: str) -> _End:
+        """Return the origin of a link."""
+        return cls(f"link '{link}'", link, np.zeros(3))
+
+    @classmethod
+    def of_pad(cls, pad: Pad) -> _End:
+        """Return the point of a pad."""
+        return cls(f"pad '{pad.name}'", pad.link, pad.point)
+
+
+def collision_notes(hand: Hand, q: Array, thing: Object, touches: Sequence[Touch]) -> tuple[str, ...]:
+    """Return a note on the lines of the hand's skeleton that run inside the object, or nothing.
+
+    The skeleton is what is known of any hand: a line from the origin of each link to that of the link that carries
+    it, and to each of its pads. A frame far from the flesh makes a line where nothing is, and flesh is thicker than
+    its line: a note is a reason to look, not a proof.
+
+    Args:
+        hand: the hand.
+        q: (n_q,) joint values.
+        thing: the object, where it is; nothing is inside one without a shape.
+        touches: the contacts; their pads are part of the skeleton.
+    """
+    if thing.shape is None:
+        return ()
+    lines = list(_skeleton(hand, touches))
+    motions = hand.kinematics.at(q, [(end.link, end.point) for line in lines for end in line])
+    points = [motion.position - thing.position for motion in motions]
+    depths = [depth(thing.shape, a, b) for a, b in zip(points[::2], points[1::2], strict=True)]
+    inside = ", ".join(
+        f"from {a.name} to {b.name} ({1e3 * deep:.2g} mm deep)"
+        for (a, b), deep in zip(lines, depths, strict=True)
+        if deep > DEEP
+    )
+    message = f"the hand may collide with the {thing.shape.title}: its skeleton runs inside on the line {inside}"
+    return (message,) if inside else ()
+
+
+def depth(shape: Shape, start: Array, end: Array) -> float:
+    """Return how deep [m] the line between two points (3,) runs inside a shape; negative when it stays outside.
+
+    The signed distance to a convex body is convex along a line, so that its smallest value is found exactly.
+    """
+    return -lowest(lambda share: shape.surface(start + share * (end - start))[0], 0.0, 1.0)[1]
+
+
+def _skeleton(hand: Hand, touches: Sequence[Touch]) -> Iterator[tuple[_End, _End]]:
+    """Yield the ends of each line; a link without length is an end of another line."""
+    for link, parent in hand.parents.items():
+        yield _End.of_link(parent), _End.of_link(link)
+    every = [*hand.pads.values(), *(touch.pad for touch in touches)]
+    for pad in {(pad.link, *pad.point.tolist()): pad for pad in every}.values():
+        if np.any(pad.point):
+            yield _End.of_link(pad.link), _End.of_pad(pad)

@@ -1,0 +1,220 @@
+"""A hand that closes on an object until its pads touch."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.errors import InputError, Issue
+from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
+from synergrip.grasps.objects import Object
+from synergrip.grasps.placing import Touch
+from synergrip.hands.hand import Hand
+from synergrip.linalg import Array, frozen
+
+Flags = NDArray[np.bool_]
+
+STEP = {"hinge": float(np.radians(1.0)), "slide": 2e-3}
+"""The fastest joint moves this far between two looks at the distances [rad or m]."""
+MOST_STEPS = 720.0
+"""Steps without an event after which a hand is given up: two turns of the fastest joint."""
+AT_LIMIT = 1e-12
+"""A joint this close to its limit is at it [rad or m, relative to a limit larger than 1]."""
+
+
+def close(
+    hand: Hand, q: Array, direction: Array, thing: Object, touches: Sequence[Touch], key: str = "hand.close"
+) -> Array:
+    """Return the joint values (n_q,) at which every pad that `direction` moves touches the object.
+
+    All joints follow the direction with one common parameter. When a pad touches, the joints between its link and
+    the palm stop. A joint that comes to its limit stops, and with it those that follow it by a coupling. The rest
+    goes on until all pads touch. Pads that the direction does not move are left as they are.
+
+    Args:
+        hand: the hand.
+        q: (n_q,) joint values to start from.
+        direction: (n_q,) joint motion of closing by 1.
+        thing: the object.
+        touches: the contacts.
+        key: where the closing stands, for the error.
+
+    Raises:
+        InputError: an object without shape or position, no pad that moves, pads that start inside the object, or
+            pads that do not reach it; all of them.
+    """
+    missing = list(unknown_surface(thing))
+    if thing.shape is None or missing:
+        raise InputError(missing)
+    closing = _Closing.of(hand, direction, Gaps(hand, thing.shape, thing.position, touches))
+    state = closing.start(q)
+    if not state.waiting.any():
+        raise InputError.at(key, "moves none of the pads that are to touch")
+    if issues := list(closing.inside(state)):
+        raise InputError(issues)
+    state = closing.stopped(state)
+    while pads := closing.coming(state):
+        state = closing.stopped(closing.advanced(state, pads))
+    if issues := list(closing.missed(state)):
+        raise InputError(issues)
+    return frozen(state.q)
+
+
+def unknown_surface(thing: Object) -> Iterator[Issue]:
+    """Yield what is missing of an object to close a hand on it: its shape, its position."""
+    if thing.shape is None:
+        yield Issue("missing; hand.close closes the hand on a shape", key="object.shape", on_key=True)
+    if not np.all(np.isfinite(thing.position)):
+        message = "missing; hand.close needs to know where the object is: its centre in the palm frame, 3 lengths"
+        yield Issue(message, key="object.position", on_key=True)
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """A hand on its way: where it is, what still moves, which pads still wait, and how it came here."""
+
+    q: Array  # (n_q,)
+    moving: Flags
+    """(n_q,)"""
+    waiting: Flags
+    """(n_c,) pads that the closing moves and that have not touched."""
+    reasons: Mapping[int, str]
+    """Joint that has stopped -> why."""
+    trail: tuple[tuple[float, Array], ...]
+    """How far the hand was closed, and its joint values, at the start and after each event."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Closing:
+    """What does not change while a hand closes."""
+
+    hand: Hand
+    gaps: Gaps
+    direction: Array
+    """(n_q,) joint motion of closing by 1."""
+    step: Array
+    """(n_q,) `STEP` of each joint."""
+    lower: Array  # (n_q,)
+    upper: Array  # (n_q,)
+    movers: Flags
+    """(n_c, n_q) the joint carries the pad."""
+    takes: Flags
+    """(n_q, n_q) the joint of the row stops that of the column when it comes to its limit."""
+
+    @classmethod
+    def of(cls, hand: Hand, direction: Array, gaps: Gaps) -> _Closing:
+        """Scale the direction to steps, and read from the hand which joints move and take along what."""
+        step = np.array([STEP[joint.kind] for joint in hand.joints])
+        carriers = [set(_carriers(hand, touch.pad.link)) for touch in gaps.touches]
+        movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
+        lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
+        return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand))
+
+    def start(self, q: Array) -> _State:
+        """Return the state at the start; a value that rounding put past its limit is put back."""
+        inside, moving = np.clip(q, self.lower, self.upper), self.direction != 0
+        return _State(inside, moving, (self.movers & moving).any(axis=1), {}, ((0.0, inside),))
+
+    def inside(self, state: _State) -> Iterator[Issue]:
+        """Yield one issue for each pad that waits inside the object."""
+        for pad, gap in self._waiting_gaps(state):
+            if gap < -TOUCHING:
+                touch = self.gaps.touches[pad]
+                yield Issue(
+                    f"pad '{touch.pad.name}' is {-1e3 * gap:.3g} mm inside the {self.gaps.shape.title} before the hand "
+                    "closes; start from a more open hand.posture, or move the object",
+                    key=touch.key,
+                )
+
+    def stopped(self, state: _State) -> _State:
+        """Return the state with the joints stopped that are at their limits or carry a pad that touches."""
+        names, reasons, waiting = self.hand.joint_names, dict(state.reasons), state.waiting.copy()
+        at_limit = self._at_limit(state)
+        for joint in np.flatnonzero(at_limit).tolist():
+            for other in np.flatnonzero(self.takes[joint]).tolist():
+                reasons.setdefault(other, "at its limit" if at_limit[other] else f"stopped with {names[joint]}")
+        for pad, gap in self._waiting_gaps(state):
+            if gap <= TOUCHING:
+                waiting[pad] = False
+                for joint in np.flatnonzero(self.movers[pad]).tolist():
+                    reasons.setdefault(joint, f"stopped when pad '{self.gaps.touches[pad].pad.name}' touched")
+        moving = state.moving.copy()
+        moving[list(reasons)] = False
+        return replace(state, moving=moving, waiting=waiting, reasons=reasons)
+
+    def coming(self, state: _State) -> list[int]:
+        """Return the pads that wait and still move."""
+        return [int(pad) for pad in np.flatnonzero(state.waiting & (self.movers & state.moving).any(axis=1))]
+
+    def advanced(self, state: _State, pads: Sequence[int]) -> _State:
+        """Return the state at the next event: the first of the pads touches, or a joint comes to its limit."""
+        moved = np.where(state.moving, self.direction, 0.0)
+        scale = 1 / float(np.max(np.abs(moved) / self.step))
+        rate = scale * moved
+        room = float(((self._limit() - state.q)[state.moving] / rate[state.moving]).min())
+        event = first_touch(self.gaps, state.q, rate, min(room, MOST_STEPS), pads)
+        steps, reasons = min(room, MOST_STEPS) if event is None else event[0], dict(state.reasons)
+        if event is None and room > MOST_STEPS:
+            reasons |= dict.fromkeys(np.flatnonzero(state.moving).tolist(), "moves without end")
+        q = np.clip(state.q + steps * rate, self.lower, self.upper)
+        closed = state.trail[-1][0] + steps * scale
+        return replace(state, q=q, reasons=reasons, trail=(*state.trail, (closed, q)))
+
+    def missed(self, state: _State) -> Iterator[Issue]:
+        """Yield one issue for each pad that still waits: how close it came, where, and what stopped it."""
+        for pad in np.flatnonzero(state.waiting).tolist():
+            touch, movers = self.gaps.touches[pad], self.movers[pad] & (self.direction != 0)
+            gap, closed = min(self._seen(state, pad))
+            why = [f"{self.hand.joint_names[j]} {state.reasons[j]}" for j in np.flatnonzero(movers).tolist()]
+            yield Issue(
+                f"pad '{touch.pad.name}' does not reach the {self.gaps.shape.title}: at its closest, closed by "
+                f"{closed:.4g}, it is {1e3 * gap:.3g} mm away ({', '.join(why)}); "
+                "start from another hand.posture, close along something else, or move the object",
+                key=touch.key,
+            )
+
+    def _seen(self, state: _State, pad: int) -> Iterator[tuple[float, float]]:
+        """Yield the distance of a pad, and how far the hand was closed, once a step and at every event."""
+        yield float(self.gaps.at(state.trail[0][1], [pad])[0][0]), 0.0
+        for (before, a), (after, b) in pairwise(state.trail):
+            looks = math.ceil(np.max(np.abs(b - a) / self.step))
+            for share in np.linspace(0.0, 1.0, looks + 1)[1:]:
+                gap = float(self.gaps.at(a + share * (b - a), [pad])[0][0])
+                yield gap, before + float(share) * (after - before)
+
+    def _limit(self) -> Array:
+        return np.where(self.direction > 0, self.upper, self.lower)
+
+    def _at_limit(self, state: _State) -> Flags:
+        """Return which joints (n_q,) have come to the end of their range."""
+        limit = self._limit()
+        near = AT_LIMIT * np.maximum(np.abs(np.where(np.isfinite(limit), limit, 0.0)), 1.0)
+        return np.asarray((np.abs(limit - state.q) <= near) & (self.direction != 0))
+
+    def _waiting_gaps(self, state: _State) -> list[tuple[int, float]]:
+        pads = [int(pad) for pad in np.flatnonzero(state.waiting)]
+        return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
+
+
+def _carriers(hand: Hand, link: str) -> Iterator[str]:
+    """Yield a link and those that carry it, up to the palm."""
+    yield link
+    while link in hand.parents:
+        link = hand.parents[link]
+        yield link
+
+
+def _takes(hand: Hand) -> Flags:
+    """Return (n_q, n_q) bool: the joint of the column follows that of the row through couplings, or is it."""
+    index = {name: i for i, name in enumerate(hand.joint_names)}
+    takes = np.eye(len(index), dtype=bool)
+    for _ in hand.couplings:  # followers of followers
+        for follower, coupling in hand.couplings.items():
+            for driver in coupling.ratios:
+                takes[:, index[follower]] |= takes[:, index[driver]]
+    return takes

@@ -1,0 +1,29 @@
+"""A hand that holds an object, as one JSON document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from synergrip.plans.problem import Problem
+
+
+def in_order_document(problem: Problem) -> dict[str, Any]:
+    """Return what a problem in order holds; with a hand its posture, the object and the contacts, SI units.
+
+    Points and normals are in the palm frame; a gap is null for an object without a shape.
+    """
+    document: dict[str, Any] = {"valid": True, "file": str(problem.path), "title": problem.title}
+    held = problem.held
+    if held is not None:
+        thing = held.thing
+        document["posture"] = dict(zip(held.hand.joint_names, held.q.tolist(), strict=True))
+        document["object"] = {"title": thing.title, "mass_kg": thing.mass, "position_m": thing.position.tolist()}
+        document["contacts"] = [
+            {
+                "name": contact.name, "link": touch.pad.link, "kind": contact.kind.name,
+                "point_m": (contact.point + thing.position).tolist(), "normal": contact.frame[:, 0].tolist(),
+                "gap_m": gap, "friction": contact.friction,
+            }
+            for contact, touch, gap in zip(problem.grasp.contacts, held.touches, held.gaps, strict=True)
+        ]  # fmt: skip
+    return document | {"notes": list(problem.notes)}

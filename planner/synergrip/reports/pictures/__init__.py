@@ -1,0 +1,1 @@
+"""Pictures of hands, synergies and grasps, as SVG, PNG or PDF."""

@@ -1,0 +1,73 @@
+"""Where the panels of a picture go: columns of panels, wrapped into blocks."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.linalg import Array
+
+MOST = 15
+"""Columns that are drawn; what is left out is said."""
+ACROSS = 5
+"""Columns beside each other."""
+COLUMN, GAP, MARGIN = 2.7, 0.15, 0.35  # [inch]
+NARROWEST = 6.5
+"""Width of a picture with room for its texts [inch]."""
+LETTERS = 138.0
+"""Letters of 1 point in an inch, with some room to spare."""
+
+
+@dataclass(frozen=True)
+class Columns:
+    """`count` columns in as many blocks as it takes, of equal length where possible."""
+
+    count: int
+
+    @property
+    def blocks(self) -> int:
+        """Blocks below each other."""
+        return math.ceil(self.count / ACROSS)
+
+    @property
+    def across(self) -> int:
+        """Columns of a block."""
+        return math.ceil(self.count / self.blocks)
+
+    @property
+    def width(self) -> float:
+        """Of the sheet [inch]."""
+        return max(NARROWEST, self.across * (COLUMN + GAP) - GAP + 2 * MARGIN)
+
+    def place(self, index: int) -> tuple[int, float]:
+        """Return the block of a column and how far from the left it starts [inch]."""
+        block, column = divmod(index, self.across)
+        used = self.across * (COLUMN + GAP) - GAP
+        return block, (self.width - used) / 2 + column * (COLUMN + GAP)
+
+
+def fitted(text: str, width: float, size: float) -> list[str]:
+    """Return the lines of a text in letters of `size` points that fit into `width` inches, on average."""
+    return textwrap.wrap(text, round(width * LETTERS / size))
+
+
+@dataclass(frozen=True)
+class Window:
+    """The part of the paper that all panels of a row show."""
+
+    middle: Array  # (2,)
+    span: float
+    """From left to right."""
+    height: float
+    """Of the panel [inch]."""
+
+
+def window(points: Array, margin: float = 0.08) -> Window:
+    """Return the window around points (n, 2), in a panel as high as they are, within reason."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = np.maximum((high - low) * (1 + 2 * margin), 1e-9)
+    height = COLUMN * float(np.clip(size[1] / size[0], 0.55, 1.25))
+    return Window((low + high) / 2, float(max(size[0], size[1] * COLUMN / height)), height)

@@ -1,0 +1,72 @@
+"""What the pictures say in words: what is drawn how, and what the forces depend on."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.linalg import Array
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.problem import Problem
+from synergrip.reports.pictures.layout import MOST
+from synergrip.reports.text_problem import many
+
+PER_TORQUE = "rad/(N\u00a0m)"
+"""Kept on one line."""
+MOTION_NOTE = "Grey: the posture. Blue: one synergy moved by its step. Light: moved back as far."
+
+
+def left_out(count: int) -> str:
+    """Return what is to be said when not all of `count` synergies are drawn; empty when they are."""
+    return f" The first {MOST} of {count} synergies are drawn." if count > MOST else ""
+
+
+def subtitle(analysis: Analysis) -> str:
+    """Return the dimensions of the subspaces, and the contacts."""
+    forces, motions, redundant = analysis.spaces.dimensions
+    kinds = Counter(contact.kind.title for contact in analysis.grasp.contacts)
+    contacts = " and ".join(many(count, f"{kind} contact") for kind, count in kinds.items())
+    dimensions = f"dim E_s {forces}, dim Γ_ucs {motions}, dim Γ_zr {redundant}"
+    return f"{many(analysis.grasp.n_z, 'synergy')} · {dimensions} · {contacts}"
+
+
+def grasp_notes(problem: Problem, analysis: Analysis) -> Iterator[str]:
+    """Yield the footnotes of a picture of forces."""
+    if problem.held:
+        yield MOTION_NOTE
+    names = ", ".join(f"{k} {contact.name}" for k, contact in enumerate(analysis.grasp.contacts, start=1))
+    yield f"Contacts: {names}. Dashed: their normals.{left_out(analysis.grasp.n_z)}"
+    spins = any(component == "m" for _, component in analysis.grasp.components)
+    yield (
+        "Red: internal forces of the hand on the object that one synergy alone generates, equation (28) with dw = 0"
+        f"{'; green: their spin moments' if spins else ''}. Each panel has its own scale; the largest stands above it. "
+        "What squeezes is the part of J S_k that no rigid motion of the object follows."
+    )
+    yield f"The forces depend on the compliances, here {', '.join(_compliances(problem, analysis))}."
+
+
+def _compliances(problem: Problem, analysis: Analysis) -> Iterator[str]:
+    """Yield the diagonals of C_s, C_q and C_z with their units."""
+    grasp = analysis.grasp
+    spin = np.array([component == "m" for _, component in grasp.components])
+    contact = np.diag(grasp.C_s)
+    yield f"contacts {_range(1e3 * contact[~spin])} mm/N"
+    if np.any(spin):
+        yield f"spin {_range(contact[spin])} {PER_TORQUE}"
+    yielding = np.diag(grasp.C_q)
+    if problem.held is None:
+        yield f"joints {_range(yielding)} and synergies {_range(np.diag(grasp.C_z))} (SI units)"
+        return
+    slides = np.array([joint.kind == "slide" for joint in problem.held.hand.joints])
+    if not np.all(slides):
+        yield f"joints {_range(yielding[~slides])} {PER_TORQUE}"
+    if np.any(slides):
+        yield f"sliding joints {_range(1e3 * yielding[slides])} mm/N"
+    yield f"synergies {_range(np.diag(grasp.C_z))}"
+
+
+def _range(values: Array) -> str:
+    low, high = float(values.min()), float(values.max())
+    return f"{low:.3g}" if f"{low:.3g}" == f"{high:.3g}" else f"{low:.3g} to {high:.3g}"

@@ -1,0 +1,57 @@
+"""A whole picture: heading, columns of panels in blocks, footnotes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+
+from synergrip.reports.pictures.layout import MARGIN, Columns, fitted
+from synergrip.reports.pictures.sheet import GREY, INK, Sheet, write_picture
+
+HEADING, UNDER, NOTE = 13.0, 10.0, 9.0
+"""Sizes of the letters [points]."""
+LINE = 1.45 / 72
+"""Distance of lines for each point of their letters [inch]."""
+SPACE = 0.2  # [inch]
+
+
+@dataclass(frozen=True)
+class Page:
+    """What stands around the panels."""
+
+    title: str
+    subtitle: str
+    columns: Columns
+    block: float
+    """Height of a block of panels [inch]."""
+    notes: tuple[str, ...]
+
+    def write(self, path: Path, draw: Callable[[Sheet, int, float, float], None]) -> None:
+        """Write the picture; `draw` draws the column of an index at so much from the left and from the top [inch].
+
+        Raises:
+            InputError: a suffix that says no format.
+            OSError: the file cannot be written.
+        """
+        room = self.columns.width - 2 * MARGIN
+        heading = [(line, HEADING) for line in fitted(self.title, room * 0.9, HEADING)]  # bold letters are wider
+        heading += [(line, UNDER) for line in fitted(self.subtitle, room, UNDER)]
+        notes = list(chain.from_iterable(fitted(note, room, NOTE) for note in self.notes))
+        head = SPACE + sum(LINE * size for _, size in heading)
+        height = head + SPACE + self.columns.blocks * (self.block + SPACE) + LINE * NOTE * len(notes) + SPACE
+
+        def fill(sheet: Sheet) -> None:
+            top = SPACE
+            for line, size in heading:
+                top += LINE * size
+                bold = size == HEADING
+                sheet.write(MARGIN, top, line, size, INK if bold else GREY, bold=bold)
+            for index in range(self.columns.count):
+                row, left = self.columns.place(index)
+                draw(sheet, index, left, head + SPACE + row * (self.block + SPACE))
+            for number, line in enumerate(reversed(notes)):
+                sheet.write(MARGIN, height - SPACE - LINE * NOTE * number, line, NOTE, GREY)
+
+        write_picture(path, self.columns.width, height, fill)

@@ -1,0 +1,135 @@
+"""The sheet of paper: panels with equal scales, and the file it is written to. The only module that imports matplotlib.
+
+The same values give the same bytes: no date, no random names, no settings of the user.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from synergrip.errors import InputError, one_of
+from synergrip.files import atomic_path
+from synergrip.linalg import Array
+
+SUFFIXES = (".svg", ".png", ".pdf")
+INK, GREY, FAINT = "#222222", "#767676", "#c4c4c4"
+BLUE, SKY, VERMILION, GREEN = "#0072b2", "#8cc8ec", "#d55e00", "#009e73"
+"""Colours that stay apart for the colour-blind (Okabe and Ito)."""
+SETTINGS = {"svg.hashsalt": "synergrip", "svg.fonttype": "none", "pdf.fonttype": 42, "text.parse_math": False}
+NO_DATE: dict[str, dict[str, Any]] = {
+    ".svg": {"Date": None}, ".png": {"Software": None}, ".pdf": {"CreationDate": None}
+}  # fmt: skip
+DOTS_PER_INCH = 160
+
+
+def picture_suffix(path: Path, key: str = "") -> str:
+    """Return the suffix of a picture file or raise an `InputError` at `key` that lists the suffixes."""
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError.at(key, f"the suffix of '{path}' says no format: {one_of(suffix, SUFFIXES)}")
+    return suffix
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One drawing on the sheet, in the units of what is drawn, equal in both directions."""
+
+    axes: Any
+    """`matplotlib.axes.Axes`."""
+
+    def strokes(
+        self, lines: Sequence[Array], color: str, width: float, near: float = 1.0, dashed: bool = False
+    ) -> None:
+        """Draw polylines, each (n, 2); what has the larger `near` covers the other. Width in points."""
+        style = (0, (4, 3)) if dashed else "solid"
+        for line in lines:
+            self.axes.plot(*line.T, color=color, lw=width, ls=style, zorder=near, solid_capstyle="round")
+
+    def area(self, polygon: Array, color: str, opacity: float, near: float = 1.0) -> None:
+        """Fill a polygon (n, 2)."""
+        self.axes.fill(*polygon.T, color=color, alpha=opacity, zorder=near, lw=0, clip_on=False)
+
+    def dots(self, points: Array, color: str, size: float, near: float = 1.0, edge: float = 0.0) -> None:
+        """Draw points (n, 2) as discs of a diameter in points, with a white edge."""
+        self.axes.plot(*points.T, ls="none", marker="o", ms=size, mfc=color, mec="white", mew=edge, zorder=near)
+
+    def cross(self, point: Array, color: str, near: float = 1.0) -> None:
+        """Mark a point (2,)."""
+        self.axes.plot(*point, ls="none", marker="+", ms=9, mec=color, mew=1.2, zorder=near)
+
+    def arrows(self, points: Array, vectors: Array, color: str, near: float = 10.0) -> None:
+        """Draw arrows from points (n, 2), as long as their vectors (n, 2)."""
+        size = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "units": "inches"}
+        head = {"width": 0.028, "headwidth": 4.2, "headlength": 5.0, "headaxislength": 4.5, "minlength": 0.5}
+        self.axes.quiver(*points.T, *vectors.T, color=color, zorder=near, **size, **head)
+
+    def note(self, point: Array, text: str) -> None:
+        """Write a small text around a point (2,)."""
+        self.axes.text(*point, text, color=GREY, ha="center", va="center", fontsize=8, zorder=20)
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A figure of a given size; places are in inches from its top left corner."""
+
+    width: float  # [inch]
+    height: float  # [inch]
+    figure: Any = field(repr=False)
+    """`matplotlib.figure.Figure`."""
+
+    def panel(self, left: float, top: float, width: float, height: float, middle: Array, span: float) -> Panel:
+        """Return a panel that shows what lies around `middle` (2,), `span` from left to right."""
+        axes = self.figure.add_axes(self._box(left, top, width, height))
+        half = np.array([span, span * height / width]) / 2
+        axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
+        axes.set_axis_off()
+        return Panel(axes)
+
+    def chart(self, left: float, top: float, width: float, height: float) -> Any:
+        """Return axes with ticks, for a diagram."""
+        return self.figure.add_axes(self._box(left, top, width, height))
+
+    def write(self, left: float, top: float, text: str, size: float = 10.0, color: str = INK, across: str = "left",
+              bold: bool = False) -> None:  # fmt: skip
+        """Write a line of text, its baseline at `top`; control characters are left out."""
+        plain, weight = "".join(c for c in text if unicodedata.category(c) != "Cc"), "bold" if bold else "normal"
+        self.figure.text(left / self.width, 1 - top / self.height, plain, size=size, color=color, ha=across,
+                         va="baseline", weight=weight)  # fmt: skip
+
+    def _box(self, left: float, top: float, width: float, height: float) -> tuple[float, float, float, float]:
+        bottom = self.height - top - height
+        return left / self.width, bottom / self.height, width / self.width, height / self.height
+
+
+def write_picture(path: Path, width: float, height: float, draw: Callable[[Sheet], None]) -> None:
+    """Write a picture of `width` x `height` inches, whole or not at all.
+
+    Args:
+        path: ends in one of `SUFFIXES`.
+        width: [inch].
+        height: [inch].
+        draw: draws on the empty sheet.
+
+    Raises:
+        InputError: a suffix that says no format.
+        OSError: the file cannot be written.
+    """
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    suffix = picture_suffix(path)
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(SETTINGS)
+        figure = Figure(figsize=(width, height), facecolor="white")
+        draw(Sheet(width, height, figure))
+        with atomic_path(path) as temporary, warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Glyph .* missing")  # a title in letters that the font does not have
+            figure.savefig(temporary, format=suffix[1:], dpi=DOTS_PER_INCH, metadata=NO_DATE[suffix])

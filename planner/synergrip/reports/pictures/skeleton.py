@@ -1,0 +1,57 @@
+"""A hand as bones: straight lines between the origins of its links, and out to the pads at their ends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.hands.hand import Hand, Pad
+from synergrip.linalg import Array, frozen
+
+SHORTEST = 1e-6
+"""A bone below this is the same point twice [m]."""
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """A hand in a posture, in the palm frame [m]."""
+
+    bones: Array
+    """(n, 2, 3) from the origin of a link to that of the next one, or to a pad of a link that carries no other."""
+    palm: Array
+    """(k, 3) origins of the palm and of the links that it carries."""
+    pads: Array
+    """(m, 3) the pads asked for."""
+    radii: Array
+    """(m,) of the pads, 0 for points [m]."""
+
+    @property
+    def points(self) -> Array:
+        """All that is drawn (., 3): the ends of the bones, then the pads."""
+        return np.vstack([self.bones.reshape(-1, 3), self.pads])
+
+
+def links_of(hand: Hand) -> tuple[str, ...]:
+    """Return the names of the links, the palm first."""
+    return tuple(dict.fromkeys([*hand.parents.values(), *hand.parents]))
+
+
+def skeleton(hand: Hand, q: Array, pads: Sequence[Pad]) -> Skeleton:
+    """Return the bones of a hand and its `pads` at joint values `q` (n_q,)."""
+    links, every = links_of(hand), [*pads, *hand.pads.values()]
+    asked = [(link, np.zeros(3)) for link in links] + [(pad.link, pad.point) for pad in every]
+    places = [motion.position for motion in hand.kinematics.at(q, asked)]
+    origins, ends = dict(zip(links, places, strict=False)), places[len(links) :]
+    pairs = [(origins[parent], origins[link]) for link, parent in hand.parents.items()]
+    last = set(links) - set(hand.parents.values())
+    tips = {(pad.link, *pad.point): (origins[pad.link], end) for pad, end in zip(every, ends, strict=True)
+            if pad.link in last}  # fmt: skip
+    bones = [pair for pair in [*pairs, *tips.values()] if np.linalg.norm(pair[1] - pair[0]) > SHORTEST]
+    roots = [link for link in links if link not in hand.parents]
+    palm = [origins[link] for link in links if link in roots or hand.parents[link] in roots]
+    return Skeleton(
+        frozen(bones, (len(bones), 2, 3)), frozen(palm, (len(palm), 3)),
+        frozen(ends[: len(pads)], (len(pads), 3)), frozen([pad.radius for pad in pads]),
+    )  # fmt: skip

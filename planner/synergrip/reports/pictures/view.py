@@ -1,0 +1,63 @@
+"""From space to paper: a parallel projection along one direction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.linalg import Array, frozen
+
+ELEVATIONS = np.radians([28.0, 50.0])
+"""How far from above the viewer may look down on the palm's x-y plane."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A direction to look from, as three orthonormal vectors in palm axes."""
+
+    right: Array  # (3,)
+    up: Array  # (3,)
+    toward: Array
+    """(3,) from what is drawn toward the viewer."""
+
+    def flat(self, points: Array) -> Array:
+        """Return points or vectors (..., 3) on paper: (..., 2), lengths kept where they lie across the view."""
+        return np.asarray(points) @ np.column_stack([self.right, self.up])
+
+    def depth(self, points: Array) -> Array:
+        """Return how near points (..., 3) are to the viewer: (...)."""
+        return np.asarray(points) @ self.toward
+
+
+def view_from(azimuth: float, elevation: float) -> View:
+    """Return the view from an azimuth about z and an elevation above x-y [rad]; z points up on paper."""
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+    level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    toward = np.cos(elevation) * level + np.sin(elevation) * np.array([0.0, 0.0, 1.0])
+    return View(frozen(right), frozen(np.cross(toward, right)), frozen(toward))
+
+
+def best_view(points: Array, displacements: Sequence[Array]) -> View:
+    """Return the view from above, of 48 around z, in which a picture shows most.
+
+    Args:
+        points: (n, 3) what is drawn; it should spread over the paper.
+        displacements: (m, 3) each; of every set a good part should be seen and not point at the viewer.
+    """
+    around = [view_from(np.radians(angle), elevation) for elevation in ELEVATIONS for angle in range(-65, 295, 15)]
+    seen = np.array([min([_seen(view, each) for each in displacements], default=1.0) for view in around])
+    worth = seen**2 * np.array([_area(view.flat(points)) for view in around])
+    return around[int(np.argmax(worth >= worth.max() * (1 - 1e-9)))]
+
+
+def _area(points: Array) -> float:
+    """Return the area over which points (n, 2) spread, up to a factor: that of the ellipse of their variance."""
+    return float(np.prod(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)))
+
+
+def _seen(view: View, displacements: Array) -> float:
+    """Return the share of displacements (m, 3) that lies across the view; 1 when there are none."""
+    size = float(np.linalg.norm(displacements))
+    return float(np.linalg.norm(view.flat(displacements))) / size if size > 0 else 1.0

@@ -1,0 +1,56 @@
+"""A hand that holds an object, as text: posture, object, contacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
+from synergrip.plans.problem import Problem
+from synergrip.plans.reading.setup import Held
+from synergrip.reports.tables import table, wrapped
+from synergrip.reports.text_problem import many
+
+HEADER = ("contact", "link", "kind", "point [mm]", "normal", "gap [mm]", "friction")
+
+
+def in_order_text(problem: Problem) -> str:
+    """Return what a problem in order holds: counts; with a hand its posture, the object and the contacts; notes."""
+    grasp = problem.grasp
+    counts = {"contact": grasp.n_c, "joint": grasp.n_q, "synergy": grasp.n_z, "knot": len(problem.task.times)}
+    lines = [f"{problem.path}: in order ({', '.join(many(count, noun) for noun, count in counts.items())})"]
+    if problem.held is not None:
+        lines += ["", *_held_lines(problem.held, grasp)]
+    lines += [line for note in problem.notes for line in wrapped("note     ", note)]
+    return "\n".join(lines)
+
+
+def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
+    values = [f"{joint.name} {_value(joint.kind, q)}" for joint, q in zip(held.hand.joints, held.q, strict=True)]
+    unbroken = " · ".join(value.replace(" ", "\u00a0") for value in values)
+    yield from (line.replace("\u00a0", " ") for line in wrapped("posture  ", unbroken))
+    thing = held.thing
+    mass = f", {1e3 * thing.mass:.4g} g" if thing.mass else ""
+    titles = dict.fromkeys([thing.title, *([thing.shape.title] if thing.shape else [])])
+    yield f"object   {', '.join(titles)}{mass}, centre {_triple(1e3 * thing.position, 4)} mm in the palm frame"
+    yield ""
+    rows = [
+        (
+            contact.name, touch.pad.link, contact.kind.name, _triple(1e3 * (contact.point + thing.position), 4),
+            _triple(contact.frame[:, 0], 3), "" if gap is None else f"{round(1e3 * gap, 3) + 0.0:.3f}",
+            f"{contact.friction:.4g}",
+        )
+        for contact, touch, gap in zip(grasp.contacts, held.touches, held.gaps, strict=True)
+    ]  # fmt: skip
+    yield table(HEADER, rows, right=(5, 6))
+
+
+def _value(kind: str, q: float) -> str:
+    """Return a joint value in the unit people use."""
+    value, unit = (math.degrees(q), "deg") if kind == "hinge" else (1e3 * q, "mm")
+    return f"{round(value, 6) + 0.0:.4g} {unit}"
+
+
+def _triple(values: Array, digits: int) -> str:
+    return f"({', '.join(f'{round(float(value), 6) + 0.0:.{digits}g}' for value in values)})"

@@ -1,0 +1,57 @@
+"""Hands small enough for closed forms, with the kinematics of real ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.placing import Touch
+from synergrip.hands.hand import Coupling, Hand, Joint, Pad
+from synergrip.hands.kinematics import kinematics
+from synergrip.hands.synergies import joint_set
+from synergrip.hands.tree import LinkTree, TreeJoint
+from synergrip.linalg import frozen
+
+
+def hand_of(
+    joints: Sequence[TreeJoint], pads: Mapping[str, Pad] | None = None, couplings: Mapping[str, Coupling] | None = None
+) -> Hand:
+    """Return the hand of joints listed parents first; the parent of the first one is the palm."""
+    root = joints[0].parent
+    tree = LinkTree("small", root, (root, *(j.child for j in joints)), {j.name: j for j in joints})
+    moving = [tree.joints[name] for name in tree.moving]
+    every = joint_set(tree.moving)
+    return Hand(
+        "small", "A small hand",
+        tuple(Joint(j.name, j.kind, j.lower, j.upper, math.inf, j.child) for j in moving),
+        frozen(np.zeros((len(moving), len(moving)))), pads or {}, {every.name: every}, {},
+        kinematics(tree, tree.moving), couplings or {}, tree.parents,
+    )  # fmt: skip
+
+
+def slide(name: str, parent: str, xyz: Sequence[float], axis: Sequence[float], upper: float = 0.1) -> TreeJoint:
+    """Return a slide of the link ``NAME_link`` from 0 to `upper`."""
+    return TreeJoint(name, "slide", parent, f"{name}_link", tuple(xyz), axis=tuple(axis), lower=0.0, upper=upper)
+
+
+def hinge(name: str, parent: str, xyz: Sequence[float], limits: tuple[float, float] = (-math.pi, math.pi)) -> TreeJoint:
+    """Return a hinge about z of the link ``NAME_link``."""
+    lower, upper = limits
+    return TreeJoint(name, "hinge", parent, f"{name}_link", tuple(xyz), axis=(0.0, 0.0, 1.0), lower=lower, upper=upper)
+
+
+def pad(name: str, link: str, point: Sequence[float] = (0, 0, 0), radius: float = 0.0) -> Pad:
+    """Return a pad that pushes along x."""
+    return Pad(name, link, frozen(point), frozen([1.0, 0.0, 0.0]), radius)
+
+
+def touching(*pads: Pad) -> tuple[Touch, ...]:
+    """Return a hard contact for each pad, toward the object whatever its normal says."""
+    hard = contact_kind("hard")
+    return tuple(
+        Touch(each.name, each, hard, 0.5, 0.0, (1000.0,) * 3, "object", f"contacts.at[{i}]", aimed=False)
+        for i, each in enumerate(pads)
+    )
