@@ -82,7 +82,13 @@ _hand("schema-text", "schema = 1", 'schema = "1"', "schema", "expected 1, got '1
 _hand("schema-true", "schema = 1", "schema = true", "schema", "expected 1, got true")
 _hand("unknown-table", "[goal]", "[gaol]", "gaol", "unknown key 'gaol'; did you mean 'goal'?")
 _hand("unknown-key", "friction = 0.6", "fricton = 0.6", "contacts.fricton", "did you mean 'friction'?")
-_hand("unknown-key-far", "mass =", "colour = 1\nmass =", "object.colour", "known keys: title, shape, mass, position")
+_hand(
+    "unknown-key-far",
+    "mass =",
+    "colour = 1\nmass =",
+    "object.colour",
+    "known keys: title, shape, mass, position, orientation",
+)
 _hand("no-hand", '[hand]\nmodel = "barrett"\nsynergies = 4\n', "", "hand", "missing table [hand]")
 _hand("no-model", 'model = "barrett"\n', "", "hand.model", "missing key 'model'")
 _hand("no-contacts", 'at = ["finger1/tip", "finger2/tip", "finger3/tip"]', "", "contacts.at", "no contacts")
@@ -118,6 +124,28 @@ _hand("no-shape", '{ sphere = { radius = "45 mm" } }', "{}", "object.shape", "na
 _hand(
     "box-of-two", 'sphere = { radius = "45 mm" }', 'box = { size = ["1 m", "1 m"] }', "object.shape.box.size", "got 2"
 )
+_hand("orientation-number", "mass =", "orientation = 90\nmass =", "object.orientation", "expected a table, got 90")
+_hand(
+    "orientation-angle",
+    "mass =",
+    "orientation = { axis = 'x', angle = 90 }\nmass =",
+    "object.orientation.angle",
+    "90 has no unit; expected an angle",
+)
+_hand(
+    "orientation-axis",
+    "mass =",
+    "orientation = { axis = [1, 0], angle = '1 deg' }\nmass =",
+    "object.orientation.axis",
+    "expected 3 numbers, got 2",
+)
+_hand(
+    "orientation-of-nothing",
+    'shape = { sphere = { radius = "45 mm" } }',
+    "orientation = { axis = 'x', angle = '1 deg' }",
+    "object.orientation",
+    "an orientation turns the shape; give object.shape",
+)
 _hand("zero-mass", '"200 g"', '"0 g"', "object.mass", "must be greater than 0")
 _hand("gravity-without-mass", 'mass = "200 g"\n', "", "task.gravity", "gravity needs the mass of the object")
 _hand("gravity-of-two", "[0, 0, -9.81]", "[0, -9.81]", "task.gravity", "expected 3 numbers, got 2")
@@ -129,6 +157,11 @@ _hand("no-synergy", "synergies = 4", "synergies = 0", "hand.synergies", "at leas
 _hand("half-synergy", "synergies = 4", "synergies = 1.5", "hand.synergies", "a number of synergies")
 _hand("coupling-text", "synergies = 4", 'coupling = "a third"', "hand.coupling", "is not a number or a fraction")
 _hand("posture-unit", "synergies = 4", "posture = { close = 1.2 }", "hand.posture.close", "1.2 has no unit")
+_hand("close-number", "synergies = 4", "close = 1", "hand.close", "expected the name of a synergy or joint")
+_hand("close-nothing", "synergies = 4", "close = {}", "hand.close", "weights by name such as { s1 = -1, s2 = 0.2 }")
+_hand("close-weight", "synergies = 4", 'close = { s1 = "5 deg" }', "hand.close.s1", "expected a number, got '5 deg'")
+_hand("close-weight-nan", "synergies = 4", "close = { s1 = nan }", "hand.close.s1", "nan is not a finite number")
+_hand("close-list", "synergies = 4", 'close = ["s1"]', "hand.close", "got a list")
 _hand("compliance", "synergies = 4", "compliance = { synergy = -1 }", "hand.compliance.synergy", "at least 0, got -1")
 _hand("no-knots", "knots = 11", "knots = 0", "task.knots", "must be at least 1, got 0")
 _hand("one-knot", "knots = 11", "knots = 1", "task.knots", "needs at least 2 knots")
@@ -159,7 +192,7 @@ _hand("force-range-unit", '"20 N"', '["0 N", "20 m"]', "limits.normal_force[1]",
 _hand("torque-word", 'margin = "0.5 N"', 'joint_torque = "hnad"', "limits.joint_torque", "expected 'hand', a number")
 _hand("torque-list", 'margin = "0.5 N"', "joint_torque = [1, -1]", "limits.joint_torque[1]", "must be greater than 0")
 _hand("rate", 'margin = "0.5 N"', "synergy_rate = 0", "limits.synergy_rate", "must be greater than 0")
-_hand("two-goals", '"effort"', '"effort"\nmaximise = "margin"', "goal.minimise", "one goal")
+_hand("two-goals", '"effort"', '"effort"\nmaximise = "margin"', "goal.minimise", "order = ")
 _hand("goal-word", '"effort"', '"efort"', "goal.minimise", "did you mean 'effort'?")
 _hand(
     "output",
@@ -170,6 +203,50 @@ _hand(
 )
 _hand("two-grasps", "[goal]", "[grasp]\nfile = 'grasp.json'\n[goal]", "hand", "exclude each other")
 _hand("contact-table", "[task]\n", "[contact]\nat = 'a'\n[task]\n", "contact", "expected a list, got a table")
+_hand("contact-link", "[task]\n", "[[contact]]\nlink = 5\n[task]\n", "contact[0].link", "expected a string, got 5")
+_hand("contact-twice", "[task]\n", "[[contact]]\nat = 'a'\nlink = 'b'\n[task]\n", "contact[0].link", "not both; leave")
+_hand(
+    "pad-with-point",
+    "[task]\n",
+    "[[contact]]\nat = 'a'\npoint = ['0 m', '0 m', '0 m']\n[task]\n",
+    "contact[0].point",
+    "'point' goes with 'link'",
+)
+_hand(
+    "link-point",
+    "[task]\n",
+    "[[contact]]\nlink = 'a'\npoint = ['0 m', 0, '0 m']\n[task]\n",
+    "contact[0].point[1]",
+    "0 has no unit; expected a length",
+)
+_hand(
+    "link-normal",
+    "[task]\n",
+    "[[contact]]\nlink = 'a'\nnormal = '-z'\n[task]\n",
+    "contact[0].normal",
+    "'-z' is not 'x', 'y', 'z' or a list of 3 numbers",
+)
+_hand(
+    "link-radius",
+    "[task]\n",
+    "[[contact]]\nlink = 'a'\nradius = '-1 mm'\n[task]\n",
+    "contact[0].radius",
+    "must be greater than 0",
+)
+_hand(
+    "link-normals-pad",
+    "[task]\n",
+    "[[contact]]\nlink = 'a'\nnormals = 'pad'\n[task]\n",
+    "contact[0].normal",
+    "missing key 'normal'",
+)
+_hand(
+    "link-names",
+    "[task]\n",
+    "[[contact]]\nlink = 'a'\n[[contact]]\nlink = 'a'\n[task]\n",
+    "contact[1]",
+    "two contacts have the name 'a'; give each of them a name",
+)
 _hand("contact-at", "[task]\n", "[[contact]]\nfriction = 1\n[task]\n", "contact[0].at", "missing key 'at'")
 
 _add("no-grasp-file", {"problem.toml": MATRICES, "wrench.csv": WRENCH}, "grasp.file", "grasp file")

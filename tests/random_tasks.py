@@ -124,7 +124,7 @@ def _task(rng: np.random.Generator, grasp: Grasp) -> Task:
     dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
     if dimension and rng.uniform() < 0.6:
         wanted = Wanted("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
-    return Task(times, wrench, wanted, 0.1, _limits(rng, grasp, load), goal)
+    return Task(times, wrench, wanted, 0.1, _limits(rng, grasp, load), (goal,))
 
 
 def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit, ...]:

@@ -50,7 +50,7 @@ def tripod(mu: float = 0.8) -> Grasp:
 def task(wrench: Array, margin: float, goal: str, *limits) -> Task:
     w = np.atleast_2d(np.asarray(wrench, dtype=float))
     times = np.linspace(0, 1, len(w)) if len(w) > 1 else np.zeros(1)
-    return Task(times, w, still(times), margin, limits, goal)
+    return Task(times, w, still(times), margin, limits, (goal,))
 
 
 def planned(*args) -> Plan:

@@ -8,6 +8,8 @@ from random_grasps import random_grasp
 
 from synergrip.conic.build import build
 from synergrip.conic.cones import distance_to_cones
+from synergrip.conic.goals.after import After, Held
+from synergrip.conic.goals.goal import squares_of
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -133,7 +135,8 @@ def test_the_last_goal_holds_the_forces_and_prices_redundancy_only() -> None:
     rng, situation = random_situation(0)
     v = rng.normal(size=(KNOTS, situation.n_v))
     assert situation.n_v > situation.n_alpha
-    program = build(situation, [], LeastReconfiguration(v))
+    parts = (squares_of(situation.alpha, 1 / situation.force_unit), squares_of(situation.beta, 1 / 0.01))
+    program = build(situation, [], After(LeastReconfiguration(), tuple(Held(part, v) for part in parts)))
     assert distance_to_cones(program, program.b - program.A @ v.ravel()) < 1e-15
     moved = v.copy()
     moved[:, : situation.n_alpha] += 0.1
@@ -143,7 +146,8 @@ def test_the_last_goal_holds_the_forces_and_prices_redundancy_only() -> None:
     assert distance_to_cones(program, program.b - program.A @ moved.ravel()) == pytest.approx(0.1)
     gamma = situation.gamma.at(v) / situation.units.reference
     assert gamma.size
-    assert program.objective(v.ravel()) == pytest.approx((gamma**2).sum() / 2)
+    free = v[:, -1]  # the share of the rigid motion that is the program's choice
+    assert program.objective(v.ravel()) == pytest.approx((gamma**2).sum() / 2 + (free**2).sum() / 2)
 
 
 @pytest.mark.parametrize("seed", range(6))

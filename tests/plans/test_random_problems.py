@@ -9,8 +9,9 @@ from random_tasks import random_task_on_grasp
 from synergrip.errors import SelfCheckError
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import SLACKS, plan
+from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import RefereeAnswer, referee
+from synergrip.plans.stages import SLACKS
 
 CHUNK = 25
 CHUNKS = 12

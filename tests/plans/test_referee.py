@@ -11,6 +11,8 @@ from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.decide import decide, judge
+from synergrip.conic.goals.after import After, Held
+from synergrip.conic.goals.goal import squares_of
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -28,10 +30,11 @@ from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import LOOSE, plan
+from synergrip.plans.planning import plan
 from synergrip.plans.question import Question
 from synergrip.plans.referee.judge import referee, solve
 from synergrip.plans.solvers import SOLVERS
+from synergrip.plans.stages import LOOSE
 from synergrip.plans.task import Task, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
@@ -82,9 +85,11 @@ def test_redundancy_is_settled_alike(seed: int) -> None:
     outcome = plan(*random_task_on_grasp(np.random.default_rng(seed)))
     assert isinstance(outcome, Plan)
     situation = outcome.situation
-    goal = LeastReconfiguration(np.hstack([outcome.alpha / situation.force_unit, np.zeros_like(outcome.gamma)]))
+    forces = squares_of(situation.alpha, 1 / situation.force_unit)
+    v = np.hstack([outcome.alpha / situation.force_unit, np.zeros_like(outcome.gamma)])
+    goal = After(LeastReconfiguration(), (Held(forces, v),))
     watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
-    loosened = tuple(replace(limit, limit=frozen(limit.limit * (1 + LOOSE))) for limit in watching)
+    loosened = tuple(limit.loosened(LOOSE) for limit in watching)
     question = Question(situation, loosened, goal)
     program = question.program()
     direct = decide("redundancy", program, clarabel_.solve).solution
@@ -149,7 +154,7 @@ def test_frictionless_contacts_are_known() -> None:
     grasp = random_grasp(np.random.default_rng(3), kinds=["hard", "soft", "frictionless", "hard"], n_q=8, n_z=5)
     times = frozen([0.5])
     limits = (NormalForce(-20.0, 20.0), JointTorque(frozen(np.full(8, 2.0))))
-    task = Task(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, "margin")
+    task = Task(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, ("margin",))
     outcome, second = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
     assert outcome.verdict == second.verdict == referee(analyse(grasp), task).verdict
 
@@ -194,7 +199,7 @@ def test_a_program_of_another_question_is_refused() -> None:
 def test_an_unbounded_margin_is_claimed_as_such() -> None:
     grasp = hand_like_grasp(np.random.default_rng(0))
     times = frozen([0.5])
-    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), "margin")
+    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), ("margin",))
     analysis = analyse(grasp)
     situation = situate(
         analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=task.wrench,

@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
+from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
 from synergrip.plans.verified import identities, verified_plan
 
@@ -45,4 +47,4 @@ def test_a_plan_that_breaks_a_limit_never_gets_out() -> None:
     outcome = tripod()
     task: Task = replace(outcome.task, margin=outcome.margins.min() + 0.1)
     with pytest.raises(SelfCheckError, match="slip margin"):
-        verified_plan(task, outcome.analysis, outcome.situation, outcome.decisions, None)
+        verified_plan(task, outcome.analysis, Stage(outcome.situation, (), LeastEffort(), outcome.decisions), None)

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.reading.loads import MOVING_KNOTS, Loads, loads
+from synergrip.plans.reading.knots import MOVING_KNOTS
+from synergrip.plans.reading.loads import Loads, loads
 from synergrip.plans.reading.task_file import TaskTable
 
 WRENCH = "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm"
@@ -158,3 +159,17 @@ def test_a_missing_file_is_refused_at_its_key(tmp_path: Path) -> None:
         _loads(tmp_path, motion="nowhere.csv")
     assert caught.value.issues[0].key == "task.motion"
     assert "nowhere.csv" in caught.value.issues[0].message
+
+
+def test_two_broken_files_are_both_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        _loads(tmp_path, motion="nowhere.csv", wrench="neither.csv")
+    assert [issue.key for issue in caught.value.issues] == ["task.wrench", "task.motion"]
+
+
+def test_several_knots_need_time(tmp_path: Path) -> None:
+    name = _csv(tmp_path, "w.csv", WRENCH, [0])
+    with pytest.raises(InputError) as caught:
+        _loads(tmp_path, wrench=name, knots=5)
+    assert caught.value.issues[0].key == "task.knots"
+    assert "no time for 5 knots: the task begins at 0 s and ends at 0 s" in caught.value.issues[0].message

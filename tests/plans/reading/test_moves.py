@@ -9,10 +9,22 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
-from synergrip.plans.reading.moves import PROFILES, moved, profile, turned
-from synergrip.plans.reading.task_file import MoveTable, PalmTable
+from synergrip.linalg import Array
+from synergrip.plans.reading.motion_tables import MoveTable, PalmTable
+from synergrip.plans.reading.moves import Moves, moved
+from synergrip.plans.reading.palm_motion import palm_motion
+from synergrip.plans.reading.profiles import COURSES, Course
 
 TIMES = np.linspace(0.0, 2.0, 401)
+
+
+def profile(name: Any, times: Array) -> Array:
+    """The course over all of these times."""
+    return Course(name, float(times[0]), float(times[-1])).at(times)
+
+
+def turned(gravity: Array, palm: PalmTable, times: Array) -> Array:
+    return palm_motion(palm, float(times[0]), float(times[-1])).seen(gravity, times)
 
 
 def _palm(**keys: Any) -> PalmTable:
@@ -23,7 +35,11 @@ def _moves(*tables: dict[str, Any]) -> tuple[MoveTable, ...]:
     return tuple(MoveTable.model_validate(table) for table in tables)
 
 
-@pytest.mark.parametrize("name", list(PROFILES))
+def _moved(*tables: dict[str, Any]) -> Moves:
+    return moved(_moves(*tables), float(TIMES[0]), float(TIMES[-1]))
+
+
+@pytest.mark.parametrize("name", list(COURSES))
 def test_every_profile_runs_from_0_to_1_and_never_back(name: str) -> None:
     course = profile(name, TIMES)
     assert course[0] == 0
@@ -46,18 +62,41 @@ def test_smooth_profiles_begin_and_end_at_rest(name: str, order: int) -> None:
     assert linear[1] / 1e-3 == pytest.approx(1)
 
 
-@pytest.mark.parametrize("name", list(PROFILES))
+@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("derivative", [1, 2])
+def test_derivatives_of_a_course_are_those_of_central_differences(name: Any, derivative: int) -> None:
+    course, step = Course(name, -1.0, 3.0), 1e-4
+    times = np.linspace(-0.9, 2.9, 20)
+    below, here, above = (course.at(times + shift) for shift in (-step, 0.0, step))
+    expected = (above - below) / (2 * step) if derivative == 1 else (above - 2 * here + below) / step**2
+    assert course.at(times, derivative) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", list(COURSES))
+def test_a_course_is_at_rest_before_and_after(name: Any) -> None:
+    course, outside = Course(name, 1.0, 2.0), np.array([0.0, 0.9, 2.1, 7.0])
+    assert course.at(outside).tolist() == [0, 0, 1, 1]
+    assert not course.at(outside, 1).any()
+    assert not course.at(outside, 2).any()
+
+
+def test_at_its_ends_a_course_has_the_acceleration_from_inside() -> None:
+    """The cubic course starts and stops with 6 / T^2."""
+    assert Course("cubic", 1.0, 3.0).at(np.array([1.0, 3.0]), 2) == pytest.approx([1.5, -1.5])
+
+
+@pytest.mark.parametrize("name", list(COURSES))
 def test_a_profile_depends_on_the_share_of_the_time_that_has_passed(name: str) -> None:
     assert profile(name, 3.0 + 0.5 * TIMES) == pytest.approx(profile(name, TIMES), abs=1e-12)
     assert profile(name, np.array([0.7])) == pytest.approx([1.0])
 
 
 def test_min_jerk_is_the_default() -> None:
-    default = moved(_moves({"axis": "x", "lift": "1 m"}), TIMES).values
-    assert default[:, 0] == pytest.approx(profile("min-jerk", TIMES))
+    default = _moved({"axis": "x", "lift": "1 m"})
+    assert default.at(TIMES)[:, 0] == pytest.approx(profile("min-jerk", TIMES))
 
 
-@pytest.mark.parametrize("name", list(PROFILES))
+@pytest.mark.parametrize("name", list(COURSES))
 def test_gravity_turns_the_other_way_than_the_palm(name: str) -> None:
     axis, gravity = np.array([1.0, -2.0, 0.5]), np.array([1.0, 2.0, -9.0])
     found = turned(gravity, _palm(axis=axis.tolist(), turn="130 deg", profile=name), TIMES)
@@ -72,45 +111,35 @@ def test_a_palm_that_turns_over_hangs_the_object_from_the_fingers() -> None:
     assert found == pytest.approx(np.array([[0, 0, -9.81], [0, -9.81, 0], [0, 0, 9.81]]), abs=1e-12)
 
 
-def test_without_a_palm_gravity_stays() -> None:
-    assert np.array_equal(turned(np.array([0, 0, -9.81]), None, TIMES), np.tile([0, 0, -9.81], (len(TIMES), 1)))
-
-
 def test_moves_along_axes_add_up() -> None:
-    wanted = moved(
-        _moves(
-            {"axis": "z", "lift": "10 mm", "profile": "linear"},
-            {"axis": [0, 3, 4], "lift": "5 mm", "roll": "90 deg", "profile": "cubic"},
-        ),
-        TIMES,
+    wanted = _moved(
+        {"axis": "z", "lift": "10 mm", "profile": "linear"},
+        {"axis": [0, 3, 4], "lift": "5 mm", "roll": "90 deg", "profile": "cubic"},
     )
-    assert (wanted.kind, wanted.key) == ("motion", "task.move")
+    assert not wanted.along_modes
     linear, cubic = profile("linear", TIMES), profile("cubic", TIMES)
     expected = np.outer(linear, [0, 0, 0.01, 0, 0, 0])
     expected += np.outer(cubic, [0, 0.003, 0.004, 0, 0.6 * np.pi / 2, 0.8 * np.pi / 2])
-    assert wanted.values == pytest.approx(expected, abs=1e-15)
+    assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
 
 
 def test_moves_along_modes_fill_their_columns_and_add_up() -> None:
-    wanted = moved(
-        _moves(
-            {"mode": 3, "amplitude": "2 mm", "profile": "linear"},
-            {"mode": 1, "amplitude": "-1 mm", "profile": "cubic"},
-            {"mode": 3, "amplitude": "1 mm", "profile": "linear"},
-        ),
-        TIMES,
+    wanted = _moved(
+        {"mode": 3, "amplitude": "2 mm", "profile": "linear"},
+        {"mode": 1, "amplitude": "-1 mm", "profile": "cubic"},
+        {"mode": 3, "amplitude": "1 mm", "profile": "linear"},
     )
-    assert (wanted.kind, wanted.key) == ("mode moves", "task.move")
+    assert wanted.along_modes
     expected = np.column_stack(
         [-0.001 * profile("cubic", TIMES), np.zeros(len(TIMES)), 0.003 * profile("linear", TIMES)]
     )
-    assert wanted.values == pytest.approx(expected, abs=1e-15)
+    assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
 
 
 @pytest.mark.parametrize("turned_round", [False, True])
 def test_moves_along_axes_and_modes_do_not_mix(turned_round: bool) -> None:
     moves = _moves({"axis": "z", "lift": "1 mm"}, {"mode": 1, "amplitude": "1 mm"})
     with pytest.raises(InputError) as caught:
-        moved(moves[::-1] if turned_round else moves, TIMES)
+        moved(moves[::-1] if turned_round else moves, 0.0, 1.0)
     assert caught.value.issues[0].key == "task.move"
     assert "cannot be mixed" in caught.value.issues[0].message

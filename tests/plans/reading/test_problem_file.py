@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from synergrip.errors import InputError
+from synergrip.plans.reading.contact_list import LinkPlace
 from synergrip.plans.reading.problem_file import problem_schema, read_problem_file
 
 DATA = Path(__file__).parent.parent.parent / "data" / "bad_inputs"
@@ -48,7 +49,7 @@ def test_defaults():
     assert (problem.task.tracking, problem.task.move, problem.task.gravity) == ("rigid", (), None)
     assert problem.limits.margin == 0.0
     assert problem.limits.normal_force is None
-    assert problem.goal.name == "effort"
+    assert problem.goal.names == ("effort",)
     assert problem.output.write == ()
     assert problem.contact_list() == ()
     assert read("goal={}").goal == problem.goal
@@ -64,10 +65,13 @@ def test_defaults():
         ("limits.actuator_effort=[1, '2 N m']", "limits", "actuator_effort", (1.0, 2.0)),
         ("limits.synergy_reference=0.5", "limits", "synergy_reference", 0.5),
         ("limits.synergy_rate=[1, 2]", "limits", "synergy_rate", (1.0, 2.0)),
-        ("goal={maximise='margin'}", "goal", "name", "margin"),
+        ("goal={maximise='margin'}", "goal", "names", ("margin",)),
         ("hand.synergies=['close', 'spread']", "hand", "synergies", ("close", "spread")),
         ("hand.synergies=all", "hand", "synergies", "all"),
         ("hand.posture=open", "hand", "posture", "open"),
+        ("hand.close=close", "hand", "close", "close"),
+        ("hand.close=-close", "hand", "close", "-close"),
+        ("hand.close={s1=-1, s2=0.2}", "hand", "close", {"s1": -1.0, "s2": 0.2}),
         ("hand.coupling=1/4", "hand", "coupling", 0.25),
         ("hand.coupling={finger1=1, finger2='1/2'}", "hand", "coupling", {"finger1": 1.0, "finger2": 0.5}),
         ("hand.compliance.joint=['1 rad/(N m)', '0 rad/(N m)']", "hand", "compliance.joint", (1.0, 0.0)),
@@ -75,6 +79,8 @@ def test_defaults():
         ("object.shape={box={size=['1 m', '2 m', '3 cm']}}", "object", "shape.box.size", (1.0, 2.0, 0.03)),
         ("object.shape={cylinder={radius='1 m',height='2 m'}}", "object", "shape.cylinder.height", 2.0),
         ("object.position=['0 m', '-1 m', '3 cm']", "object", "position", (0.0, -1.0, 0.03)),
+        ("object.orientation={axis='y', angle='90 deg'}", "object", "orientation.axis", (0.0, 1.0, 0.0)),
+        ("object.orientation={axis=[0, 3, 4], angle='180 deg'}", "object", "orientation.angle", math.pi),
         ("task.palm={axis=[0, 3, 4], turn='-90 deg'}", "task", "palm.axis", (0.0, 0.6, 0.8)),
         ("task.wrench=[1, 2, 3, 4, 5, 6]", "task", "wrench", (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)),
         ("task.wrench=w.csv", "task", "wrench", "w.csv"),
@@ -116,6 +122,19 @@ def test_contacts_take_the_defaults_and_may_differ():
     assert contacts[3].key == "contact[1].at"
 
 
+def test_a_contact_on_a_link_has_a_place_of_its_own():
+    contacts = read(
+        "contacts.at=['finger1/tip']",
+        "contact=[{link='palm', point=['1 mm', '-2 cm', '0 m'], normal=[0, 3, -4], radius='5 mm', friction=0.2},"
+        "{link='palm', name='again'}]",
+    ).contact_list()
+    assert [c.name for c in contacts] == ["finger1/tip", "palm", "again"]
+    assert contacts[1].at == LinkPlace("palm", (0.001, -0.02, 0.0), (0.0, 0.6, -0.8), 0.005)
+    assert contacts[2].at == LinkPlace("palm", (0.0, 0.0, 0.0), None, 0.0)
+    assert [c.friction for c in contacts] == [0.6, 0.2, 0.6]
+    assert [c.key for c in contacts] == ["contacts.at[0]", "contact[0].link", "contact[1].link"]
+
+
 def test_the_stiffness_across_follows_the_stiffness_along():
     assert [c.tangential_stiffness for c in read().contact_list()] == [8000.0] * 3
 
@@ -152,6 +171,22 @@ def test_a_frictionless_contact_ignores_the_default_friction_but_has_none_of_its
         ("{at='a,b', name='a'}", "contact[0].at", "may not hold commas, quotes or control"),
         ("{at='a', normals='palm'}", "contact[0].normals", "'palm' is not one of 'object' or 'pad'"),
         ("{at=''}", "contact[0].at", "must not be empty"),
+        ("{}", "contact[0].at", "missing key 'at' (name of a pad of the hand) or 'link' (name of a link)"),
+        ("{name='x', point=['0 m', '0 m', '0 m']}", "contact[0].at", "missing key 'at'"),
+        ("{at='a', link='b'}", "contact[0].link", "at a pad or on a link, not both"),
+        ("{at='a', point=['0 m', '0 m', '0 m']}", "contact[0].point", "'point' goes with 'link'; a pad has its own"),
+        ("{at='a', normal='z'}", "contact[0].normal", "'normal' goes with 'link'; a pad has its own"),
+        ("{at='a', radius='1 mm'}", "contact[0].radius", "'radius' goes with 'link'; a pad has its own"),
+        ("{link='a'}, {link='a'}", "contact[1]", "two contacts have the name 'a'; give each of them a name"),
+        ("{link='a', name='b'}, {at='b'}", "contact[1]", "two contacts have the name 'b'"),
+        ("{at='b'}, {link='a', name='b'}", "contact[1]", "two contacts have the name 'b'"),
+        ("{link='a', name='finger1/tip'}", "contact[0]", "two contacts have the name 'finger1/tip'"),
+        ("{link='a', point=['0 mm', '0 mm']}", "contact[0].point", "expected 3 lengths, got 2"),
+        ("{link='a', point=['0 m', 0, '0 m']}", "contact[0].point[1]", "0 has no unit"),
+        ("{link='a', normal='w'}", "contact[0].normal", "'w' is not 'x', 'y', 'z' or a list of 3 numbers"),
+        ("{link='a', normal=[0, 0, 0]}", "contact[0].normal", "an axis needs a direction"),
+        ("{link='a', radius='0 mm'}", "contact[0].radius", "must be greater than 0"),
+        ("{link='a', normals='pad'}", "contact[0].normal", "missing key 'normal'; normals = \"pad\" needs it"),
     ],
 )
 def test_contacts_that_cannot_be(contact, key, fragment):
@@ -175,6 +210,14 @@ def test_contacts_that_cannot_be(contact, key, fragment):
         ("limits.synergy_rate=[]", "limits.synergy_rate", "expected one or more numbers, got 0"),
         ("limits.margin=1e200 N", "limits.margin", "is too large"),
         ("hand.synergies=[1]", "hand.synergies[0]", "expected a name, got 1"),
+        ("hand.close=3", "hand.close", "expected the name of a synergy or joint, with '-' in front"),
+        ("hand.close=''", "hand.close", "expected the name of a synergy or joint"),
+        ("hand.close={}", "hand.close", "or weights by name such as { s1 = -1, s2 = 0.2 }, got a table"),
+        ("hand.close={s1='5 deg'}", "hand.close.s1", "expected a number, got '5 deg'"),
+        ("object.orientation={axis='x'}", "object.orientation.angle", "missing key 'angle'"),
+        ("object.orientation={axis='x', angle=90}", "object.orientation.angle", "90 has no unit"),
+        ("object.orientation={axis=[0,0,0], angle='9 deg'}", "object.orientation.axis", "an axis needs a direction"),
+        ("object={mass='1 g', orientation={axis='x', angle='9 deg'}}", "object.orientation", "give object.shape"),
         ("hand.posture=3", "hand.posture", "expected the name of a posture or a table"),
         ("task.wrench=3", "task.wrench", "expected the name of a CSV file or 6 numbers"),
         ("expect.dims=[1, 2]", "expect.dims", "expected at least 3 entries, got 2"),

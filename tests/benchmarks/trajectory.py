@@ -1,0 +1,94 @@
+"""What a long trajectory costs: our planning against Clarabel alone, and against the same problem written in CVXPY.
+
+    python tests/benchmarks/trajectory.py [KNOTS ...]
+
+Three hard-finger contacts, bounded synergy rates, and least effort with a price on the travel, so that all knots are
+one program. Prints, for each number of knots, processor time per knot of the whole planning (assembly, solution,
+certificate, the plan's own checks), its ratio to Clarabel alone on the same program, and, up to 2,000 knots, the
+ratios of time and peak memory to the vectorised CVXPY model. Every figure is of a process of its own.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+GOAL = "goal={minimise={effort=1, travel=0.001}}"
+LIMITS = 'limits={margin="0.5 N", normal_force="20 N", joint_torque="hand", synergy_rate=0.5}'
+CVXPY_KNOTS = 10_000
+"""More than that takes the CVXPY model minutes."""
+
+
+def measured(run: Callable[[], object]) -> tuple[float, float]:
+    """Return processor time [s] and growth of the peak memory [MB] of a call."""
+    before, start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.process_time()
+    run()
+    return time.process_time() - start, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1e3
+
+
+def child(what: str, knots: int) -> None:
+    """Measure one thing in this process and print time and memory."""
+    from synergrip.conic.solution import Settings
+    from synergrip.conic.solvers import clarabel_
+    from synergrip.plans.outcome import Plan
+    from synergrip.plans.planning import plan
+    from synergrip.plans.problem import load_problem
+    from synergrip.plans.referee import judge as referee
+
+    problem = load_problem("barrett-ball-hold", [f"task.knots={knots}", GOAL, LIMITS])
+    small = load_problem("barrett-ball-hold", ["task.knots=3", GOAL, LIMITS])
+    warm = plan(small.grasp, small.task)
+    assert isinstance(warm, Plan), "the problem is meant to be feasible"
+    if what == "plan":
+        outcomes: list[object] = []
+        print(*measured(lambda: outcomes.append(plan(problem.grasp, problem.task))))
+        assert isinstance(outcomes[0], Plan), outcomes[0]
+        return
+    question = first_question(problem)
+    program = question.program()
+    if what == "clarabel":
+        print(*measured(lambda: clarabel_.solve(program, Settings())))
+    else:
+        three = first_question(small)
+        referee.solve(three, three.program(), Settings())  # CVXPY's own imports are no part of the comparison
+        print(*measured(lambda: referee.solve(question, program, Settings())))
+
+
+def first_question(problem: object) -> object:
+    """Return the one question that planning asks of this problem."""
+    from synergrip.plans import planning
+
+    asked: list[object] = []
+    answer = planning.SOLVERS["clarabel"]
+    planning.plan(problem.grasp, problem.task, lambda q, p, s: (asked.append(q), answer(q, p, s))[1])  # type: ignore[attr-defined]
+    return asked[0]
+
+
+def figures(what: str, knots: int) -> tuple[float, float]:
+    """Return processor time [s] and memory [MB] of one thing, in a process of its own."""
+    command = [sys.executable, __file__, "--child", what, str(knots)]
+    output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    seconds, megabytes = output.split()
+    return float(seconds), float(megabytes)
+
+
+def main() -> None:
+    """Print one line for each number of knots."""
+    if sys.argv[1:2] == ["--child"]:
+        child(sys.argv[2], int(sys.argv[3]))
+        return
+    print(f"{'knots':>6}  {'ms per knot':>11}  {'/ Clarabel alone':>16}  {'time / CVXPY':>12}  {'memory / CVXPY':>14}")
+    for knots in [int(text) for text in sys.argv[1:]] or [100, 1_000, 2_000, 10_000]:
+        ours, alone = figures("plan", knots), figures("clarabel", knots)
+        row = f"{knots:>6}  {1e3 * ours[0] / knots:>11.3f}  {ours[0] / alone[0]:>16.2f}"
+        if knots <= CVXPY_KNOTS:
+            theirs = figures("cvxpy", knots)
+            row += f"  {ours[0] / theirs[0]:>12.2f}  {ours[1] / theirs[1]:>14.2f}"
+        print(row, flush=True)
+
+
+if __name__ == "__main__":
+    main()

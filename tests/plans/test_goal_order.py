@@ -1,0 +1,137 @@
+"""Goals one after the other: the first keeps its best value, the next is best among those, whoever solves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from random_tasks import random_task_on_grasp
+
+from synergrip.conic.limits.joint_range import JointRange
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen
+from synergrip.plans.analysis import analyse
+from synergrip.plans.outcome import Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.solvers import SOLVERS
+from synergrip.plans.task import Task, Wanted
+
+ORDERS = [
+    ("margin", "effort", "travel"),
+    ("margin", "torque", "smooth"),
+    ("peak_force", "margin", "torque", "references"),
+    ("effort", "smooth"),
+    ("effort", "centred"),
+    ("actuator", "references"),
+    ("smooth", "effort"),
+    ("travel", "effort"),
+    ("references",),
+    ("weighted", "travel"),
+]
+WEIGHTS = {"effort": 1.0, "torque": 0.3, "smooth": 1e-3}
+
+
+def task_of(seed: int, order: tuple[str, ...]) -> tuple[Grasp, Task]:
+    """A random task over five uneven knots, without limits that forbid it."""
+    rng = np.random.default_rng(seed)
+    grasp, task = random_task_on_grasp(rng)
+    times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))
+    wrench = np.linspace(task.wrench[0], task.wrench[-1], 5) + 0.1 * rng.normal(size=(5, 6)) * [1, 1, 1, 0, 0, 0]
+    dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
+    wanted = Wanted("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
+    start = rng.uniform(-0.5, 0.5, grasp.n_q)
+    ranges = JointRange(frozen(start), frozen(start - rng.uniform(0.5, 1, grasp.n_q)), frozen(start + 0.7))
+    return grasp, replace(
+        task, times=times, wrench=frozen(wrench), wanted=wanted, order=order, ranges=ranges, margin=0.0,
+        weights=WEIGHTS if "weighted" in order else {},
+    )  # type: ignore[arg-type]  # fmt: skip
+
+
+def values(outcome: Plan) -> dict[str, float]:
+    """Return what each goal measures of a plan, by formulas of its own."""
+    motion, scale, ranges = outcome.motion, outcome.analysis.response.scale, outcome.task.ranges
+    assert ranges is not None
+    h = np.diff(motion.times)[:, None]
+    rates = np.diff(motion.dz_r, axis=0) / h
+    span = (h[1:] + h[:-1]) / 2
+    bends = np.diff(rates, axis=0) / span
+    middle, half = (ranges.lower + ranges.upper) / 2, (ranges.upper - ranges.lower) / 2
+
+    def squares(array: Array) -> float:
+        return float((array**2).sum())
+
+    effort, torque = squares(motion.forces * scale.force), squares(motion.torques / scale.length)
+    smooth = squares(bends * np.sqrt(span))
+    knots, duration, units = len(motion.times), motion.times[-1] - motion.times[0], outcome.situation.units
+    weighted = (effort + 0.3 * torque) / units.force**2 + 1e-3 * knots * duration**3 * smooth / units.reference**2
+    return {
+        "margin": -float(outcome.margins.min()),
+        "peak_force": float(motion.forces[:, outcome.analysis.grasp.normal_rows].max()),
+        "effort": effort,
+        "torque": torque,
+        "actuator": squares(motion.efforts / scale.length),
+        "references": squares(motion.dz_r),
+        "travel": squares(rates * np.sqrt(h)),
+        "smooth": smooth,
+        "weighted": weighted,
+        "centred": squares((ranges.start + motion.dq - middle) / half),
+    }
+
+
+@pytest.mark.parametrize("order", ORDERS, ids="-".join)
+def test_each_goal_is_best_among_those_before_it(order: tuple[str, ...]) -> None:
+    found = 0
+    for seed in range(200, 207):
+        grasp, task = task_of(seed, order)
+        outcome = plan(grasp, task)
+        if not isinstance(outcome, Plan):
+            continue
+        found += 1
+        assert all(decision.certificate.verified for decision in outcome.decisions)
+        assert not [note for note in outcome.notes if "leave nothing open" not in note], (seed, outcome.notes)
+        reached = values(outcome)
+        for k, name in enumerate(order):
+            best = plan(grasp, replace(task, order=order[: k + 1]))  # nobody comes after this goal
+            assert isinstance(best, Plan)
+            size = max(abs(values(best)[name]), 1e-3)
+            assert reached[name] <= values(best)[name] + 2e-5 * size, (seed, name)
+    assert found >= 3
+
+
+@pytest.mark.parametrize("order", ORDERS, ids="-".join)
+def test_both_formulations_choose_the_same_plan(order: tuple[str, ...]) -> None:
+    compared = 0
+    for seed in range(200, 206):
+        grasp, task = task_of(seed, order)
+        one, two = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
+        assert one.verdict == two.verdict
+        if isinstance(one, Plan) and isinstance(two, Plan):
+            compared += 1
+            first, second = values(one), values(two)
+            for name in order:
+                assert first[name] == pytest.approx(second[name], rel=2e-5, abs=2e-5), (seed, name)
+    assert compared
+
+
+def test_the_least_motion_of_a_redundant_hand_beats_any_other_choice() -> None:
+    """Perturb the redundancy of a plan that travels least: forces stay, the travel grows."""
+    for seed in (89, 130, 146, 213):
+        grasp, task = task_of(seed, ("effort", "travel"))
+        outcome = plan(grasp, replace(task, limits=task.limits[:2]))
+        assert isinstance(outcome, Plan)
+        assert outcome.gamma.size
+        rng = np.random.default_rng(0)
+        least = values(outcome)["travel"]
+        for size in (1e-3, 1e-1):
+            gamma = outcome.gamma + size * rng.normal(size=outcome.gamma.shape)
+            dz_r = outcome.analysis.coordinates.references(outcome.alpha, outcome.beta, gamma)
+            moved = replace(outcome, motion=replace(outcome.motion, dz_r=dz_r))
+            assert values(moved)["travel"] > least
+
+
+def test_centring_joints_needs_their_ranges() -> None:
+    grasp, task = task_of(200, ("effort", "centred"))
+    with pytest.raises(InputError, match="joint ranges"):
+        plan(grasp, replace(task, ranges=None))
