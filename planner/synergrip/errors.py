@@ -66,9 +66,13 @@ class InputError(SynergripError):
         return type(self)([locate(issue) for issue in self.issues])
 
     def under(self, prefix: str) -> InputError:
-        """Return the same error with `prefix` in front of every key."""
-        joined = [replace(i, key=".".join(part for part in (prefix, i.key) if part)) for i in self.issues]
-        return type(self)(joined)
+        """Return the same error with `prefix` in front of every key; issues that have their place already keep it."""
+        return type(self)([i if i.file else replace(i, key=_joined(prefix, i.key)) for i in self.issues])
+
+
+def _joined(prefix: str, key: str) -> str:
+    """Return ``prefix.key``, or ``prefix[0]`` for the key of an entry of a list."""
+    return f"{prefix}{key}" if key.startswith("[") or not (prefix and key) else f"{prefix}.{key}"
 
 
 class RigidContactError(InputError):

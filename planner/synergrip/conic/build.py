@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.conic.box import LARGEST, box
-from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
-from synergrip.conic.rows import Rows
+from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 
@@ -26,13 +26,27 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     extra = 0 if cost.epigraph is None else 1
     T, n_v = situation.knots, situation.n_v
     n, m = T * n_v + extra, sum(part.constant.size for part in rows)
-    P = _sparse([_repeated(np.asarray(cost.quadratic), np.arange(T), 0, 0)], (n, n))
+    P, linear = _quadratic(cost.squares, T, n_v, n)
     A = _sparse([triplets for part, top in _tops(rows) for triplets in _entries(part, top, T, n - 1)], (m, n))
-    q = np.concatenate([np.asarray(cost.linear).ravel(), [] if cost.epigraph is None else [cost.epigraph]])
+    q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
     blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
     return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds))
+
+
+def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, n: int) -> tuple[sparse.csc_matrix, Array]:
+    """Return P (n, n) and q (n,) of half the sum of squares, constants left out."""
+    P, q = sparse.csc_matrix((n, n)), np.zeros(n)
+    for part in squares:
+        if part.earlier:
+            rows = Rows("", Kind.ZERO, 1, (), part.matrix, part.constant, np.zeros(len(part.matrix)), part.earlier)
+            B = -_sparse(list(_entries(rows, 0, knots, n - 1)), (part.constant.size, n))
+            P, q = P + (B.T @ B).tocsc(), q + B.T @ part.constant.ravel()
+        else:  # one block for all knots
+            P = P + _sparse([_repeated(part.matrix.T @ part.matrix, np.arange(knots), 0, 0)], (n, n))
+            q[: knots * n_v] += (part.constant @ part.matrix).ravel()
+    return P, q
 
 
 def _tops(rows: Sequence[Rows]) -> Iterator[tuple[Rows, int]]:

@@ -13,7 +13,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Check
-from synergrip.plans.reading.loads import distinct
+from synergrip.plans.reading.knots import distinct
 from synergrip.plans.references import References
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import Followed, followed

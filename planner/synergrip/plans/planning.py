@@ -2,43 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-
-import numpy as np
 
 from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.decide import Decision
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.goals.least_peak import LeastPeak
-from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.situation import Situation, situate
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.clash import clashes
-from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
+from synergrip.plans.goals import goals_of
+from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
+from synergrip.plans.stages import SLACKS, Stage, after, settled
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import followed
 from synergrip.plans.units import units_of
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
-
-SLACKS = (1e-8, 1e-7)
-"""How much of a best value, in force units, the next goal may give up, so that its program has an interior."""
-LOOSE = 1e-7
-"""How much the reference limits are loosened, relatively, while redundancy is settled."""
 
 
 def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
@@ -72,97 +62,43 @@ def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refus
 
 
 class _Planner:
-    """The order of the goals. Verified decisions are kept, so that the outcome can show its work."""
+    """The first goal, which says whether there is a plan at all, and why not; the others follow by `stages`."""
 
     def __init__(self, task: Task, analysis: Analysis, situation: Situation, solver: Answerer) -> None:
         self.task, self.analysis, self.situation, self.solver = task, analysis, situation, solver
         self.decisions: list[Decision] = []
-        self.notes: list[str] = []
 
     def outcome(self) -> Outcome:
-        if self.task.goal == "margin":
-            return self._largest_margin()
-        if self.task.goal == "peak_force":
-            return self._least_peak()
-        return self._least_effort()
+        first, *others = goals_of(self.task)
+        cones = FrictionCone(self.task.margin)
+        limits = self.task.kept if isinstance(first, LargestMargin) else (cones, *self.task.kept)
+        best = self._ask(limits, first)
+        if not best.optimal:
+            return self._without_optimum(best, first)
+        stage, largest = Stage(self.situation, limits, first, (best,)), None
+        if isinstance(first, LargestMargin):
+            largest = stage.scalar
+            if largest < self.task.margin - SLACKS[0] * self.situation.force_unit:
+                return self._short_of_margin(best, largest)
+        for goal in others:
+            stage = after(stage, goal, self.solver)
+        return verified_plan(self.task, self.analysis, settled(stage, self.solver), largest)
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
         decision = ask(Question(self.situation, limits, goal), self.solver)
         self.decisions.append(decision)
         return decision
 
-    def _largest_margin(self) -> Outcome:
-        best = self._ask(self.task.kept, LargestMargin())
-        if not best.optimal:
-            if best.solution.claim is Claim.UNBOUNDED:
-                raise unbounded()
-            return self._no_optimum(best)
-        largest, unit = self._scalar(best), self.situation.force_unit
-        if largest < self.task.margin - SLACKS[0] * unit:
-            return self._short_of_margin(best, largest)
-        self._least_effort_at(lambda slack: (FrictionCone(largest - slack), *self.task.kept))
-        return self._plan(largest)
-
-    def _least_peak(self) -> Outcome:
-        cones = FrictionCone(self.task.margin)
-        best = self._ask((cones, *self.task.kept), LeastPeak())
-        if not best.optimal:
-            return self._without_optimum(best)
-        peak = self._scalar(best)
-        self._least_effort_at(
-            lambda slack: (cones, *self.task.kept, NormalForce(-np.inf, peak + slack, "goal.minimise"))
-        )
-        return self._plan()
-
-    def _least_effort(self) -> Outcome:
-        goal = LeastEffort("torque" if self.task.goal == "torque" else "contact")
-        best = self._ask((FrictionCone(self.task.margin), *self.task.kept), goal)
-        return self._plan() if best.optimal else self._without_optimum(best)
-
-    def _least_effort_at(self, limits: Callable[[float], tuple[Limit, ...]]) -> None:
-        """Among the best plans take the one of least effort; when none verifies, the best one found stays.
-
-        `limits` says how a slack [N] on the best value is written down.
-        """
-        before, unit = self.situation, self.situation.force_unit
-        forces = before.force.constant + self._unknowns() @ before.force.matrix.T
-        # the best plans squeeze hard: in units of that squeeze the solver's tolerances mean what they say
-        self.situation = before.in_units_of(max(unit, self.analysis.response.scale.largest_force(forces)))
-        for slack in SLACKS:
-            if self._ask(limits(slack * unit), LeastEffort()).optimal:
-                return
-            self.decisions.pop()
-        self.situation = before
-        self.notes.append("least effort among the plans that are best by this goal was not verified; it is one of them")
-
-    def _plan(self, largest: float | None = None) -> Plan:
-        self._settle_redundancy()
-        plan = verified_plan(self.task, self.analysis, self.situation, tuple(self.decisions), largest)
-        return replace(plan, notes=tuple(self.notes))
-
-    def _unknowns(self) -> Array:
-        """Return the unknowns v (T, n_v) of the last decision."""
-        return self.decisions[-1].program.unknowns(self.decisions[-1].solution.x)
-
     def _scalar(self, decision: Decision) -> float:
         """Return the goal's scalar of a decision [N]."""
         return float(decision.solution.x[-1]) * self.situation.force_unit
 
-    def _settle_redundancy(self) -> None:
-        """With the forces fixed, use no more redundancy than the reference limits force on the plan.
-
-        Fixed forces leave a limit that they touch no room for rounding; the limits are loosened by `LOOSE`.
-        """
-        v = self._unknowns()
-        if not self.situation.frees_gamma:
-            return
-        loosened = tuple(limit.loosened(LOOSE) for limit in self.task.kept if limit.watches_references)
-        if not self._ask(loosened, LeastReconfiguration(v)).optimal:
-            self.decisions.pop()  # the redundancy stays as the goal before left it, which is within all limits
-            self.notes.append("the smallest use of redundancy was not verified; it is within its limits")
-
-    def _without_optimum(self, decision: Decision) -> Outcome:
+    def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
+        if isinstance(goal, LargestMargin):
+            if decision.solution.claim is Claim.UNBOUNDED:
+                raise unbounded()
+            return self._no_optimum(decision)
         first = self._ask(self.task.kept, LargestMargin())
         largest = self._scalar(first) if first.optimal else None
         if decision.infeasible:

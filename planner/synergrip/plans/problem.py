@@ -37,6 +37,8 @@ class Problem:
     task: Task
     held: Held | None
     """The hand, its synergies and posture, and the object; None for a grasp given as matrices."""
+    notes: tuple[str, ...] = ()
+    """What is doubtful about the grasp, though it is no error."""
 
     @property
     def title(self) -> str:
@@ -80,8 +82,8 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     file, document = _read(path, overrides)
     issues: list[Issue] = []
     touching = _gather(issues, lambda: _touching(path, file))
-    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file)))
-    _gather(issues, lambda: _supported(file))
+    thing = touching.held.thing if touching is not None and touching.held is not None else None
+    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), thing))
     if touching is None or happening is None or issues:
         if touching is not None:
             _gather(issues, lambda: limits_of(file, touching.grasp, touching.limits))
@@ -93,7 +95,7 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     grasp = touching.grasp
     if touching.held is not None and happening.wrench is not None:
         grasp = replace(grasp, w_0=frozen(happening.wrench[0]))  # a hand holds its load when the task begins
-    return Problem(path.stem, path, file, document, grasp, task, touching.held)
+    return Problem(path.stem, path, file, document, grasp, task, touching.held, touching.notes)
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,7 @@ class _Touching:
 
     grasp: Grasp
     held: Held | None
+    notes: tuple[str, ...]
 
     @property
     def limits(self) -> HandLimits:
@@ -131,10 +134,21 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
     if file.grasp is not None:
         from synergrip.grasps.given import read_given
 
-        return _Touching(read_given(path.parent / file.grasp.file, "grasp.file"), None)
+        matrices = path.parent / file.grasp.file
+        return _Touching(read_given(matrices, "grasp.file"), None, _spot_notes(matrices))
     from synergrip.plans.reading.setup import hand_grasp
 
-    return _Touching(*hand_grasp(file, path.parent))
+    grasp, held = hand_grasp(file, path.parent)
+    return _Touching(grasp, held, held.notes)
+
+
+def _spot_notes(matrices: Path) -> tuple[str, ...]:
+    """Return a note for each contact of a grasp file whose point is that of another one."""
+    from synergrip.grasps.placing import same_spots
+
+    contacts = [data for data in read_document(matrices).data["contacts"] if data.get("point_m")]
+    points = [np.array(data["point_m"], dtype=float) for data in contacts]
+    return tuple(message for _, message in same_spots([data["name"] for data in contacts], points))
 
 
 def _mass(file: ProblemFile) -> float:
@@ -146,12 +160,11 @@ def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> Task:
     if wrench is None:
         wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
     limits = limits_of(file, touching.grasp, touching.limits)
-    return Task(times, wrench, happening.wanted, file.limits.margin, limits, file.goal.name, file.task.tolerance or 0.0)
-
-
-def _supported(file: ProblemFile) -> None:
-    if file.task.tracking == "compliant":
-        raise InputError.at("task.tracking", "compliant tracking is not there yet; use 'rigid'")
+    return Task(
+        times, wrench, happening.wanted, file.limits.margin, limits, file.goal.names,
+        file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, file.goal.weights,
+        touching.limits.ranges,
+    )  # fmt: skip
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:
@@ -175,7 +188,7 @@ def _stiffness_key(file: ProblemFile, error: RigidContactError) -> str:
     """Return the key that says how stiff the contact is in the direction of the error."""
     names = {"n": ("stiffness",), "m": ("spin_stiffness",)}.get(error.component, ("tangential_stiffness", "stiffness"))
     entries = [(f"contact[{i}]", entry) for i, entry in enumerate(file.contact)
-               if error.contact == (entry.name or entry.at)]  # fmt: skip
+               if error.contact == (entry.name or entry.at or entry.link)]  # fmt: skip
     for name in names:
         for table, values in [*entries, ("contacts", file.contacts)]:
             if getattr(values, name, None) is not None:

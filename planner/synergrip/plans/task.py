@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.object_error import AXES, ObjectError
+from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.linalg import Array
 
-GoalName = Literal["margin", "effort", "torque", "peak_force"]
-"""Maximise the worst margin, or minimise contact effort, torque effort, or the peak normal force."""
+GoalName = Literal[
+    "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
+]
+"""Maximise the worst margin, or minimise: contact effort, torque effort, actuator effort, the peak normal force, the
+synergy references, their rates, their accelerations, the joints' distances from the middle of their ranges; or a
+weighted sum of those that are sums of squares."""
+FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", "torque", "actuator"})
+"""Those that speak of forces only."""
+EFFORTS: frozenset[GoalName] = frozenset({"effort", "torque", "actuator"})
+"""Those that leave no force open."""
 
 
 @dataclass(frozen=True)
@@ -38,21 +48,33 @@ class Task:
     """Slip margin that every contact keeps [N]."""
     limits: tuple[Limit, ...]
     """All limits but the friction cones."""
-    goal: GoalName
+    order: tuple[GoalName, ...]
+    """The goals, the first one first; each chooses among the plans that are best by those before it."""
     tolerance: float = 0.0
     """Rigid tracking: how far the wanted motion may leave Gamma_ucs before it is refused; compliant tracking: how
     far the object may be from where it is wanted [m, rotations times length]."""
     tracking: Literal["rigid", "compliant"] = "rigid"
     """What follows the wanted motion: the rigid motion Gamma_ucs beta, or the object with its elastic motion."""
-    axes: tuple[str, ...] = AXES
+    axes: tuple[AxisName, ...] = AXES
     """On which of the six axes about B the wanted motion is asked for."""
     drift: float | None = None
     """How far the object may move on the other axes [m, rotations times length]; None when as far as it likes."""
 
+    weights: Mapping[GoalName, float] = field(default_factory=dict)
+    """The goals in "weighted", each with its weight."""
+    ranges: JointRange | None = None
+    """Joint ranges of the hand and its posture; None when not known."""
+
+    @property
+    def goal(self) -> GoalName:
+        """The first goal."""
+        return self.order[0]
+
     @property
     def watches_references(self) -> bool:
         """True when some limit looks at more than the forces, so that redundancy matters."""
-        return any(limit.watches_references for limit in self.limits)
+        goals = {*self.order, *self.weights} - {"weighted"}
+        return any(limit.watches == "references" for limit in self.limits) or not goals <= FORCE_GOALS
 
     @property
     def kept(self) -> tuple[Limit, ...]:

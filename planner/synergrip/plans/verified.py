@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from synergrip.conic.decide import Decision
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.situation import Situation
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.outcome import Check, Plan
+from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
 from synergrip.statics.motion import Motion, forces_at_start, forward
 
@@ -21,16 +24,14 @@ LIMIT = 1e-6
 """Relative tolerance of the limits, against the load or the limit itself."""
 
 
-def verified_plan(
-    task: Task, analysis: Analysis, situation: Situation, decisions: tuple[Decision, ...], largest: float | None
-) -> Plan:
-    """Return the plan of the last decision.
+def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float | None) -> Plan:
+    """Return the plan that the goals have led to.
 
     Raises:
         SelfCheckError: a check of the plan fails.
     """
-    v = decisions[-1].program.unknowns(decisions[-1].solution.x)
-    alpha, beta, gamma = situation.parts(v)
+    situation = stage.situation
+    alpha, beta, gamma = situation.parts(stage.v)
     references = analysis.coordinates.references(alpha, beta, gamma)
     motion = forward(analysis.response, task.times, references, task.wrench)
     usages = limit_usages(task, situation, motion)
@@ -41,8 +42,23 @@ def verified_plan(
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
         task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
-        frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, decisions, largest,
+        frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
+        (*stage.notes, *_ranges_left(task, situation, motion)),
     )  # fmt: skip
+
+
+def _ranges_left(task: Task, situation: Situation, motion: Motion) -> Iterator[str]:
+    """Yield a note when a joint leaves the range that the hand states and no limit says that it may not."""
+    if task.ranges is None or any(isinstance(limit, JointRange) for limit in task.limits):
+        return
+    usage = task.ranges.usage(situation, motion)
+    if usage.excess.max(initial=-np.inf) > LIMIT:
+        k, i = usage.worst()
+        factor, unit = (np.degrees(1.0), "deg") if usage.unit == "rad" else (1.0, "(rad or m)")
+        yield (
+            f"joint '{usage.items[i]}' would leave its range by {factor * usage.excess[k, i]:.3g} {unit} at t = "
+            f'{motion.times[k]:.3g} s; limits.joint_range = "hand" forbids it'
+        )
 
 
 def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usage, ...]:

@@ -1,4 +1,4 @@
-"""What every goal is: an objective, and the rows of its scalar when it has one."""
+"""What every goal is: squares to be small, or a scalar to be small, and the rows that tie the scalar to the plan."""
 
 from __future__ import annotations
 
@@ -6,19 +6,37 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
-from synergrip.linalg import Array
+import numpy as np
+
+from synergrip.conic.rows import Earlier, Rows
+from synergrip.conic.situation import Affine, Situation
+from synergrip.linalg import Array, frozen
+
+
+@dataclass(frozen=True)
+class Squares:
+    """Half the sum of squares of ``matrix v_k + constant[k]``, and of what earlier knots add to it."""
+
+    matrix: Array  # (m, n_v)
+    constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
+    earlier: tuple[Earlier, ...] = ()
+
+    def at(self, v: Array) -> Array:
+        """Return the values (K, m) whose squares are summed, at unknowns v (T, n_v)."""
+        count = len(self.constant)
+        value = self.constant + v[len(v) - count :] @ self.matrix.T
+        for part in self.earlier:
+            start = len(v) - count - part.lag
+            value = value + part.weights[:, None] * (v[start : start + count] @ part.matrix.T)
+        return np.asarray(value)
 
 
 @dataclass(frozen=True)
 class Objective:
-    """``sum_k (v_k' quadratic v_k / 2 + linear[k]' v_k) + epigraph s``."""
+    """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
 
-    quadratic: Array  # (n_v, n_v), the same at every knot
-    linear: Array  # (T, n_v)
-    epigraph: float | None
-    """Cost of the goal's scalar s; None when the goal has none."""
+    squares: tuple[Squares, ...] = ()
+    epigraph: float | None = None
 
 
 class Goal(Protocol):
@@ -33,3 +51,9 @@ class Goal(Protocol):
 
     def objective(self, situation: Situation) -> Objective:
         """Return what is minimised."""
+
+
+def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
+    """Return the squares of affine quantities (m) times `weights` (m,), at every knot."""
+    each = np.broadcast_to(np.asarray(weights, dtype=float), (len(value.matrix),))
+    return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from synergrip.conic.goals.goal import Objective
-from synergrip.conic.limits.friction_cone import friction_rows
+from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Situation
 
@@ -25,5 +23,8 @@ class LargestMargin:
 
     def objective(self, situation: Situation) -> Objective:
         """Return -s."""
-        n = situation.n_v
-        return Objective(np.zeros((n, n)), np.zeros((situation.knots, n)), -1.0)
+        return Objective(epigraph=-1.0)
+
+    def keeps(self, best: float, slack: float) -> FrictionCone:
+        """Return the limit that keeps a margin of `best` less `slack` [N]."""
+        return FrictionCone(best - slack)

@@ -1,4 +1,4 @@
-"""The smallest effort: sum of squared contact forces, or of squared joint torques."""
+"""The smallest effort: sum of squared contact forces, joint torques or actuator efforts."""
 
 from __future__ import annotations
 
@@ -6,22 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
-from synergrip.conic.goals.goal import Objective
+from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Situation
 
 
 @dataclass(frozen=True)
 class LeastEffort:
-    """Minimise the sum over knots of ``||lambda||^2`` or ``||tau||^2`` (moments divided by the length of the grasp).
+    """Minimise the sum over knots of ``||lambda||^2``, ``||tau||^2`` or ``||sigma||^2``.
 
-    Both determine the internal force: no internal force that the synergies control leaves all
-    torques unchanged, since ``J' lambda = 0`` with ``lambda`` in E_s implies ``lambda = 0``.
+    Moments and torques are divided by the length of the grasp. Each determines the internal force: one that the
+    synergies control, ``lambda = N J S z`` with N positive semidefinite, has ``S' J' lambda = 0`` only if it is 0.
     """
 
-    of: Literal["contact", "torque"] = "contact"
+    of: Literal["contact", "torque", "actuator"] = "contact"
 
     @property
     def name(self) -> str:
@@ -36,7 +34,6 @@ class LeastEffort:
         """Return the squares, in units of the force unit (times the length for torques)."""
         scale, unit = situation.response.scale, situation.force_unit
         if self.of == "contact":
-            value = situation.force.after(np.diag(scale.force) / unit)
-        else:
-            value = situation.torque.after(np.eye(situation.response.grasp.n_q) / (unit * scale.length))
-        return Objective(value.matrix.T @ value.matrix, value.constant @ value.matrix, None)
+            return Objective((squares_of(situation.force, scale.force / unit),))
+        value = situation.torque if self.of == "torque" else situation.effort
+        return Objective((squares_of(value, 1 / (unit * scale.length)),))

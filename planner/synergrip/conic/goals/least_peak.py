@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.goals.goal import Objective
-from synergrip.conic.limits.normal_force import normal_selection
+from synergrip.conic.limits.normal_force import NormalForce, normal_selection
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
@@ -30,5 +30,8 @@ class LeastPeak:
 
     def objective(self, situation: Situation) -> Objective:
         """Return s."""
-        n = situation.n_v
-        return Objective(np.zeros((n, n)), np.zeros((situation.knots, n)), 1.0)
+        return Objective(epigraph=1.0)
+
+    def keeps(self, best: float, slack: float) -> NormalForce:
+        """Return the limit that keeps a peak of `best` plus `slack` [N]."""
+        return NormalForce(-np.inf, best + slack, "goal.minimise")

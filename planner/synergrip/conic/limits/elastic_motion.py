@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
@@ -24,7 +24,7 @@ class ElasticMotion:
 
     limit: float  # [m]
     key: str = "limits.elastic_motion"
-    watches_references: ClassVar[bool] = False
+    watches: ClassVar[Watches] = "forces"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
@@ -21,7 +21,7 @@ class FrictionCone:
 
     margin: float = 0.0  # [N]
     key: str = "limits.margin"
-    watches_references: ClassVar[bool] = False
+    watches: ClassVar[Watches] = "forces"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per contact (a plain bound for a frictionless one)."""

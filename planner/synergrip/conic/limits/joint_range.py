@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
@@ -22,8 +22,10 @@ class JointRange:
     start: Array  # (n_q,) joint values at the start [rad or m]
     lower: Array  # (n_q,)
     upper: Array  # (n_q,)
+    unit: str = "rad"
+    """Of all joints; empty when some turn and some slide."""
     key: str = "limits.joint_range"
-    watches_references: ClassVar[bool] = True
+    watches: ClassVar[Watches] = "references"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range."""
@@ -43,7 +45,7 @@ class JointRange:
         """Return the joint values that the motion reaches."""
         names = situation.response.grasp.joints
         value = frozen(self.start + motion.dq)
-        return Usage("joint value", "rad or m", names, value, self.lower, self.upper, self._unit, motion.times)
+        return Usage("joint value", self.unit, names, value, self.lower, self.upper, self._unit, motion.times)
 
     @property
     def _unit(self) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Affine, Situation
@@ -20,7 +20,7 @@ class JointTorque:
 
     limit: Array
     key: str = "limits.joint_torque"
-    watches_references: ClassVar[bool] = False
+    watches: ClassVar[Watches] = "forces"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
+
+Watches = Literal["forces", "motion", "references"]
+"""The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +57,8 @@ class Limit(Protocol):
         """Key in the problem file."""
 
     @property
-    def watches_references(self) -> bool:
-        """Whether it looks at more than the forces, so that the redundancy gamma matters."""
+    def watches(self) -> Watches:
+        """What it depends on."""
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return the rows it adds to the program."""

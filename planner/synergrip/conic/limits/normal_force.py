@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
@@ -22,7 +22,7 @@ class NormalForce:
     lower: float  # [N]
     upper: float  # [N], infinity for none
     key: str = "limits.normal_force"
-    watches_references: ClassVar[bool] = False
+    watches: ClassVar[Watches] = "forces"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds per contact, in force units."""

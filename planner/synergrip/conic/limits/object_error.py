@@ -8,13 +8,14 @@ from typing import ClassVar, Literal, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
-AXES = ("x", "y", "z", "rx", "ry", "rz")
+AxisName = Literal["x", "y", "z", "rx", "ry", "rz"]
+AXES: tuple[AxisName, ...] = ("x", "y", "z", "rx", "ry", "rz")
 """Translations along and rotations about the palm's axes, about B."""
 
 
@@ -26,11 +27,11 @@ class ObjectError:
     """
 
     limit: float  # [m]
-    axes: tuple[str, ...] = AXES
+    axes: tuple[AxisName, ...] = AXES
     part: Literal["whole", "rigid"] = "whole"
     key: str = "limits.drift"
     title: str = "object error"
-    watches_references: ClassVar[bool] = False
+    watches: ClassVar[Watches] = "motion"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""
@@ -63,7 +64,7 @@ class ObjectError:
         return axis_weights(self.axes, situation.response.scale.length)
 
 
-def axis_weights(axes: Sequence[str], length: float) -> Array:
+def axis_weights(axes: Sequence[AxisName], length: float) -> Array:
     """Return the rows of diag(1, 1, 1, L, L, L) of the named axes, (len(axes), 6)."""
     whole = np.diag([1.0] * 3 + [length] * 3)
     return whole[[AXES.index(axis) for axis in axes]]

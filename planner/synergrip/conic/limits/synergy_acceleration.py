@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_usage
 from synergrip.conic.rows import Earlier, Rows, nonnegative
 from synergrip.conic.situation import Affine, Situation
@@ -26,7 +26,7 @@ class SynergyAcceleration:
 
     limit: Array
     key: str = "limits.synergy_acceleration"
-    watches_references: ClassVar[bool] = True
+    watches: ClassVar[Watches] = "references"
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each synergy and inner knot, in units of the longest steps' bound."""

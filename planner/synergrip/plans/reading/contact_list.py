@@ -11,12 +11,23 @@ from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, C
 
 
 @dataclass(frozen=True)
+class LinkPlace:
+    """A place on a link, in its frame."""
+
+    link: str
+    point: tuple[float, ...]  # (3,) [m]
+    normal: tuple[float, ...] | None
+    """(3,) unit vector in which it pushes; None for toward the object."""
+    radius: float  # [m]
+
+
+@dataclass(frozen=True)
 class ContactSpec:
     """One contact, complete."""
 
     name: str
-    at: str
-    """Pad of the hand."""
+    at: str | LinkPlace
+    """Pad of the hand, or a place on a link."""
     model: ContactModel
     friction: float
     """Coefficient of friction; 0 for a frictionless contact."""
@@ -29,11 +40,20 @@ class ContactSpec:
     """About the normal; 0 unless the contact is soft."""
     normals: Literal["object", "pad"]
     key: str
-    """The key of the file that names the pad."""
+    """The key of the file that names the pad or link."""
+
+
+@dataclass(frozen=True)
+class _Source:
+    """Where a contact is written: its pad or link, and its entry."""
+
+    entry: ContactEntry
+    key: str
+    table: str
 
 
 def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]) -> tuple[ContactSpec, ...]:
-    """Return the contacts: the pads of ``contacts.at``, then the ``[[contact]]`` entries on other pads.
+    """Return the contacts: the pads of ``contacts.at``, then the ``[[contact]]`` entries on other pads and on links.
 
     An entry on a pad that ``contacts.at`` lists changes that contact; values it does not give are the defaults.
 
@@ -41,24 +61,30 @@ def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]
         InputError: no contact, a name or a pad twice, a value that the contact's model needs or refuses.
     """
     shared = defaults or ContactsTable()
-    by_pad = {entry.at: index for index, entry in enumerate(entries)}
     issues = list(_repeated(shared, entries))
     if not shared.at and not entries:
         issues.append(Issue("no contacts; name the pads that touch the object", key="contacts.at", on_key=True))
-    sources = [(pad, f"contacts.at[{i}]", by_pad.get(pad)) for i, pad in enumerate(shared.at)]
-    sources += [(entry.at, f"contact[{i}].at", i) for i, entry in enumerate(entries) if entry.at not in shared.at]
     contacts = []
-    for pad, key, index in sources:
-        entry = ContactEntry(at=pad) if index is None else entries[index]
-        table = "contacts" if index is None else f"contact[{index}]"
-        found = list(_judge(shared, entry, table))
+    for source in _sources(shared, entries):
+        found = list(_judge(shared, source.entry, source.table))
         if not found:
-            contacts.append(_complete(shared, entry, key))
+            contacts.append(_complete(shared, source.entry, source.key))
         issues += [issue for issue in found if issue not in issues]
     issues += _same_names(contacts)
     if issues:
         raise InputError(issues)
     return tuple(contacts)
+
+
+def _sources(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[_Source]:
+    by_pad = {entry.at: index for index, entry in enumerate(entries) if entry.at is not None}
+    for i, pad in enumerate(shared.at):
+        index = by_pad.get(pad)
+        entry, table = (ContactEntry(at=pad), "contacts") if index is None else (entries[index], f"contact[{index}]")
+        yield _Source(entry, f"contacts.at[{i}]", table)
+    for i, entry in enumerate(entries):
+        if entry.at is None or entry.at not in shared.at:
+            yield _Source(entry, f"contact[{i}].{'link' if entry.at is None else 'at'}", f"contact[{i}]")
 
 
 def _given(shared: ContactTable, entry: ContactTable, name: str, fallback: Any = None) -> Any:
@@ -72,8 +98,8 @@ def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactSp
     stiffness = _given(shared, entry, "stiffness")
     soft = model == "soft"
     return ContactSpec(
-        name=entry.name or entry.at,
-        at=entry.at,
+        name=entry.name or entry.at or entry.link or "",
+        at=entry.at or LinkPlace(entry.link or "", entry.point or (0.0, 0.0, 0.0), entry.normal, entry.radius or 0.0),
         model=model,
         friction=0.0 if model == "frictionless" else _given(shared, entry, "friction"),
         spin_friction=_given(shared, entry, "spin_friction") if soft else 0.0,
@@ -104,6 +130,9 @@ def _judge(shared: ContactsTable, entry: ContactEntry, table: str) -> Iterator[I
     for name in refused:
         if getattr(entry, name) is not None:
             yield Issue(f"a {model} contact has no {name.replace('_', ' ')}", f"{table}.{name}", on_key=True)
+    if entry.link is not None and entry.normal is None and _given(shared, entry, "normals") == "pad":
+        message = "missing key 'normal'; normals = \"pad\" needs it: write for example \"z\""  # fmt: skip
+        yield Issue(message, f"{table}.normal", on_key=True)
 
 
 def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[Issue]:
@@ -111,14 +140,17 @@ def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterato
         if pad in shared.at[:index]:
             yield Issue(f"pad '{pad}' is named twice", f"contacts.at[{index}]")
     pads = [entry.at for entry in entries]
-    for index, pad in enumerate(pads):
-        if pad in pads[:index]:
-            yield Issue(f"pad '{pad}' is named twice (first in contact[{pads.index(pad)}])", f"contact[{index}].at")
+    for index, at in enumerate(pads):
+        if at is not None and at in pads[:index]:
+            yield Issue(f"pad '{at}' is named twice (first in contact[{pads.index(at)}])", f"contact[{index}].at")
 
 
 def _same_names(contacts: Sequence[ContactSpec]) -> Iterator[Issue]:
-    seen: dict[str, str] = {}
+    seen: dict[str, str | LinkPlace] = {}
     for contact in contacts:
-        if contact.name in seen and contact.at != seen[contact.name]:
-            yield Issue(f"two contacts have the name '{contact.name}'", contact.key.removesuffix(".at"))
+        on_link = isinstance(contact.at, LinkPlace)
+        if contact.name in seen and (on_link or contact.at != seen[contact.name]):
+            hint = "; give each of them a name" if on_link else ""
+            key = contact.key.removesuffix(".at").removesuffix(".link")
+            yield Issue(f"two contacts have the name '{contact.name}'{hint}", key)
         seen.setdefault(contact.name, contact.at)

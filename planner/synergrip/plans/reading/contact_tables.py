@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from synergrip.errors import InputError, suggest
+from synergrip.errors import InputError, Issue, suggest
 from synergrip.fields import (
+    Axis,
     Name,
     Positive,
     Size,
     Table,
     Written,
+    array_of,
+    listed,
     unit_schema,
     with_unit,
 )
@@ -49,6 +52,11 @@ def _rigid_schema(kind: str) -> dict[str, Any]:
 Stiffness = Annotated[float, Written(_rigid_or("stiffness"), _rigid_schema("stiffness"))]
 SpinStiffness = Annotated[float, Written(_rigid_or("spin stiffness"), _rigid_schema("spin stiffness"))]
 
+Point = Annotated[
+    tuple[float, ...],
+    Written(lambda value: listed(with_unit("length"), value, 3, "lengths"), array_of(unit_schema("length"), 3)),
+]
+
 
 class ContactTable(Table):
     """What can be said of one contact, or of all as a default."""
@@ -79,7 +87,26 @@ class ContactsTable(ContactTable):
 
 
 class ContactEntry(ContactTable):
-    """One contact: a pad, and what differs from the defaults."""
+    """One contact: a pad or a place on a link, and what differs from the defaults."""
 
-    name: Name | None = Field(default=None, description="name of the contact; that of the pad when absent")
-    at: Name = Field(description="name of the hand's pad that touches the object")
+    name: Name | None = Field(default=None, description="name of the contact; that of the pad or link when absent")
+    at: Name | None = Field(default=None, description="name of the hand's pad that touches the object")
+    link: Name | None = Field(default=None, description="name of the hand's link that touches; instead of a pad")
+    point: Point | None = Field(default=None, description="place on the link, in its frame; its origin when absent")
+    normal: Axis | None = Field(
+        default=None, description="where the place pushes to, in the frame of the link; to the object when absent"
+    )
+    radius: Size | None = Field(
+        default=None, description="of a round pad about the place, which touches where the object is nearest"
+    )
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse a pad and a link, neither, and a place without a link."""
+        if self.at is None and self.link is None:
+            yield Issue("missing key 'at' (name of a pad of the hand) or 'link' (name of a link)", "at", on_key=True)
+        if self.at is not None and self.link is not None:
+            yield Issue("a contact is at a pad or on a link, not both; leave 'at' or 'link' out", "link", on_key=True)
+        elif self.at is not None:
+            for name in ("point", "normal", "radius"):
+                if getattr(self, name) is not None:
+                    yield Issue(f"'{name}' goes with 'link'; a pad has its own", name, on_key=True)

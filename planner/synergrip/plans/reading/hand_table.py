@@ -35,6 +35,18 @@ def _posture(value: object) -> str | dict[str, float]:
     )
 
 
+def _close(value: object) -> str | dict[str, float]:
+    if isinstance(value, dict) and value:
+        return named(number, value)
+    if isinstance(value, str) and value:
+        return value
+    raise InputError.at(
+        "",
+        "expected the name of a synergy or joint, with '-' in front for the opposite direction, or weights by name "
+        f"such as {{ s1 = -1, s2 = 0.2 }}, got {shown(value)}",
+    )
+
+
 def _synergies(value: object) -> int | str | tuple[str, ...] | SetChoice:
     if isinstance(value, int) and not isinstance(value, bool):
         if value < 1:
@@ -91,6 +103,10 @@ _SET_CHOICE = {
 }
 
 Posture = Annotated[str | dict[str, float], Written(_posture, {"anyOf": [_NAME, _ANGLES]})]
+Close = Annotated[
+    str | dict[str, float],
+    Written(_close, {"anyOf": [_NAME, {"type": "object", "additionalProperties": NUMBER, "minProperties": 1}]}),
+]
 Synergies = Annotated[
     int | str | tuple[str, ...] | SetChoice,
     Written(_synergies, {"anyOf": [_COUNT, _NAME, array_of(_NAME), _SET_CHOICE]}),
@@ -133,6 +149,10 @@ class HandTable(Table):
     model: Text = Field(description="name of a bundled hand, or the folder of one")
     posture: Posture | None = Field(
         default=None, description="name of a posture of the hand, or an angle per posture parameter"
+    )
+    close: Close | None = Field(
+        default=None,
+        description="the synergy, joint or weights along which the hand closes, from its posture, until all pads touch",
     )
     synergies: Synergies | None = Field(
         default=None,

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Annotated, Any, Literal
+from collections.abc import Callable, Iterable, Mapping
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import ConfigDict, Field
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, one_of
 from synergrip.fields import (
     POSITIVE,
     Force,
     Number,
     Positive,
     Schema,
+    Size,
     Table,
     Whole,
     Written,
     array_of,
     bounded,
     listed,
+    named,
     number,
     unit_schema,
     with_unit,
 )
+from synergrip.plans.task import EFFORTS, FORCE_GOALS, GoalName
 from synergrip.quantities import quantity
 from synergrip.validation import shown
 
@@ -103,25 +106,81 @@ class LimitsTable(Table):
     synergy_rate: References | None = Field(
         default=None, description="largest change of a synergy reference per second, one or one per synergy"
     )
+    synergy_acceleration: References | None = Field(
+        default=None, description="largest acceleration of a synergy reference, per s^2, one or one per synergy"
+    )
+    joint_range: Literal["hand"] | None = Field(
+        default=None, description='"hand": every joint stays within the range that the hand states'
+    )
+    elastic_motion: Size | None = Field(
+        default=None, description="how far the grip may push the object beyond its rigid motion, sag excluded"
+    )
+    drift: Size | None = Field(
+        default=None, description="how far the object may be from where it is wanted, sag under load included"
+    )
+
+
+SQUARES = ("effort", "torque", "actuator", "references", "travel", "smooth", "centred")
+"""Goals that are sums of squares, and so can be weighted."""
+SMALL = (*SQUARES, "peak_force")
+Ordered = Literal["margin", "peak_force", "effort", "torque", "actuator", "references", "travel", "smooth", "centred"]
+
+
+def _minimised(value: object) -> str | dict[str, float]:
+    if isinstance(value, str):
+        if value not in SMALL:
+            raise InputError.at("", one_of(value, SMALL))
+        return value
+    if isinstance(value, dict) and value:
+        for name in value:
+            if name not in SQUARES:
+                raise InputError.at(name, f"{one_of(name, SQUARES)}; only sums of squares have weights", on_key=True)
+        return named(_positive, value)
+    raise InputError.at("", f"expected a goal or weights such as {{ effort = 1, travel = 0.1 }}, got {shown(value)}")
+
+
+_WEIGHTS = {"type": "object", "propertyNames": {"enum": list(SQUARES)}, "additionalProperties": POSITIVE}
+Minimised = Annotated[str | dict[GoalName, float], Written(_minimised, {"anyOf": [{"enum": list(SMALL)}, _WEIGHTS]})]
 
 
 class GoalTable(Table):
     """Which of the plans within the limits is chosen; the one of least effort when nothing is said."""
 
     maximise: Literal["margin"] | None = Field(default=None, description="what is to be as large as possible")
-    minimise: Literal["effort", "torque", "peak_force"] | None = Field(
-        default=None, description="what is to be as small as possible"
+    minimise: Minimised | None = Field(
+        default=None, description="what is to be as small as possible: a goal, or a weight for each of several"
+    )
+    order: tuple[Ordered, ...] | None = Field(
+        default=None,
+        min_length=1,
+        description="several goals, the first one first: each chooses among the plans that are best by those before",
     )
 
     @property
-    def name(self) -> Literal["margin", "effort", "torque", "peak_force"]:
-        """The quantity that is maximised or minimised."""
-        return self.maximise or self.minimise or "effort"
+    def names(self) -> tuple[GoalName, ...]:
+        """The goals in their order; those that are not stated are for the planner."""
+        if self.order:
+            return self.order
+        return (self.maximise or ("weighted" if self.weights else cast(GoalName, self.minimise or "effort")),)
+
+    @property
+    def weights(self) -> Mapping[GoalName, float]:
+        """The weights of a sum of goals; empty for a single goal."""
+        return self.minimise if isinstance(self.minimise, dict) else {}
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse two goals."""
-        if self.maximise and self.minimise:
-            yield Issue("a plan has one goal: maximise or minimise, not both", key="minimise", on_key=True)
+        """Refuse two ways of stating goals, a goal twice, and goals of force when no force is open any more."""
+        given = [name for name in ("maximise", "minimise", "order") if getattr(self, name)]
+        for name in given[1:]:
+            message = f"the goal is given already by '{given[0]}'; several goals are written as order = [...]"
+            yield Issue(message, key=name, on_key=True)
+        settled = ""
+        for index, name in enumerate(self.order or ()):
+            if name in (self.order or ())[:index]:
+                yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
+            elif settled and name in FORCE_GOALS:
+                yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")
+            settled = settled or (name if name in EFFORTS else "")
 
 
 class OutputTable(Table):

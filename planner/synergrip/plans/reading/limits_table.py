@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.elastic_motion import ElasticMotion
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.object_error import ObjectError
+from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.problem_file import ProblemFile
+
+Given = float | str | tuple[float, ...]
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference")
 """Limits each of which alone bounds the largest margin."""
@@ -27,6 +35,7 @@ class HandLimits:
 
     torque: Array | None = None  # (n_q,) [N m]
     effort: Array | None = None  # (n_z,)
+    ranges: JointRange | None = None
 
 
 def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit, ...]:
@@ -36,22 +45,42 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
         InputError: a list of the wrong length, ``"hand"`` without a hand that states the limit, or a goal
             that no limit bounds.
     """
-    table = file.limits
-    limits: list[Limit] = []
-    if table.normal_force is not None:
-        limits.append(NormalForce(*table.normal_force))
-    if table.joint_torque is not None:
-        limits.append(JointTorque(_each(table.joint_torque, grasp.joints, "joint", "joint_torque", hand.torque)))
-    if table.actuator_effort is not None:
-        names = grasp.synergies
-        limits.append(ActuatorEffort(_each(table.actuator_effort, names, "synergy", "actuator_effort", hand.effort)))
-    if table.synergy_reference is not None:
-        limits.append(SynergyReference(_each(table.synergy_reference, grasp.synergies, "synergy", "synergy_reference")))
-    if table.synergy_rate is not None:
-        limits.append(SynergyRate(_each(table.synergy_rate, grasp.synergies, "synergy", "synergy_rate")))
-    if file.goal.name == "margin" and not any(getattr(table, name) is not None for name in BOUNDING):
+    table, each = file.limits, _Bounds(grasp)
+    readers: dict[str, Callable[[Any], Limit]] = {
+        "normal_force": lambda value: NormalForce(*value),
+        "joint_torque": lambda value: JointTorque(each.joint(value, "joint_torque", hand.torque)),
+        "actuator_effort": lambda value: ActuatorEffort(each.synergy(value, "actuator_effort", hand.effort)),
+        "synergy_reference": lambda value: SynergyReference(each.synergy(value, "synergy_reference")),
+        "synergy_rate": lambda value: SynergyRate(each.synergy(value, "synergy_rate")),
+        "synergy_acceleration": lambda value: SynergyAcceleration(each.synergy(value, "synergy_acceleration")),
+        "joint_range": lambda _: _ranges(hand),
+        "elastic_motion": ElasticMotion,
+        "drift": ObjectError,
+    }
+    given = {key: getattr(table, key) for key in readers}
+    limits = tuple(readers[key](value) for key, value in given.items() if value is not None)
+    if "margin" in file.goal.names and not any(given[name] is not None for name in BOUNDING):
         raise unbounded()
-    return tuple(limits)
+    return limits
+
+
+def _ranges(hand: HandLimits) -> JointRange:
+    if hand.ranges is None:
+        raise InputError.at("limits.joint_range", "needs a [hand]; a grasp file states no joint ranges")
+    return hand.ranges
+
+
+@dataclass(frozen=True)
+class _Bounds:
+    """One bound for each joint or synergy of a grasp."""
+
+    grasp: Grasp
+
+    def joint(self, value: Given, key: str, of_hand: Array | None = None) -> Array:
+        return _each(value, self.grasp.joints, "joint", key, of_hand)
+
+    def synergy(self, value: Given, key: str, of_hand: Array | None = None) -> Array:
+        return _each(value, self.grasp.synergies, "synergy", key, of_hand)
 
 
 def unbounded() -> InputError:
@@ -63,9 +92,7 @@ def unbounded() -> InputError:
     return InputError.at("goal.maximise", message)
 
 
-def _each(
-    value: float | str | tuple[float, ...], names: tuple[str, ...], what: str, key: str, of_hand: Array | None = None
-) -> Array:
+def _each(value: Given, names: tuple[str, ...], what: str, key: str, of_hand: Array | None = None) -> Array:
     """Return one bound for each name."""
     if isinstance(value, str):
         if of_hand is None:

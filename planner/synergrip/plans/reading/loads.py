@@ -1,23 +1,28 @@
-"""Knot times, wrench profile and wanted motion of a task, from the [task] table and its CSV files."""
+"""Wrench and wanted motion of a task, at its knots and between them, from the [task] table and its CSV files."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
-from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.reading.moves import moved, turned
+from synergrip.errors import InputError, Issue
+from synergrip.grasps.objects import Object
+from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.inertia import inertia
+from synergrip.plans.reading.knots import cover, knots, span
+from synergrip.plans.reading.moves import moved
+from synergrip.plans.reading.palm_motion import Weight, palm_motion
+from synergrip.plans.reading.profiles import Constant, Profile, Profiles, Tabled
+from synergrip.plans.reading.pushes import Push, pushed
 from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, Table, read_table
 from synergrip.plans.reading.task_file import TaskTable
-from synergrip.plans.task import Wanted, still
+from synergrip.plans.reading.waypoints import passing
+from synergrip.plans.task import Wanted
 
-MOVING_KNOTS = 41
-"""Knots of a task that moves or turns and does not say how many."""
-COVER = 1e-9
-"""Relative slack when a CSV file must cover the time of the task."""
+Kind = Literal["hold", "motion", "modes", "mode moves"]
 
 
 @dataclass(frozen=True)
@@ -28,75 +33,91 @@ class Loads:
     wrench: Array | None
     """(T, 6) external wrench on the object; None when nothing is said of it."""
     wanted: Wanted
+    profiles: Profiles
+    """The same at any time, between the knots too."""
 
 
-def loads(task: TaskTable, folder: Path, mass: float) -> Loads:
+def loads(task: TaskTable, folder: Path, mass: float, thing: Object | None = None) -> Loads:
     """Return what happens in a task.
 
     Args:
         task: the [task] table.
         folder: where its CSV files are looked for.
         mass: of the object [kg].
+        thing: the object where it is, for the load by inertia; without it a point mass at the origin of the palm.
 
     Raises:
-        InputError: a CSV file is broken or does not cover the task.
+        InputError: a CSV file is broken or does not cover the task; pushes that do not fit into it, or that fall
+            between the knots; a load by inertia without a mass.
     """
-    tables = {}
+    tables = _tables(task, folder)
+    start, end = span(task, tables)
+    pushes = _pushes(task, start, end)
+    times = knots(task, tables, pushes, start, end)
+    for key, table in tables.items():
+        cover(table, times, f"task.{key}")
+    kind, key, wanted = _wanted(task, tables, start, end)
+    profiles = Profiles((*_load(task, tables, start, end, mass, thing), *pushes), wanted)
+    wanted_motion = Wanted(kind, profiles.wanted_at(times), key)
+    return Loads(frozen(times), profiles.load_at(times), wanted_motion, profiles)
+
+
+def _tables(task: TaskTable, folder: Path) -> dict[str, Table]:
+    """Return the CSV files of the task by their keys, or everything that is wrong with them."""
+    tables, issues = dict[str, Table](), list[Issue]()
     for key, columns in (("wrench", WRENCH), ("motion", MOTION), ("modes", MODES)):
         name = getattr(task, key)
-        if isinstance(name, str):
-            tables[key] = read_table(folder / name, columns, f"task.{key}")
-    times = _times(task, tables)
-    resampled = {key: _resampled(table, times, f"task.{key}") for key, table in tables.items()}
-    return Loads(frozen(times), _wrench(task, times, resampled, mass), _wanted(task, times, resampled))
+        try:
+            if isinstance(name, str):
+                tables[key] = read_table(folder / name, columns, f"task.{key}")
+        except InputError as error:
+            issues += error.issues
+    if issues:
+        raise InputError(issues)
+    return tables
 
 
-def _times(task: TaskTable, tables: dict[str, Table]) -> Array:
-    """Return the knots: evenly spaced when their number is given, else those of the CSV files and the end."""
-    duration = task.duration
-    if tables and "duration" not in task.model_fields_set:
-        duration = max(float(table.times[-1]) for table in tables.values())
-    if task.knots is None and tables:
-        every = np.concatenate([table.times for table in tables.values()])
-        return distinct(np.append(every[every < duration], duration))
-    count = task.knots or (MOVING_KNOTS if task.move or task.palm else 1)
-    return np.linspace(0.0, duration, count) if count > 1 else np.zeros(1)
+def _pushes(task: TaskTable, start: float, end: float) -> list[Push]:
+    """Return all pushes, or everything that is wrong with them."""
+    found, issues = list[Push](), list[Issue]()
+    for index, table in enumerate(task.push):
+        try:
+            found.append(pushed(table, f"task.push[{index}]", start, end))
+        except InputError as error:
+            issues += error.issues
+    if issues:
+        raise InputError(issues)
+    return found
 
 
-def distinct(times: Array) -> Array:
-    """Return the times in order, without those that follow another by no more than rounding."""
-    ordered = np.unique(times)
-    apart = np.diff(ordered) > COVER * max(float(ordered[-1]), 1.0)
-    return np.asarray(ordered[np.append(apart, True)])
-
-
-def _resampled(table: Table, times: Array, key: str) -> Array:
-    """Return the table's values (T, m) at `times`, linear in between."""
-    slack = COVER * max(float(times[-1]), 1.0)
-    if table.times[0] > times[0] + slack or table.times[-1] < times[-1] - slack:
-        message = (
-            f"the file covers {table.times[0]:g} s to {table.times[-1]:g} s, the task {times[0]:g} s to "
-            f"{times[-1]:g} s; change the file, task.duration or task.knots"
-        )
-        raise InputError.at(key, message)
-    return interpolated(times, table.times, table.values)
-
-
-def _wrench(task: TaskTable, times: Array, resampled: dict[str, Array], mass: float) -> Array | None:
-    """Return the sum of weight and given wrench (T, 6); None when neither is given."""
-    total: Array | None = None
-    if task.wrench is not None:
-        total = resampled["wrench"] if "wrench" in resampled else np.tile(np.array(task.wrench), (len(times), 1))
+def _load(
+    task: TaskTable, tables: dict[str, Table], start: float, end: float, mass: float, thing: Object | None
+) -> list[Profile]:
+    """Return the wrenches that act throughout the task: the given one, the weight, the load by inertia."""
+    found: list[Profile] = []
+    if "wrench" in tables:
+        found.append(Tabled(tables["wrench"]))
+    elif task.wrench is not None:
+        found.append(Constant(frozen(task.wrench)))
+    palm = palm_motion(task.palm, start, end) if task.palm is not None else None
     if task.gravity is not None:
-        weight = np.zeros((len(times), 6))
-        weight[:, :3] = mass * turned(np.array(task.gravity), task.palm, times)
-        total = weight if total is None else total + weight
-    return total if total is None else frozen(total)
+        weight = mass * np.array(task.gravity)
+        found.append(Weight(frozen(weight), palm) if palm else Constant(frozen([*weight, 0, 0, 0])))
+    if palm is not None and task.palm is not None and task.palm.inertia:
+        found.append(inertia(thing, mass, palm))
+    return found
 
 
-def _wanted(task: TaskTable, times: Array, resampled: dict[str, Array]) -> Wanted:
-    if "motion" in resampled:
-        return Wanted("motion", frozen(resampled["motion"]), "task.motion")
-    if "modes" in resampled:
-        return Wanted("modes", frozen(resampled["modes"]), "task.modes")
-    return moved(task.move, times) if task.move else still(times)
+def _wanted(task: TaskTable, tables: dict[str, Table], start: float, end: float) -> tuple[Kind, str, Profile]:
+    """Return the kind of the wanted motion, its key in the problem file, and the motion."""
+    if "motion" in tables:
+        return "motion", "task.motion", Tabled(tables["motion"])
+    if "modes" in tables:
+        return "modes", "task.modes", Tabled(tables["modes"])
+    if task.move:
+        moves = moved(task.move, start, end)
+        return "mode moves" if moves.along_modes else "motion", "task.move", moves
+    if task.waypoint:
+        kind: Kind = "motion" if task.waypoint[0].modes is None else "mode moves"
+        return kind, "task.waypoint", passing(task.waypoint, task.profile)
+    return "hold", "", Constant(np.zeros(0))

@@ -9,6 +9,8 @@ from pydantic import Field
 
 from synergrip.errors import Issue
 from synergrip.fields import (
+    Angle,
+    Axis,
     Mass,
     Size,
     Table,
@@ -58,6 +60,13 @@ class ShapeTable(Table):
             yield Issue(f"an object has one shape; '{given[0]}' is given already", key=name, on_key=True)
 
 
+class OrientationTable(Table):
+    """A turn of the shape."""
+
+    axis: Axis = Field(description="axis through the centre, in the palm frame")
+    angle: Angle = Field(description="angle of the turn about it")
+
+
 class ObjectTable(Table):
     """The grasped object."""
 
@@ -68,3 +77,11 @@ class ObjectTable(Table):
         tuple[float, ...] | None,
         Written(lambda v: listed(with_unit("length"), v, 3, "lengths"), array_of(unit_schema("length"), 3)),
     ] = Field(default=None, description="centre of the object in the palm frame")
+    orientation: OrientationTable | None = Field(
+        default=None, description="how the shape is turned from the axes of the palm; not at all when absent"
+    )
+
+    def issues(self) -> Iterable[Issue]:
+        """Refuse a turn of nothing."""
+        if self.orientation is not None and self.shape is None:
+            yield Issue("an orientation turns the shape; give object.shape", key="orientation", on_key=True)

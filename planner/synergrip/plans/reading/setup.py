@@ -7,15 +7,19 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.errors import InputError, Issue
+from synergrip.conic.limits.joint_range import JointRange
+from synergrip.errors import InputError, Issue, one_of
+from synergrip.grasps.clearance import collision_notes
+from synergrip.grasps.closing import close, unknown_surface
+from synergrip.grasps.closing_direction import closing_direction
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
-from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
+from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
-from synergrip.hands.hand import Hand, SynergySet
+from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.synergies import posture
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
@@ -35,12 +39,23 @@ class Held:
     """(n_q,) joint values [rad or m]."""
     thing: Object
     """The object, where it is."""
+    touches: tuple[Touch, ...]
+    """The pads that touch, in the order of the contacts."""
+    gaps: tuple[float | None, ...]
+    """Distance of each pad from the surface, > 0 outside [m]; None for an object without a shape."""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is doubtful about it, though it is no error."""
+        return collision_notes(self.hand, self.q, self.thing, self.touches)
 
     @property
     def limits(self) -> HandLimits:
         """What the hand itself allows."""
         torque = frozen([joint.torque_limit for joint in self.hand.joints])
-        return HandLimits(torque, self.synergies.effort_limits)
+        unit = "rad" if all(joint.kind == "hinge" for joint in self.hand.joints) else ""
+        lower, upper = (frozen([getattr(joint, end) for joint in self.hand.joints]) for end in ("lower", "upper"))
+        return HandLimits(torque, self.synergies.effort_limits, JointRange(self.q, lower, upper, unit))
 
 
 def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
@@ -51,26 +66,32 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
         folder: folder of the problem file, for a hand given as a path.
 
     Raises:
-        InputError: an unknown hand, pad, posture or synergy set, or pads that do not reach the object.
+        InputError: an unknown hand, pad, link, posture or synergy set, or pads that do not reach the object.
     """
     table = file.hand
     if table is None:
         raise InputError.at("hand", "missing table [hand]")
     hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, key="hand.model")
+    thing = _object(file.object)
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
         try:
             touches.append(_touch(hand, contact))
         except InputError as error:
             issues += error.issues
+    if table.close is not None:
+        issues += unknown_surface(thing)
     try:
         synergies, q, C_q, C_z = _state(hand, table, folder)
+        direction = closing_direction(hand, synergies, table.close) if table.close is not None else None
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
     if issues:
         raise InputError(issues)
-    grasp, thing = place(file.title, hand, synergies, q, _object(file.object), touches, C_q, C_z)
-    return grasp, Held(hand, synergies, q, thing)
+    if direction is not None:
+        q = close(hand, q, direction, thing, touches)
+    placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
+    return placed.grasp, Held(hand, synergies, q, placed.thing, tuple(touches), placed.gaps)
 
 
 def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Array, Array, Array]:
@@ -90,17 +111,31 @@ def _touch(hand: Hand, contact: ContactSpec) -> Touch:
     kind = contact_kind(contact.model)
     stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
     each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
+    aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
-        contact.name, hand.pad(contact.at, contact.key), kind, contact.friction, contact.spin_friction,
-        each, contact.normals, contact.key,
+        contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
+        each, contact.normals, contact.key, aimed,
     )  # fmt: skip
 
 
-def _object(table: ObjectTable | None) -> Object | None:
+def _pad(hand: Hand, contact: ContactSpec) -> Pad:
+    if isinstance(contact.at, str):
+        return hand.pad(contact.at, contact.key)
+    place = contact.at
+    root = [link for link in hand.parents.values() if link not in hand.parents][:1]
+    if place.link not in (links := [*root, *hand.parents]):
+        raise InputError.at(contact.key, f"link {one_of(place.link, links)}")
+    normal = frozen(place.normal or np.zeros(3))
+    return Pad(contact.name, place.link, frozen(place.point), normal, place.radius)
+
+
+def _object(table: ObjectTable | None) -> Object:
     if table is None:
-        return None
+        raise InputError.at("object", "missing table [object]")
     position = frozen(table.position if table.position is not None else np.full(3, np.nan))
     shape = _shape(table.shape) if table.shape is not None else None
+    if shape is not None and table.orientation is not None and not isinstance(shape, Sphere):
+        shape = Turned(shape, turn(table.orientation.axis, table.orientation.angle))
     return Object(table.title or (shape.title if shape else "object"), table.mass or 0.0, position, shape)
 
 

@@ -7,29 +7,19 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from synergrip.conic.limits.object_error import AXES, AxisName
 from synergrip.errors import InputError, Issue
-from synergrip.fields import (
-    NUMBER,
-    Angle,
-    Axis,
-    Length,
-    Size,
-    Table,
-    Text,
-    Time,
-    Vector,
-    Whole,
-    Written,
-    array_of,
-    listed,
-    number,
+from synergrip.fields import NUMBER, Size, Table, Text, Time, Vector, Whole, Written, array_of, listed, number
+from synergrip.plans.reading.motion_tables import (
+    SHORTEST,
+    MoveTable,
+    PalmTable,
+    WaypointProfile,
+    WaypointTable,
+    waypoint_issues,
 )
+from synergrip.plans.reading.push_table import PushTable
 from synergrip.validation import shown
-
-Profile = Literal["min-jerk", "cubic", "linear"]
-SHORTEST = 1e-6
-"""Shortest task [s]."""
-PROFILE = "course in time from 0 at the start to the full value at the end"
 
 
 def _wrench(value: object) -> str | tuple[float, ...]:
@@ -38,45 +28,6 @@ def _wrench(value: object) -> str | tuple[float, ...]:
     if isinstance(value, list):
         return listed(number, value, 6)
     raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}")
-
-
-class PalmTable(Table):
-    """How the palm turns in the world, and gravity with it."""
-
-    axis: Axis = Field(description="axis of the turn in the palm frame: x, y, z or 3 numbers")
-    turn: Angle = Field(description="angle of the whole turn")
-    profile: Profile = Field(default="min-jerk", description=PROFILE)
-
-
-class MoveTable(Table):
-    """One motion of the object relative to the palm."""
-
-    axis: Axis | None = Field(default=None, description="axis in the palm frame: x, y, z or 3 numbers")
-    lift: Length | None = Field(default=None, description="displacement along the axis")
-    roll: Angle | None = Field(default=None, description="rotation about the axis")
-    mode: Annotated[int, Field(strict=True, ge=1)] | None = Field(
-        default=None, description="number of a rigid motion the synergies can produce, from 1; instead of an axis"
-    )
-    amplitude: Length | None = Field(default=None, description="size of the motion along `mode`")
-    profile: Profile = Field(default="min-jerk", description=PROFILE)
-
-    def issues(self) -> Iterable[Issue]:
-        """Refuse anything but an axis with lift or roll, or a mode with its amplitude."""
-        if self.axis is None and self.mode is None:
-            yield Issue('a move needs axis (with lift or roll) or mode (with amplitude), for example axis = "z"')
-        elif self.axis is not None and self.mode is not None:
-            yield Issue("a move has an axis or a mode, not both", key="mode", on_key=True)
-        elif self.mode is not None:
-            if self.amplitude is None:
-                yield Issue("missing key 'amplitude'; write for example amplitude = \"10 mm\"", key="amplitude")
-            for name in ("lift", "roll"):
-                if getattr(self, name) is not None:
-                    yield Issue(f"'{name}' goes with axis; a mode has an amplitude", key=name, on_key=True)
-        else:
-            if self.lift is None and self.roll is None:
-                yield Issue('a move along an axis needs lift or roll, for example lift = "10 mm"')
-            if self.amplitude is not None:
-                yield Issue("'amplitude' goes with mode; an axis has lift and roll", key="amplitude", on_key=True)
 
 
 class TaskTable(Table):
@@ -89,7 +40,9 @@ class TaskTable(Table):
     gravity: Vector | None = Field(
         default=None, description="acceleration of gravity in the palm frame at the start, in m/s^2: 3 numbers"
     )
-    palm: PalmTable | None = Field(default=None, description="turn of the palm in the world, and so of gravity")
+    palm: PalmTable | None = Field(
+        default=None, description="motion of the palm in the world: turns gravity, and loads the object by inertia"
+    )
     wrench: Annotated[
         str | tuple[float, ...] | None,
         Written(_wrench, {"anyOf": [{"type": "string", "minLength": 1}, array_of(NUMBER, 6)]}),
@@ -98,6 +51,7 @@ class TaskTable(Table):
         description="external wrench on the object: 6 numbers in N and N m, or a CSV file with "
         "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm",
     )
+    push: tuple[PushTable, ...] = Field(default=(), description="forces on the object for some time, which add up")
     motion: Text | None = Field(
         default=None, description="wanted motion of the object: CSV file with t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad"
     )
@@ -109,16 +63,50 @@ class TaskTable(Table):
         description="what follows the wanted motion: the rigid part, or the object with its elastic part",
     )
     tolerance: Size | None = Field(default=None, description="largest distance between wanted and planned motion")
+    axes: Annotated[tuple[AxisName, ...], Field(min_length=1)] = Field(
+        default=AXES, description="on which axes about B the wanted motion is asked for: x, y, z, rx, ry, rz"
+    )
+    drift: Size | None = Field(
+        default=None, description="how far the object may move on the other axes; no bound when absent"
+    )
     move: tuple[MoveTable, ...] = Field(default=(), description="wanted motions, which add up")
+    waypoint: tuple[WaypointTable, ...] = Field(default=(), description="where the object is wanted, one after another")
+    profile: WaypointProfile = Field(default="min-jerk", description="course in time from one waypoint to the next")
+
+    @property
+    def curved(self) -> bool:
+        """True when something happens that no table of lines tells: waypoints, pushes that come and go, inertia."""
+        pushes = any(not push.lasting for push in self.push)
+        return bool(self.waypoint) or pushes or (self.palm is not None and self.palm.inertia)
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse a motion given twice, a turn that changes nothing, and too few instants to move."""
-        given = [name for name in ("move", "motion", "modes") if getattr(self, name)]
-        for name in given[1:]:
-            yield Issue(f"the wanted motion is given already by '{given[0]}'; keep one", key=name, on_key=True)
-        if self.palm is not None and self.gravity is None:
-            yield Issue("turning the palm changes nothing without task.gravity", key="palm", on_key=True)
-        if self.knots == 1 and (self.move or self.palm):
-            yield Issue("a task that moves or turns needs at least 2 knots", key="knots")
+        """Refuse a motion given twice, what changes nothing, and too few instants to move."""
+        yield from self._motion_issues()
+        yield from self._tracking_issues()
+        if self.palm is not None and self.gravity is None and not self.palm.inertia:
+            message = "turning the palm changes nothing without task.gravity or inertia = true"
+            yield Issue(message, key="palm", on_key=True)
+        if self.knots == 1 and (self.move or self.palm or self.curved):
+            what = "a task that moves or turns" if self.move or self.palm or self.waypoint else "a push for some time"
+            yield Issue(f"{what} needs at least 2 knots", key="knots")
         if self.duration < SHORTEST:
             yield Issue(f"must be at least 1 us, got {1e6 * self.duration:.3g} us", key="duration")
+
+    def _motion_issues(self) -> Iterable[Issue]:
+        given = [name for name in ("move", "motion", "modes", "waypoint") if getattr(self, name)]
+        for name in given[1:]:
+            yield Issue(f"the wanted motion is given already by '{given[0]}'; keep one", key=name, on_key=True)
+        if "profile" in self.model_fields_set and not self.waypoint:
+            message = "'profile' is the way between waypoints, and there are none; a move has its own"
+            yield Issue(message, key="profile", on_key=True)
+        yield from waypoint_issues(self.waypoint, self.duration if "duration" in self.model_fields_set else None)
+
+    def _tracking_issues(self) -> Iterable[Issue]:
+        if self.tracking == "compliant" and self.tolerance is None:
+            message = "compliant tracking needs 'tolerance', how far the object may be from where it is wanted: "
+            yield Issue(message + 'write for example tolerance = "0.5 mm"', key="tracking")
+        for index, axis in enumerate(self.axes):
+            if axis in self.axes[:index]:
+                yield Issue(f"'{axis}' is listed twice", key=f"axes[{index}]")
+        if self.drift is not None and len(self.axes) == len(AXES):
+            yield Issue("'drift' is for the axes that 'axes' leaves out, and it leaves none", key="drift", on_key=True)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from synergrip.conic.goals.after import After
+from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
@@ -26,21 +29,13 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
-from synergrip.plans.referee.model import Cone, Expression, Model
+from synergrip.plans.referee.model import Cone, Expression, Model, Wish
 from synergrip.plans.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
+from synergrip.plans.referee.motion_goals import centred_joints, held, least_motion, least_reconfiguration
 
 
 class NotWrittenError(SynergripError, TypeError):
     """A limit, goal or contact kind for which the second formulation has no formula."""
-
-
-@dataclass(frozen=True)
-class Wish:
-    """A goal: what is minimised, in the goal's units, and the cones of its scalar."""
-
-    cost: Expression
-    cones: tuple[Cone, ...] = ()
-    scalar: Expression | None = None
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
@@ -144,8 +139,10 @@ def _least_effort(model: Model, goal: LeastEffort) -> Wish:
     scale = model.response.scale
     if goal.of == "contact":
         share = model.force @ np.diag(scale.force / model.force_unit)
-    else:
+    elif goal.of == "torque":
         share = model.torque / (model.force_unit * scale.length)
+    else:
+        share = model.torque @ model.response.grasp.S / (model.force_unit * scale.length)
     return Wish(0.5 * cp.sum_squares(share))
 
 
@@ -157,19 +154,13 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
     return Wish(peak, (Cone("goal.minimise", names, peak - _normals(model)),), peak)
 
 
-def _least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
-    import cvxpy as cp
+def _after(model: Model, goal: After) -> Wish:
+    wish = write_goal(model, goal.goal)
+    return Wish(wish.cost, (*wish.cones, *(held(model, part) for part in goal.held)), wish.scalar)
 
-    n_alpha, n_beta = model.alpha.shape[1], model.beta_free.shape[1]
-    held = [("forces", "alpha", model.alpha / model.units.force, goal.v[:, :n_alpha])]
-    if n_beta:
-        held.append(("rigid motion", "beta", model.beta_free / model.units.motion, goal.v[:, -n_beta:]))
-    cones = tuple(
-        Cone(key, tuple(f"{letter}_{i + 1}" for i in range(known.shape[1])), value - known, equality=True)
-        for key, letter, value, known in held
-        if known.size
-    )
-    return Wish(0.5 * cp.sum_squares(model.gamma / model.units.reference), cones)
+
+def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:
+    return Wish(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
 
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
@@ -188,5 +179,9 @@ GOALS: dict[type, Callable[[Model, Any], Wish]] = {
     LargestMargin: _largest_margin,
     LeastEffort: _least_effort,
     LeastPeak: _least_peak,
-    LeastReconfiguration: _least_reconfiguration,
+    LeastReconfiguration: least_reconfiguration,
+    LeastMotion: least_motion,
+    CentredJoints: centred_joints,
+    After: _after,
+    WeightedSum: _weighted_sum,
 }

@@ -12,19 +12,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.conic.goals.goal import Goal
-from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.program import Program
 from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
+from synergrip.plans.goals import goals_of
 from synergrip.plans.question import Question
-from synergrip.plans.referee.formulas import Wish, friction, write_goal, write_limit
-from synergrip.plans.referee.model import Model, Posed, pose, pose_relaxed, write_model
+from synergrip.plans.referee.formulas import friction, write_goal, write_limit
+from synergrip.plans.referee.model import Model, Posed, Wish, pose, pose_relaxed, write_model
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
@@ -84,7 +81,7 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     )  # fmt: skip
     limits = [cone for limit in task.kept for cone in write_limit(model, limit)]
     asked = [*limits, *friction(model, task.margin / unit)]
-    relaxed, wish, largest = pose_relaxed(model, asked), write_goal(model, GOALS[task.goal]), None
+    relaxed, wish, largest = pose_relaxed(model, asked), write_goal(model, goals_of(task)[0]), None
     relaxed.run(cvxpy_solver, options)
     relaxation = relaxed.value if relaxed.solved else np.nan
     if task.goal == "margin":
@@ -97,14 +94,6 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     if verdict != "feasible" or not best.solved:
         return RefereeAnswer(verdict, status, largest)
     return RefereeAnswer(verdict, status, largest, frozen(model.dz_r.value), _physical(task, best.value, unit))
-
-
-GOALS: Mapping[str, Goal] = {
-    "margin": LargestMargin(),
-    "effort": LeastEffort(),
-    "torque": LeastEffort("torque"),
-    "peak_force": LeastPeak(),
-}
 
 
 def _force_unit(analysis: Analysis, task: Task) -> float:
@@ -124,7 +113,7 @@ def _verdict(status: str, relaxed: float) -> str:
 
 
 def _physical(task: Task, value: float, unit: float) -> float:
-    if task.goal in ("effort", "torque"):
+    if task.goal not in ("margin", "peak_force"):
         return 2 * value * unit**2
     return value * unit if task.goal == "peak_force" else -value * unit
 

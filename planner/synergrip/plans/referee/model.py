@@ -72,6 +72,8 @@ class Model:
     gamma: Expression  # (T, dim Gamma_zr)
     tracking: tuple[Cone, ...]
     """beta as wanted where it is, and gamma = 0 where nothing asks about it."""
+    redundancy: bool
+    """Whether gamma is free."""
     wanted: Array  # (T, 6) wanted displacement of the object
     units: Units
 
@@ -79,6 +81,15 @@ class Model:
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
+
+    @property
+    def v(self) -> Expression:
+        """The unknowns of the direct path (T, n_v)."""
+        import cvxpy as cp
+
+        free = [self.alpha / self.units.force, self.gamma / self.units.reference, self.beta_free / self.units.motion]
+        chosen = [part for part, used in zip(free, (True, self.redundancy, True), strict=True) if used and part.size]
+        return cp.hstack(chosen)
 
     @property
     def moved(self) -> Expression:
@@ -94,6 +105,15 @@ class Model:
     def torque(self) -> Expression:
         """Joint torques J' lambda (T, n_q) (6) [N m]."""
         return self.force @ self.response.grasp.J
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A goal: what is minimised, in the goal's units, and the cones of its scalar."""
+
+    cost: Expression
+    cones: tuple[Cone, ...] = ()
+    scalar: Expression | None = None
 
 
 def write_model(
@@ -120,7 +140,7 @@ def write_model(
         tracking.append(_equal("gamma", gamma))
     return Model(
         response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T,
-        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), wanted, units,
+        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, wanted, units,
     )  # fmt: skip
 
 

@@ -22,15 +22,15 @@ def synergy_acceleration(model: Model, limit: SynergyAcceleration) -> tuple[Cone
     # in the units of the direct rows: the bound times the steps' product, of the longest steps
     weight = h[1:] * (h[1:] + h[:-1]) / 2
     unit = (weight * limit.limit[keep]).max(axis=0)
-    rates = _times(1 / h, z[1:] - z[:-1])
-    share = _times(2 * weight / (h[1:] + h[:-1]), rates[1:] - rates[:-1]) @ np.diag(1 / unit)
+    rates = times_rows(1 / h, z[1:] - z[:-1])
+    share = times_rows(2 * weight / (h[1:] + h[:-1]), rates[1:] - rates[:-1]) @ np.diag(1 / unit)
     allowed = weight * limit.limit[keep] / unit
     names = [model.response.grasp.synergies[i] for i in keep]
     falling, rising = (tuple(f"{n} ({side})" for n in names) for side in ("falling", "rising"))
     return Cone(limit.key, falling, allowed + share), Cone(limit.key, rising, allowed - share)
 
 
-def _times(weights: Array, value: Expression) -> Expression:
+def times_rows(weights: Array, value: Expression) -> Expression:
     """Return weights (T, 1) times the rows of value (T, m)."""
     import cvxpy as cp
 

@@ -1,0 +1,83 @@
+"""The least motion of the synergy references: away from the start, from knot to knot, or in its bends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Objective, Squares, squares_of
+from synergrip.conic.rows import Earlier, Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import Array, frozen
+
+
+@dataclass(frozen=True)
+class LeastMotion:
+    """Minimise the sum of squares of the synergy references, of their rates, or of their accelerations.
+
+    "references": ``||dz_r||^2`` at every knot, so that the hand stays near the posture in which it starts. "rates":
+    of the steps between knots over their durations, averaged over time: the least travel. "accelerations": of the
+    second differences, averaged over time: smooth references. Time counts in durations of the task, and averages
+    times the number of knots, so that weights mean the same for any number. Rates and accelerations say nothing
+    about where the references are, or how fast they go; what they leave open is for the next goal.
+    """
+
+    of: Literal["references", "rates", "accelerations"] = "references"
+    exact: bool = False
+    """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
+
+    @property
+    def name(self) -> str:
+        """Name in messages."""
+        return {"references": "least motion", "rates": "least travel", "accelerations": "smoothest references"}[self.of]
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return none."""
+        return ()
+
+    def objective(self, situation: Situation) -> Objective:
+        """Return the squares, in reference units over the duration of the task."""
+        unit = situation.units.reference
+        if self.of == "references":
+            return Objective((squares_of(situation.reference, 1 / unit),))
+        order = 1 if self.of == "rates" else 2
+        if situation.knots <= order:
+            return Objective()
+        return Objective((_differences(situation, order, unit, np.inf if self.exact else STIFFEST),))
+
+
+STIFFEST = 1e6
+"""Largest entry of the Hessian of rates and accelerations; beyond, rounding would drown the bends between many knots.
+A factor before a goal changes no plan, only how closely the solver looks at it."""
+
+
+def _differences(situation: Situation, order: int, unit: float, stiffest: float) -> Squares:
+    """Return first or second differences over uneven knots; their sum of squares is T times an integral over [0, 1].
+
+    A row is divided by nothing that changes from knot to knot but by weights, since one matrix serves all knots:
+    the weight of the newest knot stands before the whole row.
+    """
+    weights = _weights(situation.times, order)  # (K, order + 1), newest first
+    weights = weights * np.sqrt(situation.knots)
+    weights = weights * min(1.0, np.sqrt(stiffest) / float(np.abs(weights).max()))
+    value = situation.reference
+    matrix, known = value.matrix / unit, value.constant / unit
+    count = len(weights)
+    constant = sum(weights[:, lag, None] * known[order - lag : order - lag + count] for lag in range(order + 1))
+    earlier = tuple(Earlier(lag, frozen(matrix), frozen(weights[:, lag])) for lag in range(order + 1))
+    return Squares(frozen(np.zeros_like(matrix)), frozen(constant), earlier)
+
+
+def _weights(times: Array, order: int) -> Array:
+    """Return the weights of knots k, k - 1, ... in each difference, for a task that lasts 1."""
+    h = np.diff(times) / (times[-1] - times[0])
+    if order == 1:
+        root = 1 / np.sqrt(h)
+        return np.column_stack([root, -root])
+    before, after = h[:-1], h[1:]
+    span = (before + after) / 2
+    root = np.sqrt(span)
+    return np.column_stack([root / (span * after), -root * (1 / after + 1 / before) / span, root / (span * before)])

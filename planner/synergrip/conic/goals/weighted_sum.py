@@ -1,0 +1,39 @@
+"""Several sums of squares at once, each with its weight."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.conic.goals.goal import Goal, Objective, Squares
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import frozen
+
+
+@dataclass(frozen=True)
+class WeightedSum:
+    """Minimise the sum of weight times goal, over goals that are sums of squares."""
+
+    goals: tuple[tuple[Goal, float], ...]
+
+    @property
+    def name(self) -> str:
+        """Name in messages."""
+        return " + ".join(f"{weight:g} {goal.name}" for goal, weight in self.goals)
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return none: sums of squares have no scalar."""
+        return ()
+
+    def objective(self, situation: Situation) -> Objective:
+        """Return all the squares, each times the root of its weight."""
+        parts = ((part, weight) for goal, weight in self.goals for part in goal.objective(situation).squares)
+        return Objective(tuple(_times(part, float(np.sqrt(weight))) for part, weight in parts))
+
+
+def _times(squares: Squares, factor: float) -> Squares:
+    earlier = tuple(replace(part, weights=frozen(factor * part.weights)) for part in squares.earlier)
+    return Squares(frozen(factor * squares.matrix), frozen(factor * squares.constant), earlier)

@@ -1,0 +1,119 @@
+"""What the first K synergies control, for every K, with hard and with soft contacts. Equation (34), row by row.
+
+The dimensions depend on no compliance (docs/theory.md), so the contacts are taken as equally stiff in every
+direction and everything else as rigid: the rank decisions are then as clear-cut as the kinematics lets them be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.errors import NotRestrainedError
+from synergrip.grasps.contact import Contact, ContactKind
+from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
+from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.placing import moved_to
+from synergrip.grasps.scale import scale_of
+from synergrip.linalg import frozen
+from synergrip.plans.problem import Problem
+from synergrip.statics import respond, subspaces
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """Of the controlled subspaces; their sum is n_z (34)."""
+
+    E_s: int
+    Gamma_ucs: int
+    Gamma_zr: int
+    ambiguous: bool
+    """True when a rank decision behind them lies in the grey zone."""
+
+
+@dataclass(frozen=True)
+class DimensionColumn:
+    """The dimensions with every contact of one kind."""
+
+    kind: str
+    """"hard" or "soft"."""
+    rows: tuple[Dimensions, ...]
+    """For the first 1, 2, ... n_z synergies; empty when there is a reason."""
+    reason: str
+    """Why there are none; else empty."""
+
+
+def dimension_table(problem: Problem) -> tuple[DimensionColumn, DimensionColumn]:
+    """Return the dimensions for the first K synergies of a problem, every contact taken as hard, then as soft.
+
+    A grasp given as matrices has only the rows of J that it has: soft contacts become hard by leaving the spin out,
+    the other way there is nothing to go by.
+    """
+    hard, soft = (_column(problem, contact_kind(name)) for name in ("hard", "soft"))
+    return hard, soft
+
+
+def _column(problem: Problem, kind: ContactKind) -> DimensionColumn:
+    grasp = with_kind(problem, kind)
+    if grasp is None:
+        lacking = "moments about the normals" if kind.name == "soft" else "forces across the normals"
+        return DimensionColumn(kind.name, (), f"the matrices do not say how the contacts transmit {lacking}")
+    try:
+        rows = tuple(_dimensions(first(grasp, count)) for count in range(1, grasp.n_z + 1))
+    except NotRestrainedError as error:
+        return DimensionColumn(kind.name, (), str(error))
+    return DimensionColumn(kind.name, rows, "")
+
+
+def with_kind(problem: Problem, kind: ContactKind) -> Grasp | None:
+    """Return the grasp of a problem with every contact of one `kind`; None when its matrices do not hold it.
+
+    Compliances are those of the module's head, and friction is of no account: the grasp is good for dimensions only.
+    """
+    grasp = problem.grasp
+    if any(set(kind.components) - set(contact.kind.components) for contact in grasp.contacts):
+        changed = _reformed(problem, kind)
+        if changed is None:
+            return None
+    else:
+        changed = _reduced(grasp, kind)
+    stiffness = scale_of(changed).force
+    n_q, n_z = changed.n_q, changed.n_z
+    return replace(
+        changed, C_s=frozen(np.diag(stiffness**2)), C_q=frozen(np.zeros((n_q, n_q))), C_z=frozen(np.zeros((n_z, n_z))),
+        lambda_0=None, w_0=frozen(np.zeros(6)),
+    )  # fmt: skip
+
+
+def first(grasp: Grasp, count: int) -> Grasp:
+    """Return the grasp with its first `count` synergies."""
+    return replace(
+        grasp, S=frozen(grasp.S[:, :count]), C_z=frozen(grasp.C_z[:count, :count]), synergies=grasp.synergies[:count]
+    )
+
+
+def _reduced(grasp: Grasp, kind: ContactKind) -> Grasp:
+    """Return the grasp with those force components only that the `kind` has; all contacts have them."""
+    kept = [i for i, (_, component) in enumerate(grasp.components) if component in kind.components]
+    contacts = tuple(replace(contact, kind=kind) for contact in grasp.contacts)
+    return replace(grasp, contacts=contacts, G=frozen(grasp.G[:, kept]), J=frozen(grasp.J[kept]))
+
+
+def _reformed(problem: Problem, kind: ContactKind) -> Grasp | None:
+    """Return the grasp formed anew from the motion of the links, G and J of (5); None without a hand."""
+    held, grasp = problem.held, problem.grasp
+    if held is None:
+        return None
+    contacts: tuple[Contact, ...] = tuple(replace(contact, kind=kind) for contact in grasp.contacts)
+    motions = held.hand.kinematics.at(held.q, [(touch.pad.link, touch.pad.point) for touch in held.touches])
+    places = [contact.point + held.thing.position for contact in contacts]
+    moved = [moved_to(motion, place).jacobian for motion, place in zip(motions, places, strict=True)]
+    return replace(grasp, contacts=contacts, G=grasp_matrix(contacts), J=hand_jacobian(contacts, moved))
+
+
+def _dimensions(grasp: Grasp) -> Dimensions:
+    spaces = subspaces(respond(grasp))
+    # the force map is here the very matrix of "rigid", so its own decision can say no more than that one
+    decided = (spaces.decisions[name] for name in ("restraint", "redundancy", "rigid"))
+    return Dimensions(*spaces.dimensions, any(decision.ambiguous for decision in decided))

@@ -1,0 +1,52 @@
+"""The goals of a task by their names in the problem file. A new goal is listed here."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from synergrip.conic.goals.centred_joints import CentredJoints
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_motion import LeastMotion
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.weighted_sum import WeightedSum
+from synergrip.errors import InputError
+from synergrip.plans.task import EFFORTS, GoalName, Task
+
+SIMPLE: dict[GoalName, Goal] = {
+    "margin": LargestMargin(),
+    "peak_force": LeastPeak(),
+    "effort": LeastEffort(),
+    "torque": LeastEffort("torque"),
+    "actuator": LeastEffort("actuator"),
+    "references": LeastMotion(),
+    "travel": LeastMotion("rates"),
+    "smooth": LeastMotion("accelerations"),
+}
+
+
+def goals_of(task: Task) -> tuple[Goal, ...]:
+    """Return the goals of a task in their order; least contact effort comes last when nothing else settles the forces.
+
+    Raises:
+        InputError: joints are to be centred and their ranges are not known.
+    """
+    settles = EFFORTS & {*task.order, *task.weights}
+    names = task.order if settles else (*task.order, "effort")
+    return tuple(_goal(name, task) for name in names)
+
+
+def _goal(name: GoalName, task: Task) -> Goal:
+    if name == "weighted":
+        return WeightedSum(tuple((_exact(_goal(each, task)), weight) for each, weight in task.weights.items()))
+    if name != "centred":
+        return SIMPLE[name]
+    if task.ranges is None:
+        raise InputError.at("goal.order", "'centred' needs a hand with joint ranges; a grasp file states none")
+    return CentredJoints(task.ranges.start, task.ranges.lower, task.ranges.upper)
+
+
+def _exact(goal: Goal) -> Goal:
+    """Return the goal with the factor that its definition gives it."""
+    return replace(goal, exact=True) if isinstance(goal, LeastMotion) else goal

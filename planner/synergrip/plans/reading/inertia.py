@@ -1,0 +1,72 @@
+"""The load that a moving palm puts on the object by its inertia."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.documents import LARGEST_NUMBER
+from synergrip.errors import InputError
+from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
+from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.palm_motion import PalmMotion
+
+KEY = "task.palm.inertia"
+
+
+@dataclass(frozen=True, eq=False)
+class Inertia:
+    """The inertial load on an object that is fixed to the palm."""
+
+    mass: float  # [kg]
+    centre: Array  # (3,) centre of mass in the palm frame [m]
+    tensor: Array  # (3, 3) about the centre, axes of the palm [kg m^2]
+    palm: PalmMotion
+
+    def at(self, times: Array) -> Array:
+        """Return the wrench (T, 6) about B: force ``-m a``, moment ``-(I alpha + omega x I omega)`` (Euler)."""
+        omega, alpha = self.palm.rotation_rates(times)
+        force = -self.mass * self.palm.acceleration(self.centre, times)
+        moment = -(alpha @ self.tensor.T + np.cross(omega, omega @ self.tensor.T))
+        return np.hstack([force, moment])
+
+
+def inertia(thing: Object | None, mass: float, palm: PalmMotion) -> Inertia:
+    """Return the inertial load on a placed object; without one, on a point mass at the origin of the palm frame.
+
+    Raises:
+        InputError: there is no mass or no time to move in, or the load is beyond all numbers.
+    """
+    if mass == 0:
+        message = "inertia needs the mass of the object: give object.mass (a grasp file has none: use task.wrench)"
+        raise InputError.at(KEY, message)
+    course = palm.course
+    span = course.end - course.start
+    if span <= 0:
+        raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {course.end:g} s")
+    centre = np.zeros(3) if thing is None else thing.position
+    reach = float(np.linalg.norm(palm.shift)) + (1 + abs(palm.turn)) * abs(palm.turn) * float(np.linalg.norm(centre))
+    size = mass * reach / span / span
+    if not size < LARGEST_NUMBER:
+        raise InputError.at(KEY, f"an inertial load of the order of {size:.1e} N is too large; check task.duration")
+    shape = None if thing is None else thing.shape
+    return Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
+
+
+def uniform_tensor(shape: Shape | None) -> Array:
+    """Return the inertia tensor (3, 3) [m^2] of a solid of uniform density about its centre, for each kg of mass.
+
+    An object without a shape, or with one that is not known here, counts as a point mass: zero.
+    """
+    if isinstance(shape, Turned):
+        return np.asarray(shape.rotation @ uniform_tensor(shape.shape) @ shape.rotation.T)
+    if isinstance(shape, Sphere):
+        return 0.4 * shape.radius**2 * np.eye(3)
+    if isinstance(shape, Box):
+        squares = np.square(shape.size)
+        return np.diag(squares.sum() - squares) / 12
+    if isinstance(shape, Cylinder):
+        across = shape.radius**2 / 4 + shape.height**2 / 12
+        return np.diag([across, across, shape.radius**2 / 2])
+    return np.zeros((3, 3))

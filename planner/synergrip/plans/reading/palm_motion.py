@@ -1,0 +1,65 @@
+"""How the palm moves in the world, and what stands still there as seen from the palm: gravity above all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.motion_tables import PalmTable
+from synergrip.plans.reading.profiles import Course
+
+
+@dataclass(frozen=True, eq=False)
+class PalmMotion:
+    """A turn about an axis through the origin of the palm frame and a shift of this origin, on one course.
+
+    The world frame is the palm frame at the start: a point p of the palm is at ``shift s + R(axis, turn s) p``.
+    """
+
+    axis: Array  # (3,) unit
+    turn: float  # [rad]
+    shift: Array  # (3,) [m]
+    course: Course
+
+    def seen(self, vectors: Array, times: Array) -> Array:
+        """Return vectors of the world (3,) or (T, 3) in the palm frame (T, 3): ``R(axis, -angle) v`` (Rodrigues)."""
+        angle = -self.turn * self.course.at(times)[:, None]
+        along = (vectors @ self.axis)[..., None] * self.axis
+        return np.asarray(
+            vectors * np.cos(angle) + np.cross(self.axis, vectors) * np.sin(angle) + along * (1 - np.cos(angle))
+        )
+
+    def rotation_rates(self, times: Array) -> tuple[Array, Array]:
+        """Return angular velocity (T, 3) [rad/s] and acceleration (T, 3) [rad/s^2]; the same in world and palm."""
+        turn = self.turn * self.axis
+        return np.outer(self.course.at(times, 1), turn), np.outer(self.course.at(times, 2), turn)
+
+    def acceleration(self, point: Array, times: Array) -> Array:
+        """Return the acceleration (T, 3) [m/s^2], in the palm frame, of a point (3,) [m] fixed to the palm.
+
+        ``R' shift s'' + alpha x p + omega x (omega x p)``: of the origin, tangential, centripetal.
+        """
+        omega, alpha = self.rotation_rates(times)
+        origin = self.seen(np.outer(self.course.at(times, 2), self.shift), times)
+        return np.asarray(origin + np.cross(alpha, point) + np.cross(omega, np.cross(omega, point)))
+
+
+@dataclass(frozen=True, eq=False)
+class Weight:
+    """The weight of the object in a palm that moves."""
+
+    force: Array
+    """(3,) in the palm frame at the start [N]."""
+    palm: PalmMotion
+
+    def at(self, times: Array) -> Array:
+        """Return the wrench (T, 6) about B; the centre of mass is there."""
+        return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
+
+
+def palm_motion(table: PalmTable, start: float, end: float) -> PalmMotion:
+    """Return the motion of the palm in a task from `start` to `end` [s]."""
+    axis, shift = table.axis or (0.0, 0.0, 1.0), table.shift or np.zeros(3)
+    return PalmMotion(frozen(axis), table.turn or 0.0, frozen(shift), Course(table.profile, start, end))

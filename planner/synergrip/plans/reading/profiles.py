@@ -1,0 +1,95 @@
+"""Values over the time of a task, to be had at any instant: courses from 0 to 1, constants, tables, and their sums."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+from synergrip.linalg import Array, frozen, interpolated
+from synergrip.plans.reading.motion_tables import CourseName
+from synergrip.plans.reading.tables import Table
+
+ROUNDING = 1e-9
+"""Relative size of what is rounding and no difference between two times."""
+
+COURSES: dict[CourseName, Polynomial] = {
+    "linear": Polynomial([0, 1]),
+    "cubic": Polynomial([0, 0, 3, -2]),
+    "min-jerk": Polynomial([0, 0, 0, 10, -15, 6]),
+}
+"""Course from 0 to 1 over the share of the time that has passed."""
+
+
+class Profile(Protocol):
+    """Values over time."""
+
+    def at(self, times: Array) -> Array:
+        """Return the values (T, m) at any times (T,) [s]."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """A course from 0 at its start to 1 at its end; at rest before and after."""
+
+    name: CourseName
+    start: float  # [s]
+    end: float  # [s]
+
+    def at(self, times: Array, derivative: int = 0) -> Array:
+        """Return the course (T,), or a derivative of it [1/s^derivative]; without any time to go it is at its end.
+
+        At the two ends a derivative is the one from inside.
+        """
+        span = self.end - self.start
+        if span <= 0:
+            return np.full(len(times), 1.0 if derivative == 0 else 0.0)
+        share = (times - self.start) / span
+        values = np.asarray(COURSES[self.name].deriv(derivative)(np.clip(share, 0.0, 1.0)) / span**derivative)
+        outside = (share < -ROUNDING) | (share > 1 + ROUNDING)
+        return values if derivative == 0 else np.where(outside, 0.0, values)
+
+
+@dataclass(frozen=True, eq=False)
+class Constant:
+    """The same values at all times."""
+
+    values: Array
+    """(m,)"""
+
+    def at(self, times: Array) -> Array:
+        """Return the values (T, m)."""
+        return np.tile(self.values, (len(times), 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Tabled:
+    """A table, read linearly between its lines; before the first and after the last it stays as it is there."""
+
+    table: Table
+
+    def at(self, times: Array) -> Array:
+        """Return the values (T, m)."""
+        return interpolated(times, self.table.times, self.table.values)
+
+
+@dataclass(frozen=True, eq=False)
+class Profiles:
+    """What acts on the object and where it is wanted, at any time of the task."""
+
+    load: tuple[Profile, ...]
+    """Wrenches (T, 6) about B [N, N m] that add up; none when nothing is said of the load."""
+    wanted: Profile
+    """What `Loads.wanted` holds at the knots."""
+
+    def load_at(self, times: Array) -> Array | None:
+        """Return the external wrench on the object (T, 6) at any times (T,) [s]; None when nothing is said of it."""
+        if not self.load:
+            return None
+        return frozen(sum((part.at(times) for part in self.load), np.zeros((len(times), 6))))
+
+    def wanted_at(self, times: Array) -> Array:
+        """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Loads.wanted`."""
+        return frozen(self.wanted.at(times))

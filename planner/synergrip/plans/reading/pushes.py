@@ -1,0 +1,81 @@
+"""Pushes: forces on the object for some time, and the wrench about B that each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.profiles import ROUNDING
+from synergrip.plans.reading.push_table import PushProfile, PushTable
+
+HALF_SINE_PARTS = 16
+"""Into how many parts knots divide a half sine: straight lines between them fall short by 0.5 % of the force."""
+
+
+@dataclass(frozen=True, eq=False)
+class Push:
+    """A wrench that comes and goes."""
+
+    wrench: Array  # (6,) about B at the full force [N, N m]
+    profile: PushProfile
+    start: float  # [s]
+    end: float  # [s]
+    ramp: float  # [s]
+
+    def at(self, times: Array) -> Array:
+        """Return the wrench (T, 6) about B at any times (T,) [s]; a step is on at its start and its end."""
+        return np.outer(self.course(times), self.wrench)
+
+    def course(self, times: Array) -> Array:
+        """Return the share (T,) of the full force."""
+        slack = ROUNDING * max(self.end, 1.0)
+        inside = (times >= self.start - slack) & (times <= self.end + slack)
+        if self.profile == "step":
+            return np.where(inside, 1.0, 0.0)
+        if self.profile == "trapezoid":
+            nearest = np.minimum(times - self.start, self.end - times)  # to either end
+            return np.clip(nearest / self.ramp, 0.0, 1.0)
+        share = (times - self.start) / (self.end - self.start)
+        return np.where(inside, np.maximum(np.sin(np.pi * np.clip(share, 0.0, 1.0)), 0.0), 0.0)
+
+    @property
+    def corners(self) -> Iterator[tuple[str, float]]:
+        """The times at which there must be a knot [s], each with the key that says so."""
+        yield "start", self.start
+        yield "end", self.end
+        if self.profile == "trapezoid":
+            yield from (("ramp", self.start + self.ramp), ("ramp", self.end - self.ramp))
+        if self.profile == "half-sine":
+            yield "profile", (self.start + self.end) / 2
+
+    @property
+    def knots(self) -> Array:
+        """The times at which the push is looked at when nobody says how many there are [s]."""
+        if self.profile == "half-sine":
+            return np.linspace(self.start, self.end, HALF_SINE_PARTS + 1)
+        return np.array([time for _, time in self.corners])
+
+
+def pushed(table: PushTable, key: str, start: float, end: float) -> Push:
+    """Return a push in a task from `start` to `end` [s]; `key` is that of its entry, for errors.
+
+    Raises:
+        InputError: it is not over before the task, not after it began, or too short for its ramps.
+    """
+    first, last = start if table.start is None else table.start, end if table.end is None else table.end
+    if last > end + ROUNDING * max(end, 1.0):
+        message = f"the push ends at {last:g} s, after the task, which ends at {end:g} s; change it or task.duration"
+        raise InputError.at(f"{key}.end", message)
+    if last - first <= ROUNDING * max(end, 1.0):
+        name = "end" if table.end is not None else "start"
+        raise InputError.at(f"{key}.{name}", f"the push begins at {first:g} s and must end later, not at {last:g} s")
+    ramp = table.ramp or 0.0
+    if 2 * ramp > (last - first) * (1 + ROUNDING):
+        message = f"two ramps of {ramp:g} s do not fit into a push of {last - first:g} s; at most half of it each"
+        raise InputError.at(f"{key}.ramp", message)
+    force = table.force * np.array(table.direction)
+    return Push(frozen(np.concatenate([force, np.cross(table.at, force)])), table.profile, first, last, ramp)

@@ -1,0 +1,66 @@
+"""The formulas of the second formulation for goals of motion, and for what earlier goals determined."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.conic.goals.after import Held
+from synergrip.conic.goals.centred_joints import CentredJoints
+from synergrip.conic.goals.least_motion import STIFFEST, LeastMotion
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.plans.referee.model import Cone, Model, Wish
+from synergrip.plans.referee.motion_formulas import times_rows
+
+
+def least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
+    """Write the squares of gamma and of the free part of beta down."""
+    import cvxpy as cp
+
+    cost = 0.5 * cp.sum_squares(model.gamma / model.units.reference) if model.redundancy else 0.0
+    if model.beta_free.size:
+        cost = cost + 0.5 * cp.sum_squares(model.beta_free / model.units.motion)
+    return Wish(cost)
+
+
+def least_motion(model: Model, goal: LeastMotion) -> Wish:
+    """Write the squares of references, rates or accelerations down, for a task that lasts 1."""
+    import cvxpy as cp
+
+    z = model.dz_r / model.units.reference
+    if goal.of == "references":
+        return Wish(0.5 * cp.sum_squares(z))
+    if len(model.times) < (2 if goal.of == "rates" else 3):
+        return Wish(cp.Constant(0.0))
+    h = (np.diff(model.times) / (model.times[-1] - model.times[0]))[:, None]
+    rates = times_rows(1 / h, z[1:] - z[:-1])
+    if goal.of == "rates":
+        parts, stiffest = times_rows(np.sqrt(h), rates), 1 / h.min()
+    else:
+        span = (h[1:] + h[:-1]) / 2
+        parts = times_rows(1 / np.sqrt(span), rates[1:] - rates[:-1])
+        stiffest = float(((1 / h[1:] + 1 / h[:-1]) ** 2 / span).max())  # the middle weight is the largest, squared
+    factor = len(model.times) if goal.exact else min(float(len(model.times)), STIFFEST / stiffest)
+    return Wish(0.5 * factor * cp.sum_squares(parts))
+
+
+def centred_joints(model: Model, goal: CentredJoints) -> Wish:
+    """Write the squared distances of the joints from the middle of their ranges down, in half ranges."""
+    import cvxpy as cp
+
+    half = (goal.upper - goal.lower) / 2
+    used = np.flatnonzero(np.isfinite(half) & (half > 0))
+    middle = (goal.lower + goal.upper)[used] / 2
+    known = (model.wrench - model.response.grasp.w_0) @ model.response.dq_dw.T + goal.start
+    q = model.dz_r @ model.response.dq_dzr.T + known
+    return Wish(0.5 * cp.sum_squares((q[:, used] - np.tile(middle, (len(model.times), 1))) @ np.diag(1 / half[used])))
+
+
+def held(model: Model, part: Held) -> Cone:
+    """Write down that the quantities of an earlier goal are what they were."""
+    rows, v = part.rows(), model.v
+    count = len(rows.constant)
+    value = v[len(model.times) - count :] @ rows.matrix.T + rows.constant
+    for each in rows.earlier:
+        start = len(model.times) - count - each.lag
+        value = value + times_rows(each.weights[:, None], v[start : start + count] @ each.matrix.T)
+    return Cone(rows.limit, rows.items, value, equality=True)
