@@ -59,6 +59,7 @@ def test_a_picture_that_cannot_be_written_or_has_no_format_is_bad_input() -> Non
         error = document("tripod", "--picture", picture, code=2)["error"]
         assert (error["type"], error["key"]) == ("InputError", "--picture")
         assert words in error["message"]
+    assert run("pinch-hard", "--picture", "figure.jpg").exit_code == 2
     assert {path.name for path in Path().iterdir()} == {"file"}
 
 

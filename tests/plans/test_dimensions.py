@@ -67,6 +67,18 @@ def test_contacts_of_another_kind_have_the_rows_of_a_problem_that_has_them(name:
         assert np.allclose(getattr(formed, matrix), getattr(expected, matrix), rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize("kind", ["hard", "soft"])
+def test_the_force_map_is_the_contact_motion_that_no_rigid_motion_follows(kind: str) -> None:
+    """With the compliances of the table, in coordinates without units: nothing but geometry decides."""
+    grasp = with_kind(load_problem("barrett-ball-hold"), contact_kind(kind))
+    assert grasp is not None
+    response = respond(grasp)
+    JS = (grasp.J @ grasp.S) / response.scale.force[:, None]
+    Gt = grasp.G.T / response.scale.force[:, None]
+    left = JS - Gt @ np.linalg.lstsq(Gt, JS, rcond=None)[0]
+    assert response.scale.force[:, None] * response.dlambda_dzr == pytest.approx(left, abs=1e-12)
+
+
 def test_frictionless_contacts_are_taken_as_hard_and_soft_too() -> None:
     overrides = ["contacts.model=frictionless"]
     table = dimension_table(load_problem("barrett-ball-hold", overrides))

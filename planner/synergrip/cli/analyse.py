@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
 
 if TYPE_CHECKING:
+    from synergrip.errors import NotRestrainedError
     from synergrip.plans.analysis import Analysis
+    from synergrip.plans.dimensions import DimensionColumn
     from synergrip.plans.problem import Problem
+
+    Columns = tuple[DimensionColumn, DimensionColumn]
 
 
 def analyse(
@@ -28,38 +32,54 @@ def analyse(
     ] = False,
 ) -> None:
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
-    code = 0
     with answering(form):
         from synergrip.errors import NotRestrainedError, SynergripError
         from synergrip.plans.analysis import analyse as work_out
         from synergrip.plans.dimensions import dimension_table
         from synergrip.plans.problem import load_problem, located
-        from synergrip.reports.json_analysis import analysis_document, unrestrained_document
-        from synergrip.reports.text_analysis import analysis_text
-        from synergrip.reports.text_check import refused_text
-        from synergrip.reports.text_dimensions import dimensions_document, dimensions_text
 
         _judge_suffix(picture)
         loaded = load_problem(problem, overrides or [])
-        analysis = None
+        found: Analysis | NotRestrainedError
         try:
-            analysis = work_out(loaded.grasp, loaded.task.wrench)
-            text, document = analysis_text(loaded, analysis, color()), analysis_document(analysis)
+            found = work_out(loaded.grasp, loaded.task.wrench)
         except NotRestrainedError as refusal:
-            text, document = refused_text(loaded, refusal, color()), unrestrained_document(loaded.grasp, refusal)
-            code = refusal.exit_code
+            found = refusal
         except SynergripError as error:
             raise located(loaded, error) from None
-        if table:
-            columns = dimension_table(loaded)
-            text += f"\n\n{dimensions_text(columns, loaded.grasp.synergies)}"
-            document["table"] = dimensions_document(columns, loaded.grasp.n_z)
-        if picture is not None:
-            written = _drawn(loaded, analysis, picture)
-            text += f"\n\nwrote {written}" if written else ""
-            document["picture"] = written
-        show(form, lambda: text, lambda: document)
-    raise typer.Exit(code)
+        columns = dimension_table(loaded) if table else None
+        written = _drawn(loaded, found, picture) if picture else None
+        try:
+            show(form, lambda: _text(loaded, found, columns, written),
+                 lambda: _document(loaded, found, columns) | ({"picture": written} if picture else {}))  # fmt: skip
+        except SynergripError as error:
+            raise located(loaded, error) from None
+    raise typer.Exit(found.exit_code if isinstance(found, NotRestrainedError) else 0)
+
+
+def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None, written: str | None) -> str:
+    from synergrip.errors import NotRestrainedError
+    from synergrip.reports.text_analysis import analysis_text
+    from synergrip.reports.text_check import refused_text
+    from synergrip.reports.text_dimensions import dimensions_text
+
+    refused = isinstance(found, NotRestrainedError)
+    parts = [refused_text(problem, found, color()) if refused else analysis_text(problem, found, color())]
+    if columns is not None:
+        parts.append(dimensions_text(columns, problem.grasp.synergies))
+    if written is not None:
+        parts.append(f"wrote {written}")
+    return "\n\n".join(parts)
+
+
+def _document(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None) -> dict[str, Any]:
+    from synergrip.errors import NotRestrainedError
+    from synergrip.reports.json_analysis import analysis_document, unrestrained_document
+    from synergrip.reports.text_dimensions import dimensions_document
+
+    refused = isinstance(found, NotRestrainedError)
+    document = unrestrained_document(problem.grasp, found) if refused else analysis_document(found)
+    return document | ({} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)})
 
 
 def _judge_suffix(picture: Path | None) -> None:
@@ -70,16 +90,16 @@ def _judge_suffix(picture: Path | None) -> None:
         picture_suffix(picture, "--picture")
 
 
-def _drawn(problem: Problem, analysis: Analysis | None, picture: Path) -> str | None:
+def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path) -> str | None:
     """Draw and return what was written, if anything; what cannot be drawn or written is bad input."""
-    from synergrip.errors import InputError
+    from synergrip.errors import InputError, NotRestrainedError
     from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 
-    if analysis is None:
+    if isinstance(found, NotRestrainedError):
         print(f"the object is not restrained, so '{picture}' was not drawn", file=sys.stderr)
         return None
     try:
-        draw_grasp_synergies(problem, analysis, picture)
+        draw_grasp_synergies(problem, found, picture)
     except InputError as error:
         raise error.under("--picture") from None
     except OSError as error:

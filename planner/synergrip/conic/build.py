@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from synergrip.conic.bend import reserved
 from synergrip.conic.box import LARGEST, box
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.limits.limit import Limit
@@ -21,7 +22,8 @@ Triplets = tuple[NDArray[np.intp], NDArray[np.intp], Array]
 
 def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     """Return the program that looks for the best plan by `goal` among those that keep all `limits`."""
-    rows = [part for limit in limits for part in limit.rows(situation)] + list(goal.rows(situation))
+    rows = [part for limit in limits for part in _rows(situation, limit, limit.couples_knots)]
+    rows += _rows(situation, goal, couples_knots=False)
     cost = goal.objective(situation)
     extra = 0 if cost.epigraph is None else 1
     T, n_v = situation.knots, situation.n_v
@@ -33,6 +35,13 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
     blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
     return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds))
+
+
+def _rows(situation: Situation, source: Limit | Goal, couples_knots: bool) -> Sequence[Rows]:
+    """Return the rows of a limit or goal, with the reserve for what happens between the knots when it is asked for."""
+    if situation.bend is None or couples_knots:
+        return source.rows(situation)
+    return reserved(source.rows, situation, situation.bend)
 
 
 def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, n: int) -> tuple[sparse.csc_matrix, Array]:

@@ -9,12 +9,16 @@ left out (zero) when no limit looks at more than forces, beta as far as the want
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
+
+if TYPE_CHECKING:
+    from synergrip.conic.bend import Bend
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,8 @@ class Situation:
     gamma: Affine  # (dim Gamma_zr)
     wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
     units: Units
+    bend: Bend | None = None
+    """What happens between the knots, when the program is to allow for it."""
 
     @property
     def knots(self) -> int:

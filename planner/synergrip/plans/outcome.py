@@ -12,6 +12,7 @@ from synergrip.conic.situation import Situation
 from synergrip.errors import Refusal
 from synergrip.linalg import Array
 from synergrip.plans.analysis import Analysis
+from synergrip.plans.between import Between
 from synergrip.plans.clash import Clash
 from synergrip.plans.task import Task
 from synergrip.statics.motion import Motion
@@ -54,6 +55,8 @@ class Plan:
     """The largest margin [N] when it was asked for."""
     notes: tuple[str, ...] = ()
     """What the plan is not, although its goal would have it so."""
+    between: Between | None = None
+    """The plan between its knots; None when nothing is known of it."""
 
     verdict = "feasible"
     exit_code = 0

@@ -16,6 +16,7 @@ from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.between import bend_of
 from synergrip.plans.clash import clashes
 from synergrip.plans.goals import goals_of
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
@@ -51,6 +52,8 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
         units=units_of(analysis, task), redundancy=task.watches_references,
     )  # fmt: skip
+    if task.between == "hold":
+        situation = replace(situation, bend=bend_of(task, analysis))
     return _Planner(task, analysis, situation, solver).outcome()
 
 

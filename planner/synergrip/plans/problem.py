@@ -163,7 +163,8 @@ def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> Task:
     return Task(
         times, wrench, happening.wanted, file.limits.margin, limits, file.goal.names,
         file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, file.goal.weights,
-        touching.limits.ranges,
+        happening.profiles,
+        file.task.between, touching.limits.ranges,
     )  # fmt: skip
 
 

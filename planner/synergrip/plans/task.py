@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 
@@ -23,6 +23,16 @@ FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", 
 """Those that speak of forces only."""
 EFFORTS: frozenset[GoalName] = frozenset({"effort", "torque", "actuator"})
 """Those that leave no force open."""
+
+
+class Course(Protocol):
+    """Load and wish at any time of a task, not only at its knots."""
+
+    def load_at(self, times: Array) -> Array | None:
+        """Return the external wrench (T, 6) at any times (T,) [s]; None when it is w_0 throughout."""
+
+    def wanted_at(self, times: Array) -> Array:
+        """Return the wanted motion (T, m) at any times (T,), with the columns of `Wanted.values`."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +72,10 @@ class Task:
 
     weights: Mapping[GoalName, float] = field(default_factory=dict)
     """The goals in "weighted", each with its weight."""
+    course: Course | None = None
+    """Load and wish at any time; straight lines between the knots when None."""
+    between: Literal["report", "hold"] = "report"
+    """Whether what happens between the knots is reported, or also kept within all limits."""
     ranges: JointRange | None = None
     """Joint ranges of the hand and its posture; None when not known."""
 

@@ -13,6 +13,7 @@ from synergrip.conic.situation import Situation
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
+from synergrip.plans.between import between
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
@@ -36,6 +37,9 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     motion = forward(analysis.response, task.times, references, task.wrench)
     usages = limit_usages(task, situation, motion)
     checks = (*identities(analysis, motion, (alpha, beta, gamma)), *limit_checks(usages))
+    found = between(task, analysis, situation, motion)
+    if found is not None and task.between == "hold":
+        checks += (Check("between the knots", max(found.excess, 0.0), LIMIT),)
     failed = [f"{c.name}: {c.error:.2e} exceeds {c.tolerance:.0e}" for c in checks if not c.passed]
     if failed:
         raise SelfCheckError("the plan fails its own check (" + "; ".join(failed) + "); please report this problem")
@@ -43,7 +47,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     return Plan(
         task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*stage.notes, *_ranges_left(task, situation, motion)),
+        (*stage.notes, *_ranges_left(task, situation, motion)), found,
     )  # fmt: skip
 
 

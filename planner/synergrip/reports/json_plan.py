@@ -14,6 +14,7 @@ from synergrip.linalg import Array
 from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
 from synergrip.reports.json_analysis import refusal_document, structure_document
+from synergrip.reports.text_between import between_document
 
 
 def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -54,6 +55,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         "limits": [usage_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
         "checks": [check_document(check) for check in plan.checks],
+        "between": between_document(plan.between),
     }  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
 from synergrip.quantities import apart
 from synergrip.reports.tables import table, wrapped
+from synergrip.reports.text_between import between_lines
 from synergrip.reports.text_problem import many, problem_lines
 
 _SHOWN = {"N": (1.0, " N"), "N m": (1.0, " N m"), "m": (1e3, " mm"), "rad": (180 / math.pi, " deg")}
@@ -28,7 +29,7 @@ def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequ
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
-        lines += [_checked(outcome), "", *_feasible(outcome, word)]
+        lines += [_checked(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
         lines += [line for note in outcome.notes for line in wrapped("note     ", note)]
     elif isinstance(outcome, Infeasible):
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]

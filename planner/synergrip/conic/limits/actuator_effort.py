@@ -21,6 +21,7 @@ class ActuatorEffort:
     limit: Array
     key: str = "limits.actuator_effort"
     watches: ClassVar[Watches] = "forces"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""

@@ -25,6 +25,7 @@ class ElasticMotion:
     limit: float  # [m]
     key: str = "limits.elastic_motion"
     watches: ClassVar[Watches] = "forces"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""

@@ -22,6 +22,7 @@ class FrictionCone:
     margin: float = 0.0  # [N]
     key: str = "limits.margin"
     watches: ClassVar[Watches] = "forces"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per contact (a plain bound for a frictionless one)."""

@@ -26,6 +26,7 @@ class JointRange:
     """Of all joints; empty when some turn and some slide."""
     key: str = "limits.joint_range"
     watches: ClassVar[Watches] = "references"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range."""

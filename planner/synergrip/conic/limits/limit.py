@@ -60,6 +60,10 @@ class Limit(Protocol):
     def watches(self) -> Watches:
         """What it depends on."""
 
+    @property
+    def couples_knots(self) -> bool:
+        """Whether it speaks of the step from knot to knot, and not of each instant."""
+
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return the rows it adds to the program."""
 

@@ -23,6 +23,7 @@ class NormalForce:
     upper: float  # [N], infinity for none
     key: str = "limits.normal_force"
     watches: ClassVar[Watches] = "forces"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds per contact, in force units."""

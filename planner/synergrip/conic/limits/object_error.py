@@ -32,6 +32,7 @@ class ObjectError:
     key: str = "limits.drift"
     title: str = "object error"
     watches: ClassVar[Watches] = "motion"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""

@@ -27,6 +27,7 @@ class SynergyAcceleration:
     limit: Array
     key: str = "limits.synergy_acceleration"
     watches: ClassVar[Watches] = "references"
+    couples_knots: ClassVar[bool] = True
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each synergy and inner knot, in units of the longest steps' bound."""

@@ -23,6 +23,7 @@ class SynergyRate:
     limit: Array
     key: str = "limits.synergy_rate"
     watches: ClassVar[Watches] = "references"
+    couples_knots: ClassVar[bool] = True
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each synergy and step, in units of the limit."""

@@ -21,6 +21,7 @@ class SynergyReference:
     limit: Array
     key: str = "limits.synergy_reference"
     watches: ClassVar[Watches] = "references"
+    couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""

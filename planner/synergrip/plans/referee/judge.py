@@ -20,7 +20,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.goals import goals_of
 from synergrip.plans.question import Question
-from synergrip.plans.referee.formulas import friction, write_goal, write_limit
+from synergrip.plans.referee.formulas import NotWrittenError, friction, write_goal, write_limit
 from synergrip.plans.referee.model import Model, Posed, Wish, pose, pose_relaxed, write_model
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
@@ -130,6 +130,8 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     situation = question.situation
+    if situation.bend is not None:
+        raise NotWrittenError("the CVXPY formulation knows no reserve between the knots; use --solver clarabel")
     model = write_model(
         situation.response, situation.coordinates, times=situation.times, wrench=situation.wrench,
         beta=situation.beta.constant, units=situation.units, redundancy=situation.frees_gamma,

@@ -33,7 +33,7 @@ class Motion:
     @property
     def title(self) -> str:
         """Name and step."""
-        return f"{self.name}  {self.step.text}" if self.step.text else f"{self.name}  moves no joint"
+        return f"{self.name}  {self.step.text}" if self.step.text else f"{self.name}  moves nothing"
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ class Step:
 
     unit: Unit
     value: float
-    """[rad or m]; 0 for a synergy that moves no joint."""
+    """[rad or m]; 0 for a synergy that moves nothing."""
 
     @property
     def text(self) -> str:

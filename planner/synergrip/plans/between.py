@@ -1,0 +1,88 @@
+"""Between the knots: what load and wish really do there, and what that makes of a plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.conic.bend import SAMPLES, Bend, instants
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.object_error import AXES
+from synergrip.conic.situation import Situation
+from synergrip.linalg import Array, frozen, interpolated
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+from synergrip.statics.motion import Motion, forward
+from synergrip.statics.theorem1 import motion_coordinates
+
+STRAIGHT = 1e-9
+"""Departure from a straight line, relative to the load or the wish, that is rounding."""
+
+
+@dataclass(frozen=True)
+class Between:
+    """A plan between its knots, its references linear there and its loads as they are."""
+
+    samples: int
+    """Instants looked at in each interval."""
+    load_departure: float
+    """[N] how far the load leaves the straight line between knots (moments over the length)."""
+    path_departure: float
+    """[m] how far the wanted motion leaves it (rotations times the length)."""
+    usages: tuple[Usage, ...]
+    """What the plan uses there of every limit that speaks of an instant, friction cones first."""
+
+    @property
+    def straight(self) -> bool:
+        """True when nothing bends: what holds at the knots then holds between them."""
+        return self.load_departure == 0.0 and self.path_departure == 0.0
+
+    @property
+    def excess(self) -> float:
+        """How far the worst value is beyond its limit, in units of the limit; negative inside."""
+        return max(float((usage.excess / usage.scale).max(initial=-np.inf)) for usage in self.usages)
+
+
+def bend_of(task: Task, analysis: Analysis) -> Bend | None:
+    """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
+    if task.course is None or len(task.times) < 2:
+        return None
+    times, interval = instants(task.times)
+    load = task.course.load_at(times)
+    wrench = frozen(interpolated(times, task.times, task.wrench)) if load is None else load
+    return Bend(frozen(times), interval, wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times))))
+
+
+def _displacement(task: Task, analysis: Analysis, values: Array) -> Array:
+    """Return the displacement (J, 6) that a wish asks for, as `followed` reads it at the knots."""
+    basis = analysis.spaces.Gamma_ucs
+    if task.wanted.kind == "hold":
+        return np.zeros((len(values), 6))
+    if task.wanted.kind != "motion":
+        return np.asarray(values @ basis[:, : values.shape[1]].T)
+    if task.tracking == "rigid" and len(task.axes) == len(AXES):
+        return motion_coordinates(analysis.response, analysis.spaces, values)[0] @ basis.T
+    return np.asarray(values) if task.tracking == "compliant" else np.where(np.isin(AXES, task.axes), values, 0.0)
+
+
+def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion) -> Between | None:
+    """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
+    bend = situation.bend or bend_of(task, analysis)
+    if bend is None:
+        return None
+    dz_r = interpolated(bend.times, task.times, motion.dz_r)
+    there = forward(analysis.response, bend.times, dz_r, bend.wrench)
+    dense = replace(situation, times=bend.times, wrench=bend.wrench, wanted=bend.wanted)
+    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.kept)
+    usages = tuple(limit.usage(dense, there) for limit in limits if not limit.couples_knots)
+    scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
+    loads, paths = (scale.wrench(load), scale.wrench(bend.wrench)), (scale.twist(path), scale.twist(bend.wanted))
+    return Between(SAMPLES, _size(*loads), _size(*paths), usages)
+
+
+def _size(departure: Array, whole: Array) -> float:
+    """Return the largest departure; 0 when it is rounding."""
+    size = float(np.linalg.norm(departure, axis=1).max(initial=0.0))
+    return size if size > STRAIGHT * float(np.linalg.norm(whole, axis=1).max(initial=0.0)) else 0.0

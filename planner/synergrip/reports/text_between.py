@@ -1,0 +1,67 @@
+"""The line about what happens between the knots."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.plans.between import Between
+from synergrip.plans.outcome import Plan
+from synergrip.plans.verified import LIMIT
+from synergrip.quantities import apart
+from synergrip.reports.tables import wrapped
+
+
+def between_lines(plan: Plan) -> Iterator[str]:
+    """Yield the lines of ``between``; none when nothing is known of it."""
+    if plan.between is not None:
+        parts = [*_departures(plan.between), _held(plan, plan.between)]
+        yield from wrapped("between  ", "; ".join(parts))
+
+
+def _departures(between: Between) -> Iterator[str]:
+    if between.straight:
+        yield "loads and wishes are straight lines from knot to knot"
+        return
+    yield f"{between.samples} instants in each interval"
+    if between.load_departure:
+        yield f"the load leaves its straight line by {between.load_departure:.3g} N"
+    if between.path_departure:
+        yield f"the wanted motion by {1e3 * between.path_departure:.3g} mm"
+
+
+def _held(plan: Plan, between: Between) -> str:
+    if between.excess <= LIMIT:
+        return "all limits hold there too"
+    worst = max(between.usages, key=lambda usage: float((usage.excess / usage.scale).max()))
+    k, i = worst.worst()
+    value = float(worst.value[k, i])
+    bound = float(worst.lower[i] if worst.lower[i] - value >= value - worst.upper[i] else worst.upper[i])
+    reached, limit = apart(value, bound)
+    unit = f" {worst.unit}" if worst.unit in ("N", "N m", "m", "rad") else ""
+    advice = (
+        ""
+        if plan.task.between == "hold"
+        else '; task.between = "hold" keeps the limits there, more knots straighten it'
+    )
+    return (
+        f"{worst.title} of {worst.items[i]} reaches {reached}{unit} at t = {worst.times[k]:.3g} s, "
+        f"past its limit of {limit}{unit}{advice}"
+    )
+
+
+def between_document(between: Between | None) -> dict[str, object] | None:
+    """Return it as a document: departures, and the worst value of every limit there."""
+    if between is None:
+        return None
+    limits = []
+    for usage in between.usages:
+        k, i = usage.worst()
+        limits.append({"name": usage.title, "value": float(usage.value[k, i]), "item": usage.items[i],
+                       "time_s": float(usage.times[k]), "unit": usage.unit})  # fmt: skip
+    return {
+        "samples": between.samples, "load_departure_N": between.load_departure,
+        "path_departure_m": between.path_departure, "holds": bool(between.excess <= LIMIT), "limits": limits,
+        "worst_margin_N": float(np.min(between.usages[0].value)),
+    }  # fmt: skip
