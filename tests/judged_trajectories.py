@@ -138,8 +138,7 @@ def _tracking(outcome: Plan, found: Course, rigid: Array, wanted: Array) -> dict
     result = {"task.tolerance": float(sizes_on(grasp, task.axes, reached - wanted).max()) / tolerance - 1}
     rest = tuple(axis for axis in AXES if axis not in task.axes)
     if rest and task.drift is not None:
-        asked = wanted if compliant else 0 * wanted  # on free axes a rigid motion is to stay
-        result["task.drift"] = float(sizes_on(grasp, rest, reached - asked).max()) / task.drift - 1
+        result["task.drift"] = float(sizes_on(grasp, rest, reached - wanted).max()) / task.drift - 1
     return result
 
 
@@ -151,8 +150,11 @@ def _rigid_part(outcome: Plan, found: Course) -> Array:
 
 
 def _wanted(outcome: Plan) -> Array:
-    wanted, basis = outcome.task.wanted, outcome.analysis.spaces.Gamma_ucs
-    return wanted.values if wanted.kind == "motion" else wanted.values @ basis[:, : wanted.values.shape[1]].T
+    """Return where the object is wanted (T, 6); in rigid tracking it is to stay on the axes that are not asked for."""
+    task, basis = outcome.task, outcome.analysis.spaces.Gamma_ucs
+    values = task.wanted.values
+    whole = values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T
+    return whole if task.tracking == "compliant" else whole * np.isin(AXES, task.axes)
 
 
 def _proof(outcome: Infeasible) -> list[str]:

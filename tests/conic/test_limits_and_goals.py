@@ -17,6 +17,7 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
@@ -32,6 +33,7 @@ from synergrip.statics.motion import Motion, forward
 KNOTS = 4
 LIMITS = {
     "friction": lambda g: FrictionCone(0.7),
+    "friction reserve": lambda g: FrictionReserve(frozen(np.linspace(0.5, 0.9, g.n_c))),
     "normal": lambda g: NormalForce(0.5, 3.0),
     "normal, no upper": lambda g: NormalForce(0.5, np.inf),
     "torque": lambda g: JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),

@@ -63,8 +63,10 @@ def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Colum
     from synergrip.reports.text_check import refused_text
     from synergrip.reports.text_dimensions import dimensions_text
 
-    refused = isinstance(found, NotRestrainedError)
-    parts = [refused_text(problem, found, color()) if refused else analysis_text(problem, found, color())]
+    if isinstance(found, NotRestrainedError):
+        parts = [refused_text(problem, found, color())]
+    else:
+        parts = [analysis_text(problem, found, color())]
     if columns is not None:
         parts.append(dimensions_text(columns, problem.grasp.synergies))
     if written is not None:
@@ -77,8 +79,10 @@ def _document(problem: Problem, found: Analysis | NotRestrainedError, columns: C
     from synergrip.reports.json_analysis import analysis_document, unrestrained_document
     from synergrip.reports.text_dimensions import dimensions_document
 
-    refused = isinstance(found, NotRestrainedError)
-    document = unrestrained_document(problem.grasp, found) if refused else analysis_document(found)
+    if isinstance(found, NotRestrainedError):
+        document = unrestrained_document(problem.grasp, found)
+    else:
+        document = analysis_document(found)
     return document | ({} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)})
 
 

@@ -74,6 +74,8 @@ def _each_schema(one: list[Schema], word: str = "") -> Schema:
     return {"anyOf": [*words, *one, array_of({"anyOf": one})]}
 
 
+ReserveAngle = Annotated[float, Written(with_unit("angle", above=0), unit_schema("angle"))]
+SafetyFactor = Annotated[float, Written(lambda value: number(value, at_least=1), {"type": "number", "minimum": 1})]
 Efforts = Annotated[
     float | tuple[float, ...] | Literal["hand"],
     Written(_each(_effort, "hand"), _each_schema([POSITIVE, unit_schema("torque")], "hand")),
@@ -90,6 +92,12 @@ class LimitsTable(Table):
 
     margin: Force = Field(
         default="0 N", validate_default=True, description="distance of every contact force to its friction cone"
+    )
+    margin_angle: ReserveAngle | None = Field(
+        default=None, description="angle that every contact force keeps to its friction cone"
+    )
+    safety_factor: SafetyFactor | None = Field(
+        default=None, description="factor by which friction may be smaller than stated before a contact slips"
     )
     normal_force: ForceRange | None = Field(
         default=None, description="largest normal force of a contact, or [least, largest]"

@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
+from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
@@ -18,7 +19,7 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.errors import InputError
+from synergrip.errors import InputError, Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.problem_file import ProblemFile
@@ -47,6 +48,8 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
     """
     table, each = file.limits, _Bounds(grasp)
     readers: dict[str, Callable[[Any], Limit]] = {
+        "margin_angle": lambda value: _angle_reserve(grasp, value),
+        "safety_factor": lambda value: FrictionReserve(frozen(np.full(grasp.n_c, 1 / value))),
         "normal_force": lambda value: NormalForce(*value),
         "joint_torque": lambda value: JointTorque(each.joint(value, "joint_torque", hand.torque)),
         "actuator_effort": lambda value: ActuatorEffort(each.synergy(value, "actuator_effort", hand.effort)),
@@ -62,6 +65,22 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
     if "margin" in file.goal.names and not any(given[name] is not None for name in BOUNDING):
         raise unbounded()
     return limits
+
+
+def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
+    """Return the friction that is left when every contact force stays `angle` [rad] away from its cone."""
+    left = np.arctan([contact.friction for contact in grasp.contacts]) - angle
+    issues = [
+        Issue(f"the friction cone of '{contact.name}' is only {np.degrees(angle + rest):.4g} deg wide; ask for less",
+              key="limits.margin_angle")
+        for contact, rest in zip(grasp.contacts, left, strict=True)
+        if contact.friction and rest <= 0
+    ]  # fmt: skip
+    if issues:
+        raise InputError(issues)
+    ratios = [np.tan(rest) / contact.friction if contact.friction else 1.0
+              for contact, rest in zip(grasp.contacts, left, strict=True)]  # fmt: skip
+    return FrictionReserve(frozen(ratios), "limits.margin_angle", "slip margin with angle")
 
 
 def _ranges(hand: HandLimits) -> JointRange:

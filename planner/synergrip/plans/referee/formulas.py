@@ -19,6 +19,7 @@ from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
@@ -60,12 +61,18 @@ def write_goal(model: Model, goal: Goal) -> Wish:
     return GOALS[type(goal)](model, goal)
 
 
-def friction(model: Model, margin: Expression, key: str = "limits.margin") -> tuple[Cone, ...]:
-    """Write ``slip margin >= margin`` of every contact down, margin in force units (docs/theory.md)."""
-    cones = []
-    for contact, rows in zip(model.response.grasp.contacts, model.response.grasp.rows, strict=True):
+def friction(
+    model: Model, margin: Expression, key: str = "limits.margin", ratios: Array | None = None
+) -> tuple[Cone, ...]:
+    """Write ``slip margin >= margin`` of every contact down, margin in force units (docs/theory.md).
+
+    `ratios` (n_c,) are the shares of the friction that may be used.
+    """
+    cones, grasp = [], model.response.grasp
+    shares = np.ones(grasp.n_c) if ratios is None else ratios
+    for contact, rows, share in zip(grasp.contacts, grasp.rows, shares, strict=True):
         force = model.force[:, rows] / model.force_unit
-        mu, nu = contact.friction, contact.spin_friction
+        mu, nu = share * contact.friction, share * contact.spin_friction
         if contact.kind.name == "frictionless":
             cones.append(Cone(key, (contact.name,), force - margin))
         elif contact.kind.name == "hard":
@@ -165,6 +172,7 @@ def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     FrictionCone: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
+    FrictionReserve: lambda model, limit: friction(model, 0.0, limit.key, limit.ratios),
     NormalForce: _normal_force,
     JointTorque: _joint_torque,
     ActuatorEffort: _actuator_effort,

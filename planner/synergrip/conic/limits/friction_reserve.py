@@ -1,0 +1,56 @@
+"""Every contact force inside a friction cone that is narrower than the true one: by an angle, or by a factor."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
+from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import Array, frozen
+from synergrip.statics.motion import Motion
+
+
+@dataclass(frozen=True)
+class FrictionReserve:
+    """``ratio mu n >= ||(t, o)||`` at every contact, and its soft kin with ``ratio nu``.
+
+    An angle phi to the cone is the ratio ``tan(atan(mu) - phi) / mu``, a safety factor s the ratio ``1 / s``
+    (docs/theory.md).
+    """
+
+    ratios: Array
+    """(n_c,) between 0 and 1."""
+    key: str = "limits.safety_factor"
+    title: str = "slip margin with reserve"
+    watches: ClassVar[Watches] = "forces"
+    couples_knots: ClassVar[bool] = False
+
+    def rows(self, situation: Situation) -> Sequence[Rows]:
+        """Return the friction cones of contacts with less friction."""
+        return friction_rows(self._narrowed(situation), 0.0, 0.0, self.key)
+
+    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
+        """Return nothing: a cone alone bounds no force."""
+
+    def loosened(self, share: float) -> Self:
+        """Return it with `share` of the reserve given up."""
+        return replace(self, ratios=frozen(self.ratios + share * (1 - self.ratios)))
+
+    def usage(self, situation: Situation, motion: Motion) -> Usage:
+        """Return the slip margins that contacts with less friction would have; no less than 0 is asked of them."""
+        margins = slip_margins(self._narrowed(situation), motion)
+        return replace(FrictionCone(0.0).usage(situation, motion), title=self.title, value=margins)
+
+    def _narrowed(self, situation: Situation) -> Situation:
+        grasp = situation.response.grasp
+        contacts = tuple(
+            replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
+            for contact, ratio in zip(grasp.contacts, np.asarray(self.ratios), strict=True)
+        )
+        return replace(situation, response=replace(situation.response, grasp=replace(grasp, contacts=contacts)))
