@@ -29,7 +29,7 @@ def following(language: str) -> list[tuple[str, str]]:
     return [(code, shown) for (kind, code), (after, shown) in pairs if kind == language and after == "text"]
 
 
-@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=["plan", "no", "analyse"])
+@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=["plan", "no", "analyse", "table"])
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
     arguments = code.split(".venv/bin/synergrip ")[-1].split()
     run = subprocess.run(
@@ -47,10 +47,10 @@ def test_python_prints_what_is_shown(code: str, shown: str) -> None:
 
 
 def test_every_block_is_run() -> None:
-    """Three commands with their output, one program; the second command is the test run itself."""
-    assert len(following("bash")) == 3
+    """Four commands with their output, one program, one that draws; the second command is the test run itself."""
+    assert len(following("bash")) == 4
     assert len(following("python")) == 1
-    assert [kind for kind, _ in BLOCKS].count("bash") == 4
+    assert [kind for kind, _ in BLOCKS].count("bash") == 6
 
 
 def test_links_lead_somewhere() -> None:

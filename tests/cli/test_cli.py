@@ -219,7 +219,8 @@ def test_text_says_what_was_read_solved_checked_and_written() -> None:
     assert result.stderr == ""
     lines = result.stdout.splitlines()
     assert [line[:9].strip() for line in lines[:4]] == ["read", "task", "solve", "check"]
-    assert any(line.startswith("feasible  smallest slip margin 0.5 N") for line in lines)
+    assert any(line.startswith("feasible  smallest slip margin 0.5001 N") for line in lines)
+    assert any(line.startswith("between  ") for line in lines)
     assert lines[-1] == f"wrote {Path('out/barrett-ball-hold')}/  plan.json  plan.csv  plan.npz"
     for verb in (("analyse", "barrett-ball-hold"), ("validate", "barrett-ball-hold")):
         assert run(*verb).exit_code == 0

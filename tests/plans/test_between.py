@@ -11,7 +11,6 @@ from scipy.interpolate import CubicSpline
 
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.object_error import ObjectError
-from synergrip.errors import SynergripError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.outcome import Plan
@@ -109,7 +108,16 @@ def test_the_departure_of_a_turning_weight_is_known() -> None:
     assert outcome.between.load_departure == pytest.approx(size * (1 - np.cos(np.pi / 24)), rel=0.01)
 
 
-def test_the_second_formulation_does_not_pretend_to_know_the_reserve() -> None:
-    problem = load_problem("barrett-ball-hold", ['task.between="hold"'])
-    with pytest.raises(SynergripError, match="between the knots"):
-        plan(problem.grasp, problem.task, SOLVERS["cvxpy"])
+@pytest.mark.parametrize("goal", ["margin", "effort", "peak_force"])
+def test_the_second_formulation_keeps_the_same_reserve(goal: str) -> None:
+    compared = 0
+    for seed in range(4):
+        grasp, task = swinging(seed, goal)
+        held = replace(task, between="hold")
+        one, two = plan(grasp, held), plan(grasp, held, SOLVERS["cvxpy"])
+        assert one.verdict == two.verdict
+        if isinstance(one, Plan) and isinstance(two, Plan):
+            compared += 1
+            size = np.abs(one.motion.forces).max()
+            np.testing.assert_allclose(two.motion.forces, one.motion.forces, atol=1e-5 * size)
+    assert compared

@@ -14,6 +14,7 @@ STEEP = (
     "contacts.friction=0.8",
     'contacts.stiffness="5 N/mm"',
     "task.knots=21",
+    'task.between="report"',
     "task.gravity=[0, -9.81, 0]",
     'task.palm={axis="z", turn="90 deg"}',
 )

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+from synergrip.cli.running import (
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    color,
+    picture_format,
+    show,
+    writing,
+)
 
 if TYPE_CHECKING:
     from synergrip.errors import NotRestrainedError
@@ -28,7 +38,8 @@ def analyse(
         typer.Option("--picture", metavar="FILE", help="Draw what each synergy does, into .svg, .png or .pdf."),
     ] = None,
     table: Annotated[
-        bool, typer.Option("--table", help="Add the dimensions with the first 1, 2, ... synergies, hard and soft.")
+        bool,
+        typer.Option("--table", help="Show the dimensions with the first 1, 2, ... synergies instead, hard and soft."),
     ] = False,
 ) -> None:
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
@@ -38,7 +49,7 @@ def analyse(
         from synergrip.plans.dimensions import dimension_table
         from synergrip.plans.problem import load_problem, located
 
-        _judge_suffix(picture)
+        picture_format(picture)
         loaded = load_problem(problem, overrides or [])
         found: Analysis | NotRestrainedError
         try:
@@ -62,9 +73,12 @@ def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Colum
     from synergrip.reports.text_analysis import analysis_text
     from synergrip.reports.text_check import refused_text
     from synergrip.reports.text_dimensions import dimensions_text
+    from synergrip.reports.text_problem import problem_lines
 
     if isinstance(found, NotRestrainedError):
         parts = [refused_text(problem, found, color())]
+    elif columns is not None:
+        parts = ["\n".join(problem_lines(problem))]
     else:
         parts = [analysis_text(problem, found, color())]
     if columns is not None:
@@ -86,14 +100,6 @@ def _document(problem: Problem, found: Analysis | NotRestrainedError, columns: C
     return document | ({} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)})
 
 
-def _judge_suffix(picture: Path | None) -> None:
-    """Refuse a picture whose suffix says no format before anything is done."""
-    if picture is not None:
-        from synergrip.reports.pictures.sheet import picture_suffix
-
-        picture_suffix(picture, "--picture")
-
-
 def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path) -> str | None:
     """Draw and return what was written, if anything; what cannot be drawn or written is bad input."""
     from synergrip.errors import InputError, NotRestrainedError
@@ -102,10 +108,9 @@ def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path
     if isinstance(found, NotRestrainedError):
         print(f"the object is not restrained, so '{picture}' was not drawn", file=sys.stderr)
         return None
-    try:
-        draw_grasp_synergies(problem, found, picture)
-    except InputError as error:
-        raise error.under("--picture") from None
-    except OSError as error:
-        raise InputError.at("--picture", f"cannot write '{picture}': {error.strerror or error}") from None
+    with writing("--picture", picture):
+        try:
+            draw_grasp_synergies(problem, found, picture)
+        except InputError as error:
+            raise error.under("--picture") from None
     return str(picture)

@@ -63,6 +63,14 @@ def writing(option: str, path: Path) -> Iterator[None]:
         raise InputError.at(option, f"cannot write '{path}': {error.strerror or error}") from None
 
 
+def picture_format(picture: Path | None) -> None:
+    """Refuse a picture whose suffix says no format before anything is done."""
+    if picture is not None:
+        from synergrip.reports.pictures.sheet import picture_suffix
+
+        picture_suffix(picture, "--picture")
+
+
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
     """Print the answer, as text or as one JSON document, on standard output."""
     say(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())

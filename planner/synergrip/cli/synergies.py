@@ -7,7 +7,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, answering, show, writing
+from synergrip.cli.running import Format, FormatOption, answering, picture_format, show, writing
 
 synergies = typer.Typer(
     help="Synergy sets: fit to recorded postures, list, show, compare.", no_args_is_help=True, add_completion=False
@@ -37,7 +37,7 @@ def fit(
         from synergrip.reports.json_synergies import fit_document
         from synergrip.reports.text_fit import fit_text
 
-        _judge_suffix(picture)
+        picture_format(picture)
         loaded = load_hand(hand, key="--hand") if hand is not None else None
         made = make(postures, count, loaded, title=name, degrees=degrees, key="-n")
         if output is not None:
@@ -89,7 +89,7 @@ def show_(
         from synergrip.reports.json_synergies import show_document
         from synergrip.reports.text_synergies import show_text
 
-        _judge_suffix(picture)
+        picture_format(picture)
         loaded = load_hand(hand, key="HAND")
         whole = select(loaded, chosen, "--set")
         shown = whole if first is None else first_of(whole, first, "--first")
@@ -130,11 +130,3 @@ def _usage(sets: list[str]) -> NoReturn:
     from synergrip.errors import InputError
 
     raise InputError.at("A B", f"expected a hand and two of its sets, or two synergy files; got {len(sets)}")
-
-
-def _judge_suffix(picture: Path | None) -> None:
-    """Refuse a picture whose suffix says no format before anything is done."""
-    if picture is not None:
-        from synergrip.reports.pictures.sheet import picture_suffix
-
-        picture_suffix(picture, "--picture")

@@ -58,7 +58,7 @@ def subspaces(response: Response) -> Subspaces:
     within = split(JS @ free, size)
     Gamma_zr = canonical(free @ within.null_space)
     Gamma_zcs, moved = _rigid_motions(free @ within.row_space, JS, Gt)
-    E_s, forces = _forces(response, against.decision.rank, Gt)
+    E_s, forces = _forces(response, against.decision.rank, Gt, moving=size > 0)
     decisions = {
         "restraint": response.restraint,
         "redundancy": split(JS, size).decision,
@@ -84,14 +84,18 @@ def _rigid_motions(synergies: Array, JS: Array, Gt: Array) -> tuple[Array, Array
     return frozen(synergies @ coordinates), basis
 
 
-def _forces(response: Response, rank: int, Gt: Array) -> tuple[Array, Decision]:
-    """Return E_s with the `rank` that the kinematics dictates, and the force map's own decision."""
+def _forces(response: Response, rank: int, Gt: Array, *, moving: bool) -> tuple[Array, Decision]:
+    """Return E_s with the `rank` that the kinematics dictates, and the force map's own decision.
+
+    `moving` tells whether J S is more than rounding; if it is not, neither are the forces.
+    """
     force = response.scale.force
     scaled = force[:, None] * response.dlambda_dzr
     vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
     # against what J S produces before the part that moves the object is taken out: less is rounding of the data
     produced = np.linalg.norm(force[:, None] * (response.K @ response.grasp.J @ response.grasp.S), 2)
-    reference = float(values[0]) if len(values) and values[0] > RANK_TOLERANCE * produced else 0.0
+    counts = moving and len(values) and values[0] > RANK_TOLERANCE * produced
+    reference = float(values[0]) if counts else 0.0
     own = Decision.of(values, reference)
     # grey values are no news here: they come with stiff K, and (34) has settled the rank
     decision = Decision(own.rank, own.singular_values, own.rank != rank)

@@ -8,20 +8,24 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
+from synergrip.conic.goals.after import After
+from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
 from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.goals import goals_of
 from synergrip.plans.question import Question
-from synergrip.plans.referee.formulas import NotWrittenError, friction, write_goal, write_limit
-from synergrip.plans.referee.model import Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.plans.referee.formulas import friction, write_goal, write_limit
+from synergrip.plans.referee.model import Cone, Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.plans.referee.reserve import Courses
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
@@ -130,15 +134,8 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     situation = question.situation
-    if situation.bend is not None:
-        raise NotWrittenError("the CVXPY formulation knows no reserve between the knots; use --solver clarabel")
-    model = write_model(
-        situation.response, situation.coordinates, times=situation.times, wrench=situation.wrench,
-        beta=situation.beta.constant, units=situation.units, redundancy=situation.frees_gamma,
-        beta_basis=situation.beta_basis, wanted=situation.wanted, rigid_basis=situation.spaces.Gamma_ucs,
-    )  # fmt: skip
-    wish = write_goal(model, question.goal)
-    limits = [cone for limit in question.limits for cone in write_limit(model, limit)]
+    model = _written(situation, situation.times, situation.wrench, situation.wanted)
+    wish, limits = _cones(question, model)
     posed = pose(model, wish.cost, [*limits, *wish.cones])
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
@@ -153,6 +150,37 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     if posed.solved:
         x, z = _unknowns(program, situation, model, wish), _multipliers(program, posed)
     return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
+
+
+def _written(situation: Situation, times: Array, wrench: Array, wanted: Array) -> Model:
+    """Write the situation down at the knots, or at other instants, where beta is on straight lines between them."""
+    return write_model(
+        situation.response, situation.coordinates, times=times, wrench=wrench,
+        beta=interpolated(times, situation.times, situation.beta.constant), units=situation.units,
+        redundancy=situation.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
+        rigid_basis=situation.spaces.Gamma_ucs,
+    )  # fmt: skip
+
+
+def _cones(question: Question, model: Model) -> tuple[Wish, list[Cone]]:
+    """Write goal and limits down, with the reserve between the knots when it is asked for."""
+    wish = write_goal(model, question.goal)
+    situation, bend = question.situation, question.situation.bend
+    if bend is None:
+        return wish, [cone for limit in question.limits for cone in write_limit(model, limit)]
+    courses = Courses.of(model, bend, partial(_written, situation))
+    cones: list[Cone] = []
+    for limit in question.limits:
+        written = write_limit(model, limit)
+        cones += written if limit.couples_knots else courses.reserved(written, partial(_limit_again, limit))
+    inner = question.goal.goal if isinstance(question.goal, After) else question.goal
+    own = [cone for cone in wish.cones if not cone.equality]
+    held = [cone for cone in wish.cones if cone.equality]
+    return replace(wish, cones=(*courses.reserved(own, lambda there: write_goal(there, inner).cones), *held)), cones
+
+
+def _limit_again(limit: Limit, there: Model) -> tuple[Cone, ...]:
+    return write_limit(there, limit)
 
 
 def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:

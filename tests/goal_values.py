@@ -1,0 +1,55 @@
+"""What each goal measures of a course, by its definition: for tests that compare or perturb plans."""
+
+from __future__ import annotations
+
+import numpy as np
+from elastic_grasp import Course, length_of, normal_forces, slip_margins
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
+from synergrip.plans.task import GoalName, Task
+
+
+def goal_value(name: GoalName, grasp: Grasp, task: Task, found: Course, units: tuple[float, float] = (1, 1)) -> float:
+    """Return what `name` is to make small: forces in N, references in their own units, rates and accelerations in seconds.
+
+    `units` of force [N] and of references count in a weighted sum only, where time counts in durations of the task.
+    """
+    length, _ = length_of(grasp)
+    h = np.diff(task.times)[:, None]
+    rates = np.diff(found.dz_r, axis=0) / h
+    span = (h[1:] + h[:-1]) / 2
+    if name == "margin":
+        return -float(slip_margins(grasp, found.forces).min())
+    if name == "peak_force":
+        return float(normal_forces(grasp, found.forces).max())
+    if name == "weighted":
+        return _weighted(grasp, task, found, units)
+    if name == "centred":
+        assert task.ranges is not None
+        middle, half = (task.ranges.lower + task.ranges.upper) / 2, (task.ranges.upper - task.ranges.lower) / 2
+        return _squares((task.ranges.start + found.dq - middle) / half)
+    spins = np.array([1 / length if component == "m" else 1.0 for _, component in grasp.components])
+    value = {
+        "effort": found.forces * spins, "torque": found.torques / length, "actuator": found.efforts / length,
+        "references": found.dz_r, "travel": rates * np.sqrt(h), "smooth": np.diff(rates, axis=0) / np.sqrt(span),
+    }  # fmt: skip
+    return _squares(value[name])
+
+
+def _weighted(grasp: Grasp, task: Task, found: Course, units: tuple[float, float]) -> float:
+    force, reference = units
+    duration, knots = float(task.times[-1] - task.times[0]), len(task.times)
+    sizes = {
+        "references": reference**-2, "travel": knots * duration / reference**2,
+        "smooth": knots * duration**3 / reference**2, "centred": 1.0,
+    }  # fmt: skip
+    parts = [
+        weight * sizes.get(name, force**-2) * goal_value(name, grasp, task, found)
+        for name, weight in task.weights.items()
+    ]
+    return sum(parts)
+
+
+def _squares(values: Array) -> float:
+    return float((values**2).sum())
