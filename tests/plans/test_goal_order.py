@@ -9,12 +9,15 @@ import pytest
 from random_tasks import random_task_on_grasp
 
 from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.program import Program
+from synergrip.conic.solution import Settings, Solution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
+from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.task import Task, Wanted
 
@@ -135,3 +138,23 @@ def test_centring_joints_needs_their_ranges() -> None:
     grasp, task = task_of(200, ("effort", "centred"))
     with pytest.raises(InputError, match="joint ranges"):
         plan(grasp, replace(task, ranges=None))
+
+
+def test_an_interrupt_keeps_what_the_goals_before_have_led_to() -> None:
+    grasp, task = task_of(203, ("margin", "effort", "travel"))
+    whole = plan(grasp, task)
+    assert isinstance(whole, Plan)
+    asked: list[str] = []
+
+    def impatient(question: Question, program: Program, settings: Settings) -> Solution:
+        asked.append(question.goal.name)
+        if "effort" in question.goal.name:
+            raise KeyboardInterrupt
+        return SOLVERS["clarabel"](question, program, settings)
+
+    kept = plan(grasp, task, impatient)
+    assert isinstance(kept, Plan)
+    assert kept.exit_code == 130
+    assert "interrupted while solving for 'least contact effort'" in kept.notes[-1]
+    assert asked == ["largest margin", "least contact effort"]  # and nothing after it
+    assert kept.margins.min() == pytest.approx(whole.largest_margin, abs=1e-6)

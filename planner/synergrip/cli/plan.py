@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from synergrip.cli.progress import telling
 from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show, writing
 
 if TYPE_CHECKING:
@@ -27,9 +28,17 @@ def plan(
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
     ] = None,
+    pyramids: Annotated[
+        int | None,
+        typer.Option(metavar="FACETS", help="Also say what inscribed friction pyramids cost; never for the verdict."),
+    ] = None,
+    qp_solver: Annotated[
+        str | None, typer.Option(metavar="NAME", help="With --pyramids: any solver that qpsolvers finds (osqp).")
+    ] = None,
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
+        from synergrip.cli.pyramids import asked, compared
         from synergrip.errors import SynergripError
         from synergrip.plans.planning import plan as make
         from synergrip.plans.problem import load_problem, located
@@ -38,7 +47,7 @@ def plan(
         from synergrip.reports.plan_files import FORMATS, write_outcome
         from synergrip.reports.text_plan import outcome_text
 
-        answers = answerer(solver)
+        answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
         loaded = load_problem(problem, overrides or [])
         folder = output or Path("out") / loaded.name
         with writing("--output", folder):
@@ -48,12 +57,13 @@ def plan(
         except SynergripError as error:
             raise located(loaded, error) from None
         document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
+        cost = compared(outcome, request, document)
         with writing("--output", folder):
             written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
         if save_program:
             with writing("--save-program", save_program):
                 _save(outcome, save_program)
-        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()), lambda: document)
+        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()) + cost, lambda: document)
     raise typer.Exit(outcome.exit_code)
 
 

@@ -33,8 +33,9 @@ def pyramid(facets: int, dim: int) -> Array:
     ``x_0 >= (r cos(phi_k) + m sin(phi_k)) / cos(pi / M)`` for phi_k = (k + 1/2) 2 pi / M with cos(phi_k) > 0. Some
     phi_k is within pi / M of the angle of (r, m), so the largest right side is at least ``||(r, m)||``, and that at
     least ``||(t, o, m)||``: inscribed. As cos(phi_k) > 0, r may be replaced by each of the F terms it is the largest
-    of: F M / 2 facets. Pure spin keeps all of its cone, pure tangential force as much as a hard finger's,
-    and every direction at least ``cos(pi / F) cos(pi / M)`` of it.
+    of: F M / 2 facets. Pure spin keeps all of its cone, pure tangential force as much as a hard finger's, the worst
+    mixture ``1 / sqrt(1 / cos(pi / F)^2 + tan(pi / M)^2)``: for 4, 8 and 16 facets 0.577, 0.863 and 0.963, against
+    0.707, 0.924 and 0.981 of a hard finger.
 
     Args:
         facets: F, 3 or more.

@@ -58,8 +58,15 @@ class Plan:
     between: Between | None = None
     """The plan between its knots; None when nothing is known of it."""
 
+    interrupted: bool = False
+    """Whether somebody stopped it before all goals were through; the plan holds all the same."""
+
     verdict = "feasible"
-    exit_code = 0
+
+    @property
+    def exit_code(self) -> int:
+        """0, or 130 when interrupted."""
+        return 130 if self.interrupted else 0
 
 
 @dataclass(frozen=True)

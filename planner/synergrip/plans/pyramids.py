@@ -123,10 +123,10 @@ def requested(facets: int, backend: str = "osqp") -> Request:
     """
     issues = []
     if not FEWEST <= facets <= MOST:
-        issues.append(Issue("--pyramids", f"expected {FEWEST} to {MOST} facets for each friction cone, got {facets}"))
+        issues.append(Issue(f"expected {FEWEST} to {MOST} facets for each friction cone, got {facets}", "--pyramids"))
     if backend not in qpsolvers_.backends():
         found = one_of(backend, qpsolvers_.backends())
-        issues.append(Issue("--qp-solver", f"{found}; these are the ones installed of those that qpsolvers knows"))
+        issues.append(Issue(f"{found}; install the solver for qpsolvers to find it", "--qp-solver"))
     if issues:
         raise InputError(issues)
     return Request(facets, backend)

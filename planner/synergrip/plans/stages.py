@@ -38,6 +38,8 @@ class Stage:
     decisions: tuple[Decision, ...]
     held: tuple[Held, ...] = ()
     notes: tuple[str, ...] = ()
+    interrupted: bool = False
+    """Whether somebody stopped it before the goals were through."""
 
     @property
     def v(self) -> Array:
@@ -56,7 +58,12 @@ class Stage:
 
 
 def after(stage: Stage, goal: Goal, solver: Answerer) -> Stage:
-    """Return the stage of the best plans by `goal`; with a note, and else as before, when none verifies."""
+    """Return the stage of the best plans by `goal`; with a note, and else as before, when none verifies.
+
+    An interrupt keeps what the goals before have led to, and no further goal is looked at.
+    """
+    if stage.interrupted:
+        return stage
     held = stage.held
     if not isinstance(stage.goal, LargestMargin | LeastPeak):
         held = (*held, *(Held(part, stage.v) for part in stage.goal.objective(stage.situation).squares))
@@ -65,7 +72,11 @@ def after(stage: Stage, goal: Goal, solver: Answerer) -> Stage:
     situation = stage.situation if held else _in_units_of_its_forces(stage)
     for limits in _limits(stage, held):
         chosen = After(goal, held) if held else goal
-        decision = ask(Question(situation, limits, chosen), solver)
+        try:
+            decision = ask(Question(situation, limits, chosen), solver)
+        except KeyboardInterrupt:
+            note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
+            return replace(stage, notes=(*stage.notes, note), interrupted=True)
         if decision.optimal:
             decisions = (*stage.decisions, decision)
             return replace(stage, situation=situation, limits=limits, goal=goal, decisions=decisions, held=held)

@@ -48,6 +48,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
         task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*stage.notes, *_ranges_left(task, situation, motion)), found,
+        stage.interrupted,
     )  # fmt: skip
 
 

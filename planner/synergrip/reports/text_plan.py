@@ -26,6 +26,13 @@ _END = "\x1b[0m"
 
 def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
     """Return the answer: what was read, asked, solved, checked; the verdict; what was written."""
+    code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
+    wrote = f"wrote {folder}/  " + "  ".join(written) + code
+    return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
+
+
+def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> list[str]:
+    """Return what was read, asked, solved and checked, the verdict and its notes."""
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
@@ -36,10 +43,9 @@ def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequ
     else:
         lines += ["", f"{word}  {outcome.why}"]
     lines += [line for note in problem.notes for line in wrapped("note     ", note)]
-    code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
-    return "\n".join([*lines, "", f"wrote {folder}/  " + "  ".join(written) + code])
+    return lines
 
 
 def _solved(decisions: Sequence[Decision]) -> Iterator[str]:

@@ -1,0 +1,47 @@
+"""``synergrip front``: what a slip margin costs in force."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from synergrip.cli.progress import telling
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+
+
+def front(
+    problem: ProblemArgument,
+    count: Annotated[int, typer.Option("-n", "--points", min=2, max=1000, help="How many points.")] = 8,
+    form: FormatOption = Format.TEXT,
+    overrides: SetOption = None,
+) -> None:
+    """Trade slip margin against peak force: the least peak for each margin, up to the largest (Pareto front)."""
+    with answering(form):
+        from synergrip.errors import SynergripError
+        from synergrip.plans.front import front as points_of
+        from synergrip.plans.front import largest
+        from synergrip.plans.outcome import Plan
+        from synergrip.plans.problem import load_problem, located
+        from synergrip.plans.solvers import SOLVERS
+        from synergrip.reports.front_report import front_document, front_text
+        from synergrip.reports.json_plan import outcome_document
+        from synergrip.reports.text_plan import verdict_lines
+
+        solver, loaded = telling(SOLVERS["clarabel"]), load_problem(problem, overrides or [])
+        try:
+            best = largest(loaded.grasp, loaded.task, solver)
+        except SynergripError as error:
+            raise located(loaded, error) from None
+        if not isinstance(best, Plan):
+            document = outcome_document(loaded.title, loaded.grasp, best, loaded.notes)
+            show(form, lambda: "\n".join(verdict_lines(loaded, best, color())), lambda: document)
+            raise typer.Exit(best.exit_code)
+        points, interrupted = [], False
+        try:
+            for point in points_of(best, count, solver):
+                points.append(point)  # one by one, so that an interrupt keeps the finished ones
+        except KeyboardInterrupt:
+            interrupted = True
+        show(form, lambda: front_text(loaded, points, interrupted), lambda: front_document(points, interrupted))
+    raise typer.Exit(130 if interrupted else 0)

@@ -1,0 +1,35 @@
+"""The options ``--pyramids`` and ``--qp-solver`` of ``synergrip plan``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from synergrip.errors import InputError
+
+if TYPE_CHECKING:
+    from synergrip.plans.outcome import Outcome
+    from synergrip.plans.pyramids import Request
+
+
+def asked(facets: int | None, backend: str | None) -> Request | None:
+    """Return what is to be compared with, None when nothing is; before anything is solved."""
+    if facets is None:
+        if backend is not None:
+            raise InputError.at("--qp-solver", "it solves friction pyramids only; add --pyramids 8")
+        return None
+    from synergrip.plans.pyramids import requested
+
+    return requested(facets, backend or "osqp")
+
+
+def compared(outcome: Outcome, request: Request | None, document: dict[str, Any]) -> str:
+    """Return the lines that the comparison adds to the answer's text; put it into the answer's document."""
+    if request is None:
+        return ""
+    from synergrip.plans.outcome import Plan
+    from synergrip.plans.pyramids import compare
+    from synergrip.reports.text_pyramids import comparison_document, comparison_lines
+
+    comparison = compare(outcome, request) if isinstance(outcome, Plan) else None
+    document["pyramids"] = comparison_document(comparison)
+    return "\n".join(["", "", *comparison_lines(comparison)])

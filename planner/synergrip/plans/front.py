@@ -1,0 +1,55 @@
+"""What a margin costs: the least peak normal force for each slip margin, up to the largest there is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.plans.outcome import Outcome, Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.solvers import SOLVERS, Answerer
+from synergrip.plans.task import Task
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """One trade between the two: no plan has more of the margin with less of the peak."""
+
+    margin: float  # [N]
+    peak: float  # [N] largest normal force
+    plan: Plan
+
+
+def largest(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
+    """Return the plan with the largest margin that the limits of a task allow, or why there is none.
+
+    Raises:
+        InputError: nothing bounds the largest margin.
+    """
+    return plan(grasp, replace(task, order=("margin", "effort")), solver)
+
+
+def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Iterator[FrontPoint]:
+    """Yield `count` points of the Pareto front of slip margin and peak normal force, by growing margin.
+
+    The margins are evenly spaced from the one the task asks for to just below the largest, where a plan is left to
+    find. A point that cannot be verified is left out.
+
+    Args:
+        best: the plan with the largest margin, from `largest`.
+        count: at least 2.
+        solver: who answers.
+    """
+    grasp, task, most = best.analysis.grasp, best.task, best.largest_margin or 0.0
+    top = most - ROOM * max(most, best.situation.force_unit)
+    for margin in np.linspace(min(task.margin, top), top, count):
+        point = plan(grasp, replace(task, margin=float(margin), order=("peak_force", "effort")), solver)
+        if isinstance(point, Plan):
+            yield FrontPoint(float(margin), float(point.motion.forces[:, grasp.normal_rows].max()), point)
+
+
+ROOM = 1e-6
+"""How far below the largest margin the last point stays, relative to it or to the force unit."""

@@ -1,0 +1,33 @@
+"""The Pareto front of slip margin and peak force, as a table and as a document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from synergrip.plans.front import FrontPoint
+from synergrip.plans.problem import Problem
+from synergrip.reports.tables import table
+from synergrip.reports.text_problem import problem_lines
+
+
+def front_text(problem: Problem, points: Sequence[FrontPoint], interrupted: bool) -> str:
+    """Return one line for each point: margin, least peak force, and the largest joint torque that goes with it."""
+    header = ("slip margin", "least peak normal force", "largest joint torque")
+    rows = [
+        (f"{point.margin:.4g} N", f"{point.peak:.4g} N", f"{np.abs(point.plan.motion.torques).max():.4g} N m")
+        for point in points
+    ]
+    lines = [*problem_lines(problem), "", table(header, rows, right=(0, 1, 2))]
+    return "\n".join(lines + (["interrupted; these points are finished"] if interrupted else []))
+
+
+def front_document(points: Sequence[FrontPoint], interrupted: bool) -> dict[str, Any]:
+    """Return the points with the references of each plan."""
+    entries = [
+        {"margin_N": point.margin, "peak_normal_N": point.peak, "dz_r": point.plan.motion.dz_r.tolist()}
+        for point in points
+    ]
+    return {"verdict": "feasible", "front": entries, "interrupted": interrupted}

@@ -1,0 +1,62 @@
+"""The front of margin and peak force: nothing is better in both, and its ends are the two goals by themselves."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from synergrip.cli.app import app
+from synergrip.plans.front import ROOM, front, largest
+from synergrip.plans.outcome import Plan
+from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
+
+
+@pytest.mark.parametrize("name", ["barrett-ball-hold", "utah-mit-ball"])
+def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> None:
+    problem = load_problem(name)
+    best = largest(problem.grasp, problem.task)
+    assert isinstance(best, Plan)
+    points = list(front(best, 5))
+    assert len(points) == 5
+    margins, peaks = (np.array([getattr(point, key) for point in points]) for key in ("margin", "peak"))
+    assert np.all(np.diff(margins) > 0)
+    assert np.all(np.diff(peaks) > -1e-6 * peaks.max())
+    assert np.all(np.diff(peaks, 2) > -1e-5 * peaks.max())  # the trade is convex
+    assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.situation.force_unit)
+    least = plan(problem.grasp, replace(problem.task, order=("peak_force", "effort")))
+    assert isinstance(least, Plan)
+    assert peaks[0] == pytest.approx(least.motion.forces[:, problem.grasp.normal_rows].max(), rel=1e-6)
+    middle = points[2]
+    assert middle.plan.margins.min() >= middle.margin - 1e-6
+    capped = f"limits.normal_force={middle.peak * (1 - 1e-4)} N"
+    short = load_problem(name, [capped, f"limits.margin={middle.margin} N"])
+    assert plan(short.grasp, short.task).verdict == "infeasible"  # no less force gives that margin
+
+
+def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:
+    """Two opposed fingers: margin mu n - load / 2, so the peak is (margin + load / 2) / mu."""
+    problem = load_problem("pinch-soft")
+    best = largest(problem.grasp, problem.task)
+    assert isinstance(best, Plan)
+    points = list(front(best, 4))
+    slopes = np.diff([point.peak for point in points]) / np.diff([point.margin for point in points])
+    assert slopes == pytest.approx(1 / problem.grasp.contacts[0].friction, rel=1e-5)
+
+
+def test_the_verb_prints_a_line_for_each_point() -> None:
+    found = CliRunner().invoke(app, ["front", "utah-mit-ball", "-n", "3"])
+    assert found.exit_code == 0
+    assert len(found.stdout.splitlines()) == 3 + 1 + 3  # read, task, blank; header; points
+    document = json.loads(CliRunner().invoke(app, ["front", "utah-mit-ball", "-n", "3", "--format", "json"]).stdout)
+    assert [sorted(point) for point in document["front"]] == [["dz_r", "margin_N", "peak_normal_N"]] * 3
+
+
+def test_a_task_that_cannot_be_done_has_no_front() -> None:
+    found = CliRunner().invoke(app, ["front", "barrett-ball-lift"])
+    assert found.exit_code == 1
+    assert "infeasible" in found.stdout
