@@ -65,14 +65,18 @@ def judged(seed: int, knots: int) -> Judged:
     result.wrong += [f"round trip {result.round_trip:.1e}"] * (result.round_trip > EXACT)
     result.wrong += [f"balance {_imbalance(outcome, found):.1e}"] * (_imbalance(outcome, found) > EXACT)
     result.wrong += [f"{key} by {v:.1e}" for key, v in excesses(outcome, found).items() if v > HOLDS]
-    result.wrong += [f"{key} between knots by {v:.1e}" for key, v in excesses(outcome, _dense(outcome)).items() if v > HOLDS]
+    result.wrong += [
+        f"{key} between knots by {v:.1e}" for key, v in excesses(outcome, _dense(outcome)).items() if v > HOLDS
+    ]
     return result
 
 
 def _dense(outcome: Plan) -> Course:
     """Return what references and loads do that are linear between the knots, by the planner's own forward maps."""
     times = outcome.task.times
-    many = np.unique(np.concatenate([np.linspace(a, b, BETWEEN + 1) for a, b in zip(times[:-1], times[1:], strict=True)]))
+    many = np.unique(
+        np.concatenate([np.linspace(a, b, BETWEEN + 1) for a, b in zip(times[:-1], times[1:], strict=True)])
+    )
     dz_r, wrench = (interpolated(many, times, v) for v in (outcome.motion.dz_r, outcome.task.wrench))
     motion = forward(outcome.analysis.response, many, dz_r, wrench)
     return Course(many, dz_r, wrench, motion.forces, motion.torques, motion.efforts, motion.du, motion.sag, motion.dq,
@@ -191,8 +195,12 @@ def main() -> None:
     plans = [each for each in found if each.verdict == "feasible"]
     print(", ".join(f"{verdict} {times}" for verdict, times in Counter(each.verdict for each in found).most_common()))
     print(f"largest relative difference of the motion {max(each.round_trip for each in plans):.1e}")
-    print(f"largest excess at a knot {max(each.excess for each in plans):.1e}, anywhere {max(each.between for each in plans):.1e}")
-    print(f"seconds: median {np.median([each.seconds for each in found]):.2f}, most {max(each.seconds for each in found):.2f}")
+    print(
+        f"largest excess at a knot {max(each.excess for each in plans):.1e}, anywhere {max(each.between for each in plans):.1e}"
+    )
+    print(
+        f"seconds: median {np.median([each.seconds for each in found]):.2f}, most {max(each.seconds for each in found):.2f}"
+    )
 
 
 if __name__ == "__main__":

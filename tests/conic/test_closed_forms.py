@@ -6,45 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from small_grasps import pinch, tripod
 
+from synergrip.conic.limits.elastic_motion import ElasticMotion
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.grasps.contact import Contact, contact_frame
-from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.task import Task, still
-
-
-def pinch(mu: float = 0.5, nu: float = 0.005) -> Grasp:
-    """Two soft fingers 40 mm apart on x; one synergy closes both by 1 m per unit; C_s = 1 mm/N."""
-    contacts = tuple(
-        Contact(name, contact_kind("soft"), mu, nu, frozen(point), contact_frame(normal))
-        for name, point, normal in (("left", [-0.02, 0, 0], [1, 0, 0]), ("right", [0.02, 0, 0], [-1, 0, 0]))
-    )
-    S = np.zeros((8, 1))
-    S[[0, 4], 0] = 1
-    return Grasp("pinch", contacts, grasp_matrix(contacts), frozen(np.eye(8)), frozen(S), frozen(1e-3 * np.eye(8)),
-                 frozen(np.zeros((8, 8))), frozen(np.zeros((1, 1))), None, frozen(np.zeros(6)),
-                 tuple(f"q{i}" for i in range(8)), ("squeeze",))  # fmt: skip
-
-
-def tripod(mu: float = 0.8) -> Grasp:
-    """Three hard fingers at 120 degrees in the xy plane, each closed by its own synergy."""
-    contacts = []
-    for i in range(3):
-        direction = np.array([np.cos(2 * np.pi * i / 3), np.sin(2 * np.pi * i / 3), 0])
-        contacts.append(
-            Contact(f"C{i}", contact_kind("hard"), mu, 0, frozen(0.04 * direction), contact_frame(-direction))
-        )
-    S = np.zeros((9, 3))
-    S[[0, 3, 6], [0, 1, 2]] = 1
-    return Grasp("tripod", tuple(contacts), grasp_matrix(contacts), frozen(np.eye(9)), frozen(S),
-                 frozen(1e-3 * np.eye(9)), frozen(np.zeros((9, 9))), frozen(np.zeros((3, 3))), None,
-                 frozen(np.zeros(6)), tuple(f"q{i}" for i in range(9)), ("a", "b", "c"))  # fmt: skip
 
 
 def task(wrench: Array, margin: float, goal: str, *limits) -> Task:
@@ -70,6 +43,22 @@ def test_antipodal_pinch_with_weight_and_spin(weight: float, moment: float, goal
     assert np.allclose(outcome.motion.forces[0, [0, 4]], n, rtol=2e-6)
     assert np.allclose(outcome.motion.dz_r, 1e-3 * n, rtol=2e-6)  # force = displacement / C_s, each finger its own way
     assert outcome.margins.min() == pytest.approx(margin, abs=1e-6)
+
+
+@pytest.mark.parametrize("weight", [0.5, 2.0, 8.0])
+def test_the_largest_margin_of_a_pinch_is_mu_n_less_half_the_weight(weight: float) -> None:
+    outcome = planned(pinch(), task([0, 0, -weight, 0, 0, 0], 0.0, "margin", NormalForce(0.0, 20.0)))
+    assert outcome.largest_margin == pytest.approx(0.5 * 20 - weight / 2, rel=1e-7)
+
+
+def test_two_soft_fingers_carry_twice_nu_n_about_their_line_and_no_more() -> None:
+    """With the whole of friction spent on the spin: moment 2 nu N."""
+    for factor, verdict in ((0.999, "feasible"), (1.001, "infeasible")):
+        moment = factor * 2 * 0.005 * 20
+        outcome = plan(pinch(), task([0, 0, 0, moment, 0, 0], 0.0, "effort", NormalForce(0.0, 20.0)))
+        assert outcome.verdict == verdict, factor
+    outcome = planned(pinch(), task([0, 0, 0, 0.1, 0, 0], 0.0, "margin", NormalForce(0.0, 20.0)))
+    assert outcome.largest_margin == pytest.approx(0.5 * 20 - 0.5 * 0.05 / 0.005, rel=1e-7)
 
 
 def test_the_largest_margin_of_a_pinch_is_what_the_limit_leaves() -> None:
@@ -104,6 +93,53 @@ def test_tripod_under_weight() -> None:
     outcome = planned(tripod(mu), task([0, 0, -weight, 0, 0, 0], margin, "effort", NormalForce(0.0, 50.0)))
     n = (margin + weight / 3) / mu
     assert np.allclose(outcome.motion.forces[0, [0, 3, 6]], n, rtol=1e-6)
+
+
+@pytest.mark.parametrize("below", [0.1, 0.3, 0.5])
+def test_three_fingers_below_the_equator_of_a_ball(below: float) -> None:
+    """Vertical balance n sin + t cos = W / 3 with n at its limit N: margin mu N - |W / 3 - N sin| / cos."""
+    mu, weight, largest = 0.8, 3.0, 10.0
+    outcome = planned(tripod(mu, below), task([0, 0, -weight, 0, 0, 0], 0.0, "margin", NormalForce(0.0, largest)))
+    margin = mu * largest - abs(weight / 3 - largest * np.sin(below)) / np.cos(below)
+    assert outcome.largest_margin == pytest.approx(margin, rel=1e-7)
+
+
+def test_three_fingers_far_below_the_equator_press_the_ball_up_and_out() -> None:
+    """Beyond the friction angle a squeeze costs margin: it is best when nothing but the weight is tangential."""
+    mu, weight, below = 0.3, 3.0, 0.6
+    outcome = planned(tripod(mu, below), task([0, 0, -weight, 0, 0, 0], 0.0, "margin", NormalForce(0.0, 50.0)))
+    n = weight / 3 / np.sin(below)  # no tangential force at all
+    assert outcome.largest_margin == pytest.approx(mu * n, rel=1e-7)
+    assert np.allclose(outcome.motion.forces[0, [0, 3, 6]], n, rtol=1e-5)
+
+
+@pytest.mark.parametrize("joint_compliance", [0.0, 2e-3])
+def test_a_joint_that_ends_its_range_ends_the_squeeze(joint_compliance: float) -> None:
+    """q = dz_r - C_q n and (C_s + C_q) n = dz_r: the joint is at C_s n whatever its own compliance."""
+    room, free = 6e-3, np.full(8, np.inf)
+    upper = np.r_[np.inf, np.inf, np.inf, np.inf, 0.1 + room, np.inf, np.inf, np.inf]
+    limit = JointRange(frozen(np.full(8, 0.1)), frozen(-free), frozen(upper))
+    outcome = planned(pinch(joint_compliance=joint_compliance), task(np.zeros(6), 0.0, "margin", limit))
+    assert outcome.largest_margin == pytest.approx(0.5 * room / 1e-3, rel=1e-6)
+    assert outcome.motion.dz_r[0, 0] == pytest.approx(room * (1 + joint_compliance / 1e-3), rel=1e-5)
+
+
+def test_a_squeeze_may_push_the_object_no_farther_than_its_limit() -> None:
+    """The softer side gives way: the object moves by n (C_right - C_left) / 2."""
+    grasp = pinch(compliance=(1e-3, 3e-3))
+    outcome = planned(grasp, task(np.zeros(6), 0.0, "margin", ElasticMotion(5e-3), NormalForce(0.0, 50.0)))
+    assert outcome.largest_margin == pytest.approx(0.5 * 5e-3 / 1e-3, rel=1e-6)
+    assert outcome.motion.du[0, 0] == pytest.approx(5e-3, rel=1e-5)
+
+
+def test_drift_counts_the_sag_under_the_load() -> None:
+    """Each contact carries half the weight: a sag of C W / 2, which no squeeze of equal contacts changes."""
+    for factor, verdict in ((1.001, "feasible"), (0.999, "infeasible")):
+        limit = ObjectError(factor * 1e-3 * 2 / 2)
+        outcome = plan(pinch(), task([0, 0, -2, 0, 0, 0], 0.1, "effort", limit, NormalForce(0.0, 20.0)))
+        assert outcome.verdict == verdict
+        if isinstance(outcome, Infeasible):
+            assert {clash.key for clash in outcome.clashes} == {"limits.drift"}
 
 
 def test_effort_is_least_among_all_squeezes() -> None:

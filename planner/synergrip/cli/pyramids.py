@@ -30,6 +30,11 @@ def compared(outcome: Outcome, request: Request | None, document: dict[str, Any]
     from synergrip.plans.pyramids import compare
     from synergrip.reports.text_pyramids import comparison_document, comparison_lines
 
-    comparison = compare(outcome, request) if isinstance(outcome, Plan) else None
+    comparison, stopped = None, isinstance(outcome, Plan) and outcome.interrupted
+    if isinstance(outcome, Plan) and not stopped:
+        try:
+            comparison = compare(outcome, request)
+        except KeyboardInterrupt:  # the plan is there and stays
+            stopped = True
     document["pyramids"] = comparison_document(comparison)
-    return "\n".join(["", "", *comparison_lines(comparison)])
+    return "\n".join(["", "", *comparison_lines(comparison, stopped)])

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from synergrip.conic.bend import reserved
 from synergrip.conic.box import LARGEST, box
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
+from synergrip.conic.reserve import reserved
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen

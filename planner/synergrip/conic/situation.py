@@ -9,16 +9,13 @@ left out (zero) when no limit looks at more than forces, beta as far as the want
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.conic.bend import Bend
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
-
-if TYPE_CHECKING:
-    from synergrip.conic.bend import Bend
 
 
 @dataclass(frozen=True)

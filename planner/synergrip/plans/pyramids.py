@@ -168,8 +168,11 @@ def _best(cones: Plan, question: Question, first: Decision, facets: int) -> Plan
             return None
     for goal in goals_of(task)[1:]:
         stage = after(stage, goal_in_pyramids(goal, facets), clarabel)
+    stage = settled(stage, clarabel)
+    if stage.interrupted:  # half of the goals would compare nothing
+        raise KeyboardInterrupt
     try:
-        return verified_plan(task, cones.analysis, settled(stage, clarabel), largest)
+        return verified_plan(task, cones.analysis, stage, largest)
     except SelfCheckError:  # of a comparison: the verdict has its own
         return None
 

@@ -13,12 +13,18 @@ from synergrip.reports.tables import wrapped
 LABEL = "pyramids "
 _BELOW = " " * len(LABEL)
 NOTHING = "nothing to compare: no plan is verified, and inscribed pyramids allow no more than the cones"
+STOPPED = "not compared: interrupted"
 
 
-def comparison_lines(comparison: Comparison | None) -> Iterator[str]:
-    """Yield what pyramids cost, and what the solver of quadratic programs made of them; None without a plan."""
+def comparison_lines(comparison: Comparison | None, stopped: bool = False) -> Iterator[str]:
+    """Yield what pyramids cost and what the solver of quadratic programs made of them.
+
+    Args:
+        comparison: None without a plan to compare with.
+        stopped: whether that is because somebody interrupted.
+    """
     if comparison is None:
-        yield from wrapped(LABEL, NOTHING)
+        yield from wrapped(LABEL, STOPPED if stopped else NOTHING)
         return
     facets = f"with {comparison.facets} facets inscribed in each friction cone (a comparison, no part of the verdict)"
     yield from wrapped(LABEL, f"{facets}: {_cost(comparison)}")
