@@ -21,7 +21,7 @@ ONLY_IN = {
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
     "cvxpy": {f"plans/referee/{name}.py" for name in ("judge", "model", "formulas", "motion_formulas", "motion_goals")},
-    "typer": {"cli/app.py", "cli/running.py", "cli/plan.py", "cli/front.py", "cli/analyse.py", "cli/check.py", "cli/synergies.py"},
+    "typer": {f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "synergies")},
     "tree_sitter": {"documents.py", "positions.py"},
 }
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))

@@ -7,7 +7,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import (
     AfterValidator,
@@ -22,7 +22,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError, Issue
-from synergrip.quantities import EXAMPLES, UNITS, quantity, ratio
+from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio
 from synergrip.validation import refusing, shown
 
 Schema = dict[str, Any]
@@ -123,11 +123,48 @@ def with_unit(kind: str, *, above: float = -math.inf, at_least: float = -math.in
     return lambda value: bounded(quantity(value, kind), shown(value), above=above, at_least=at_least)
 
 
-def unit_schema(kind: str) -> Schema:
-    """Return the JSON Schema of a quantity of `kind`."""
-    units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in UNITS[kind])
+class Measured(float):
+    """A number in SI units that remembers the kind of quantity it was written as (a key of `UNITS`), and its text.
+
+    Whether a value is an angle or a length depends on the joint that it is for, which its file may not know.
+    """
+
+    kind: str
+    text: str
+
+    def __new__(cls, value: float, kind: str = "", text: str = "") -> Self:
+        """Return `value`, written as `text`, of `kind`."""
+        made = super().__new__(cls, value)
+        made.kind, made.text = kind, text
+        return made
+
+
+def either(
+    turning: str, sliding: str, *, above: float = -math.inf, at_least: float = -math.inf
+) -> Callable[[Any], Measured]:
+    """Return the function that reads a quantity of the kind `turning`, or of `sliding` as slides have it."""
+
+    def read(value: object) -> Measured:
+        kind = kind_of(value, (turning, sliding))
+        if kind is None:
+            try:
+                quantity(value, turning)
+            except InputError as error:
+                message = f'{error.issues[0].message}; a slide takes a {sliding} such as "{EXAMPLES[sliding]}"'
+                raise InputError.at("", message) from None
+        found = kind or turning
+        return Measured(
+            bounded(quantity(value, found), shown(value), above=above, at_least=at_least), found, str(value)
+        )
+
+    return read
+
+
+def unit_schema(*kinds: str) -> Schema:
+    """Return the JSON Schema of a quantity of one of the `kinds`."""
+    units = "|".join(re.escape(unit).replace("\\ ", " ") for kind in kinds for unit in UNITS[kind])
     pattern = rf"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*({units})\s*$"
-    return {"type": "string", "pattern": pattern, "examples": [EXAMPLES[kind]]}
+    return {"type": "string", "pattern": pattern, "examples": [EXAMPLES[kind] for kind in kinds]}
 
 
 def _axis(value: object) -> tuple[float, ...]:
@@ -184,5 +221,5 @@ Angle = Annotated[float, Written(with_unit("angle"), unit_schema("angle"))]
 Mass = Annotated[float, Written(with_unit("mass", above=0), unit_schema("mass"))]
 Time = Annotated[float, Written(with_unit("time", above=0), unit_schema("time"))]
 Force = Annotated[float, Written(with_unit("force", at_least=0), unit_schema("force"))]
-Torque = Annotated[float, Written(with_unit("torque"), unit_schema("torque"))]
-JointCompliance = Annotated[float, Written(with_unit("joint compliance", at_least=0), unit_schema("joint compliance"))]
+JointValue = Annotated[float, Written(either("angle", "length"), unit_schema("angle", "length"))]
+JointEffort = Annotated[float, Written(either("torque", "force"), unit_schema("torque", "force"))]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections.abc import Sequence
 
 from synergrip.errors import InputError, suggest
 
@@ -69,6 +70,13 @@ def quantity(text: object, kind: str, key: str = "") -> float:
     if not math.isfinite(value):
         raise InputError.at(key, f"{text!r} is not finite")
     return value
+
+
+def kind_of(text: object, kinds: Sequence[str]) -> str | None:
+    """Return the one of `kinds` that has the unit of a quantity such as ``"10 mm"``; None if none of them has."""
+    match = _NUMBER.match(text) if isinstance(text, str) else None
+    unit = " ".join(match[2].split()) if match else ""
+    return next((kind for kind in kinds if unit in UNITS[kind]), None)
 
 
 def ratio(value: object, key: str = "") -> float:

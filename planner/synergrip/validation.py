@@ -69,7 +69,9 @@ def shown(value: object) -> str:
 
 
 def _explained(issue: Issue, found: Sequence[Issue]) -> bool:
-    """Tell whether a missing key is there under a name that was misspelled."""
+    """Tell whether a missing key is there under a misspelled name, or a missing entry is one that was refused."""
+    if issue.message.startswith("expected at least"):
+        return any(other.key.startswith(f"{issue.key}[") for other in found)
     name = issue.key[len(enclosing(issue.key)) :].lstrip(".")
     return issue.message.startswith("missing key") and any(
         other.message.endswith(f"did you mean '{name}'?") and enclosing(other.key) == enclosing(issue.key)

@@ -15,6 +15,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from synergrip.conic.program import Program
+    from synergrip.conic.solution import Settings, Solution
+    from synergrip.plans.problem import Problem
+    from synergrip.plans.question import Question
 
 GOAL = "goal={minimise={effort=1, travel=0.001}}"
 LIMITS = 'limits={margin="0.5 N", normal_force="20 N", joint_torque="hand", synergy_rate=0.5}'
@@ -57,14 +64,23 @@ def child(what: str, knots: int) -> None:
         print(*measured(lambda: referee.solve(question, program, Settings())))
 
 
-def first_question(problem: object) -> object:
-    """Return the one question that planning asks of this problem."""
-    from synergrip.plans import planning
+class Asked(Exception):
+    """Carries the question out of the planning before anything is solved."""
 
-    asked: list[object] = []
-    answer = planning.SOLVERS["clarabel"]
-    planning.plan(problem.grasp, problem.task, lambda q, p, s: (asked.append(q), answer(q, p, s))[1])  # type: ignore[attr-defined]
-    return asked[0]
+
+def first_question(problem: Problem) -> Question:
+    """Return the one question that planning asks of this problem, unanswered: an answer would leave memory behind."""
+    from synergrip.plans.planning import plan
+
+    def stop(question: Question, program: Program, settings: Settings) -> Solution:
+        raise Asked(question)
+
+    try:
+        plan(problem.grasp, problem.task, stop)
+    except Asked as asked:
+        question: Question = asked.args[0]
+        return question
+    raise AssertionError("planning asked nothing")
 
 
 def figures(what: str, knots: int) -> tuple[float, float]:

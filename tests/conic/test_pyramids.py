@@ -8,11 +8,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from random_tasks import hand_like_grasp
+from scipy import sparse
 
+from synergrip.conic.certificate import judge_optimal
 from synergrip.conic.decide import decide
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.program import Block, Program
 from synergrip.conic.pyramids import (
     FrictionPyramid,
     LargestMarginInPyramids,
@@ -23,7 +26,7 @@ from synergrip.conic.pyramids import (
 )
 from synergrip.conic.rows import Kind
 from synergrip.conic.situation import Situation, Units, situate
-from synergrip.conic.solution import Settings, Solution
+from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_, qpsolvers_
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.kinds import contact_kind
@@ -200,6 +203,41 @@ def test_backends_find_the_optimum_that_clarabel_finds_and_its_multipliers(seed:
     expected = clarabel_.solve(program, Settings())
     assert program.objective(decision.solution.x) == pytest.approx(program.objective(expected.x), rel=1e-6)
     assert backend in decision.solution.solver
+
+
+def small_program() -> Program:
+    """Least ||x||^2 / 2 with x_1 + x_2 + x_3 = 1 and x_1 >= 0.6: x = (0.6, 0.2, 0.2)."""
+    A = np.array([[-1.0, 0, 0], [1, 1, 1], [0, -1.0, 0]])
+    blocks = tuple(Block("test", kind, 1, ("i",), 0, 1) for kind in (Kind.NONNEGATIVE, Kind.ZERO, Kind.NONNEGATIVE))
+    return Program(
+        sparse.csc_matrix(np.eye(3)), frozen(np.zeros(3)), sparse.csc_matrix(A), frozen([-0.6, 1.0, 5.0]), blocks, 1, 3,
+        frozen(np.full(3, 1e6)),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("backend", ["osqp", "clarabel", "scs"])
+def test_rows_and_multipliers_come_back_in_their_order_and_with_their_signs(backend: str) -> None:
+    """Stationarity x + A'z = 0: x_2 = -z_2 and x_1 = z_1 - z_2."""
+    program = small_program()
+    found = qpsolvers_.solve(program, Settings(), backend)
+    assert found.claim is Claim.OPTIMAL
+    assert found.x == pytest.approx([0.6, 0.2, 0.2], abs=1e-7)
+    assert found.z == pytest.approx([0.4, -0.2, 0.0], abs=1e-7)
+    assert judge_optimal(program, found.x, found.z).verified
+
+
+def test_a_backend_that_takes_dense_matrices_gets_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    import qpsolvers
+
+    taken: list[object] = []
+    solve = qpsolvers.solve_problem
+    monkeypatch.setattr(qpsolvers, "sparse_solvers", [])
+    monkeypatch.setattr(
+        qpsolvers, "solve_problem", lambda problem, *a, **k: (taken.append(problem), solve(problem, *a, **k))[1]
+    )
+    found = qpsolvers_.solve(small_program(), Settings())
+    assert found.x == pytest.approx([0.6, 0.2, 0.2], abs=1e-7)
+    assert not any(sparse.issparse(getattr(taken[0], name)) for name in "PGA")
 
 
 def test_a_program_with_cones_is_refused() -> None:

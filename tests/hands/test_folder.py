@@ -52,7 +52,7 @@ title = "two motors"
 columns.bend = { near = 2 }
 columns.push = { push = 0.5 }
 offset = { near = "0.2 rad" }
-effort_limits = { push = "3 N m" }
+effort_limits = { push = "3 N" }
 
 [postures.half]
 synergies = { bend = "0.3 rad" }
@@ -207,8 +207,8 @@ BAD = [
     ("{ near = 2 }", "{ near = 0 }", "synergies.motors.columns.bend", "moves at least one joint"),
     ("{ near = 2 }", "{}", "synergies.motors.columns.bend", "moves at least one joint"),
     ("offset = { near", "offset = { naer", "synergies.motors.offset.naer", "did you mean 'near'?"),
-    ('{ push = "3 N m" }', '{ pull = "3 N m" }', "synergies.motors.effort_limits.pull", "'bend' or 'push'"),
-    ('"3 N m"', '"-3 N m"', "synergies.motors.effort_limits.push", "must be greater than 0"),
+    ('{ push = "3 N" }', '{ pull = "3 N" }', "synergies.motors.effort_limits.pull", "'bend' or 'push'"),
+    ('"3 N"', '"-3 N"', "synergies.motors.effort_limits.push", "must be greater than 0"),
     ("[synergies.motors]", "[synergies.joints]", "synergies.joints", "choose another name"),
     ("[synergies.motors]", "[synergies.all]", "synergies.all", "choose another name"),
     ("{ bend =", "{ bned =", "postures.half.synergies.bned", "did you mean 'bend'?"),

@@ -89,7 +89,7 @@ def test_an_offset_of_a_coupling_counts(read, made):
     hand = made(more='[couplings]\nfar = { joint = "near", ratio = 2, offset = "0.5 rad" }\n')
     with pytest.raises(InputError, match="sliding joints"):
         read("near,far,push\n0,0.5,0\n0.1,0.45,0\n", hand)
-    slide = made("prismatic", "prismatic", '[couplings]\nfar = { joint = "near", ratio = 2, offset = "0.5 rad" }\n')
+    slide = made("prismatic", "prismatic", '[couplings]\nfar = { joint = "near", ratio = 2, offset = "0.5 m" }\n')
     found = read("near,far,push_mm\n0,0.5,100\n0.1,0.45,200\n", slide)
     assert (found.joints, found.kind) == (("near", "push"), "slide")
     np.testing.assert_allclose(found.postures, [[0, 0.1], [0.1, 0.2]])

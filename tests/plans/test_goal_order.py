@@ -93,7 +93,7 @@ def test_each_goal_is_best_among_those_before_it(order: tuple[str, ...]) -> None
             continue
         found += 1
         assert all(decision.certificate.verified for decision in outcome.decisions)
-        assert not [note for note in outcome.notes if "leave nothing open" not in note], (seed, outcome.notes)
+        assert not [note for note in outcome.notes if "not verified" in note], (seed, outcome.notes)
         reached = values(outcome)
         for k, name in enumerate(order):
             best = plan(grasp, replace(task, order=order[: k + 1]))  # nobody comes after this goal
@@ -155,6 +155,6 @@ def test_an_interrupt_keeps_what_the_goals_before_have_led_to() -> None:
     kept = plan(grasp, task, impatient)
     assert isinstance(kept, Plan)
     assert kept.exit_code == 130
-    assert "interrupted while solving for 'least contact effort'" in kept.notes[-1]
+    assert "interrupted while solving for 'least contact effort'" in " ".join(kept.notes)
     assert asked == ["largest margin", "least contact effort"]  # and nothing after it
     assert kept.margins.min() == pytest.approx(whole.largest_margin, abs=1e-6)

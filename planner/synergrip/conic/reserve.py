@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.conic.bend import ALLOWANCE, Bend
+from synergrip.conic.bend import Bend
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen, interpolated
@@ -29,7 +29,10 @@ def reserved(rows_of: Callable[[Situation], Sequence[Rows]], situation: Situatio
     """
     straight, bent = (_between(situation, bend, departs) for departs in (False, True))
     triples = zip(rows_of(situation), rows_of(straight), rows_of(bent), strict=True)
-    return [_with_reserve(at, after.constant - before.constant, bend.interval) for at, before, after in triples]
+    return [
+        _with_reserve(at, after.constant - before.constant, bend.interval, bend.allowance)
+        for at, before, after in triples
+    ]
 
 
 def _between(situation: Situation, bend: Bend, departs: bool) -> Situation:
@@ -49,14 +52,14 @@ def _between(situation: Situation, bend: Bend, departs: bool) -> Situation:
     )  # fmt: skip
 
 
-def _with_reserve(rows: Rows, departure: Array, interval: NDArray[np.intp]) -> Rows:
+def _with_reserve(rows: Rows, departure: Array, interval: NDArray[np.intp], allowance: float) -> Rows:
     """Lower the head of every cone by the worst that the intervals beside each knot need."""
     if rows.kind is Kind.ZERO:
         return rows
     cones = departure.reshape(len(departure), len(rows.items), rows.dim)
     need = np.maximum(-cones[:, :, 0], 0.0) + np.linalg.norm(cones[:, :, 1:], axis=2)
     of_interval = np.zeros((len(rows.constant) - 1, len(rows.items)))
-    np.maximum.at(of_interval, interval, need * ALLOWANCE)
+    np.maximum.at(of_interval, interval, need * allowance)
     ends = np.zeros((1, len(rows.items)))
     of_knot = np.maximum(np.vstack([ends, of_interval]), np.vstack([of_interval, ends]))
     constant = np.array(rows.constant)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.errors import InputError, Issue
+from synergrip.grasps.ball import REACH
 from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch
@@ -33,8 +34,9 @@ def close(
     """Return the joint values (n_q,) at which every pad that `direction` moves touches the object.
 
     All joints follow the direction with one common parameter. When a pad touches, the joints between its link and
-    the palm stop. A joint that comes to its limit stops, and with it those that follow it by a coupling. The rest
-    goes on until all pads touch. Pads that the direction does not move are left as they are.
+    the palm stop, and all that are rigidly coupled to them. A joint that comes to its limit stops, and with it those
+    that follow it by any coupling. The rest goes on until all pads touch. Pads that the direction does not move are
+    left as they are.
 
     Args:
         hand: the hand.
@@ -105,6 +107,8 @@ class _Closing:
     """(n_c, n_q) the joint carries the pad."""
     takes: Flags
     """(n_q, n_q) the joint of the row stops that of the column when it comes to its limit."""
+    tied: Flags
+    """(n_q, n_q) the two joints are rigidly coupled, or are the same."""
 
     @classmethod
     def of(cls, hand: Hand, direction: Array, gaps: Gaps) -> _Closing:
@@ -113,7 +117,7 @@ class _Closing:
         carriers = [set(_carriers(hand, touch.pad.link)) for touch in gaps.touches]
         movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
         lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
-        return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand))
+        return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand), _tied(hand))
 
     def start(self, q: Array) -> _State:
         """Return the state at the start; a value that rounding put past its limit is put back."""
@@ -141,7 +145,7 @@ class _Closing:
         for pad, gap in self._waiting_gaps(state):
             if gap <= TOUCHING:
                 waiting[pad] = False
-                for joint in np.flatnonzero(self.movers[pad]).tolist():
+                for joint in np.flatnonzero(self.tied[self.movers[pad]].any(axis=0)).tolist():
                     reasons.setdefault(joint, f"stopped when pad '{self.gaps.touches[pad].pad.name}' touched")
         moving = state.moving.copy()
         moving[list(reasons)] = False
@@ -167,7 +171,9 @@ class _Closing:
 
     def missed(self, state: _State) -> Iterator[Issue]:
         """Yield one issue for each pad that still waits: how close it came, where, and what stopped it."""
-        for pad in np.flatnonzero(state.waiting).tolist():
+        for pad, now in self._waiting_gaps(state):
+            if now <= REACH:  # as near as a contact has to be
+                continue
             touch, movers = self.gaps.touches[pad], self.movers[pad] & (self.direction != 0)
             gap, closed = min(self._seen(state, pad))
             why = [f"{self.hand.joint_names[j]} {state.reasons[j]}" for j in np.flatnonzero(movers).tolist()]
@@ -210,11 +216,22 @@ def _carriers(hand: Hand, link: str) -> Iterator[str]:
 
 
 def _takes(hand: Hand) -> Flags:
-    """Return (n_q, n_q) bool: the joint of the column follows that of the row through couplings, or is it."""
+    """Return (n_q, n_q) bool: the joint of the column follows that of the row, or the two are tied."""
     index = {name: i for i, name in enumerate(hand.joint_names)}
-    takes = np.eye(len(index), dtype=bool)
+    takes = _tied(hand)
     for _ in hand.couplings:  # followers of followers
         for follower, coupling in hand.couplings.items():
             for driver in coupling.ratios:
                 takes[:, index[follower]] |= takes[:, index[driver]]
     return takes
+
+
+def _tied(hand: Hand) -> Flags:
+    """Return (n_q, n_q) bool: the two joints are rigidly coupled, directly or through others, or are the same."""
+    index = {name: i for i, name in enumerate(hand.joint_names)}
+    tied = np.eye(len(index), dtype=bool)
+    for follower, coupling in hand.couplings.items():
+        if coupling.rigid:
+            together = tied[[index[follower], *(index[driver] for driver in coupling.ratios)]].any(axis=0)
+            tied[np.ix_(together, together)] = True
+    return tied

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -24,8 +23,8 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
     """Return the hand that the links of a file make.
 
     Its joints are in the order of the file and rigid (C_q = 0), and it has no pads. Its set "free" has one synergy for
-    each joint that follows no other one, with the followers: q = E q_free + e, so that S = E. A hand without couplings
-    has the set "joints" only.
+    each joint that follows no other one, with the followers: q = E q_free + e, so that S = E; its effort limits are the
+    torque limits of those joints. A hand without couplings has the set "joints" only.
 
     Args:
         name: what the hand is to be called.
@@ -41,9 +40,12 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
         if joint.kind != "fixed"
     )
     names = [joint.name for joint in joints]
+    for joint in names:
+        if any(mark in joint for mark in ',"\n\r\t'):
+            raise InputError.at("", f"joint {joint!r}: a name may not hold commas, quotes or control characters")
     sets = {JOINTS: joint_set(names)}
     if couplings:
-        sets = {FREE: _free(names, couplings), **sets}
+        sets = {FREE: _free(joints, couplings), **sets}
     return Hand(
         name=name,
         title=tree.title or name,
@@ -58,7 +60,8 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
     )
 
 
-def _free(names: Sequence[str], couplings: Mapping[str, Coupling]) -> SynergySet:
+def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling]) -> SynergySet:
+    names = [joint.name for joint in joints]
     E, e = coupling_map(names, couplings)
     free = [index for index, name in enumerate(names) if name not in couplings]
     if not free:
@@ -67,7 +70,7 @@ def _free(names: Sequence[str], couplings: Mapping[str, Coupling]) -> SynergySet
     if not (np.all(np.isfinite(S)) and np.all(np.isfinite(e))) or split(S).decision.rank < len(free):
         raise InputError.at("", "the couplings multiply to ratios that no hand has; check their numbers")
     title = f"each joint that follows no other one; {_followers(couplings)}"
-    limits = frozen(np.full(len(free), math.inf))
+    limits = frozen([joints[index].torque_limit for index in free])  # the actuator of a driver moves its followers too
     return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), e, limits)
 
 

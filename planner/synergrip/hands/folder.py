@@ -27,6 +27,7 @@ from synergrip.hands.synergies import (
     override,
 )
 from synergrip.hands.tree import LinkTree
+from synergrip.hands.units import joint_kinds, judge, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
@@ -77,7 +78,7 @@ def load_hand(
         tree = read_model(path.parent / file.model, "model", file.couplings)
     except InputError as error:
         raise error.located(document.locate) from None
-    told = {name: Coupling({each.joint: each.ratio}, each.offset) for name, each in file.couplings.items()}
+    told = {name: Coupling({each.joint: each.ratio}, each.offset, each.rigid) for name, each in file.couplings.items()}
     chosen = override({**tree.couplings, **told}, coupling, at)
     try:
         return _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
@@ -113,8 +114,11 @@ def _hand(
     rows = {f"joint[{index}]": table for index, table in enumerate(file.joint)}
     joints = tuple(each_of("", rows, lambda _, table: _joint(tree, table)).values())
     compliance = each_of("", rows, lambda _, table: _compliance(tree, table)).values()
-    sets = synergy_sets(file, folder, names, couplings)
-    postures = each_of("postures", file.postures, lambda _, table: _posture(table, sets, names, couplings))
+    kinds = joint_kinds(joints)
+    offsets = [(f"couplings.{follower}.offset", follower, each.offset) for follower, each in file.couplings.items()]
+    judge(misfits(offsets, kinds))
+    sets = synergy_sets(file, folder, kinds, couplings)
+    postures = each_of("postures", file.postures, lambda _, table: _posture(table, sets, kinds, couplings))
     if judge_postures:
         each_of("postures", postures, lambda _, q: _within_limits(joints, q))
     return Hand(
@@ -173,13 +177,14 @@ def _pad(tree: LinkTree, name: str, table: PadTable) -> Pad:
 
 
 def _posture(
-    table: PostureTable, sets: Mapping[str, SynergySet], names: Sequence[str], couplings: Mapping[str, Coupling]
+    table: PostureTable, sets: Mapping[str, SynergySet], kinds: Mapping[str, str], couplings: Mapping[str, Coupling]
 ) -> Array:
     if table.joints is not None:
         for name in table.joints:
-            if name not in names:
-                raise InputError.at(f"joints.{name}", one_of(name, names), on_key=True)
-        return frozen(joint_posture(names, table.joints, couplings))
+            if name not in kinds:
+                raise InputError.at(f"joints.{name}", one_of(name, kinds), on_key=True)
+        judge(misfits([(f"joints.{name}", name, value) for name, value in table.joints.items()], kinds))
+        return frozen(joint_posture(tuple(kinds), table.joints, couplings))
     if table.set is not None and table.set not in sets:
         raise InputError.at("set", one_of(table.set, sets))
     chosen = sets[table.set] if table.set else next(iter(sets.values()))
@@ -187,6 +192,8 @@ def _posture(
     for name in values:
         if name not in chosen.synergies:
             raise InputError.at(f"synergies.{name}", one_of(name, chosen.synergies), on_key=True)
+    given = [(f"synergies.{name}", name, value) for name, value in values.items()]
+    judge(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
     return joint_values(chosen, values)
 
 

@@ -80,6 +80,8 @@ class Coupling:
     ratios: Mapping[str, float]
     """Driver -> ratio."""
     offset: float = 0.0  # [rad] or [m]
+    rigid: bool = field(default=False, compare=False)
+    """Whether nothing lets the joints part, as a clutch or a tendon does when a link is held by the object."""
 
 
 @dataclass(frozen=True)

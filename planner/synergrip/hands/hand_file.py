@@ -9,15 +9,15 @@ from pydantic import Field
 
 from synergrip.errors import Issue
 from synergrip.fields import (
-    Angle,
     Axis,
+    JointEffort,
+    JointValue,
     Name,
     Number,
     Ratio,
     Size,
     Table,
     Text,
-    Torque,
     Version,
     Written,
     array_of,
@@ -60,7 +60,10 @@ class CouplingTable(Table):
 
     joint: Text = Field(description="name of the joint that is followed")
     ratio: Ratio = Field(description='rotation per rotation of that joint, such as "1/3"')
-    offset: Angle = Field(default=0.0, description="angle at which the followed joint is at 0")
+    offset: JointValue = Field(default=0.0, description="angle, or length of a slide, when the followed joint is at 0")
+    rigid: bool = Field(
+        default=False, strict=True, description="true when no clutch or tendon lets the joints part under contact"
+    )
 
 
 class SynergyTable(Table):
@@ -73,8 +76,10 @@ class SynergyTable(Table):
         description="weight of each joint in each synergy; followers are added through the couplings",
     )
     file: Text | None = Field(default=None, description="a synergy file beside hand.toml; instead of columns")
-    offset: dict[str, Angle] = Field(default_factory=dict, description="joint values when every synergy is at 0")
-    effort_limits: dict[str, Torque] = Field(default_factory=dict, description="largest actuator effort by synergy")
+    offset: dict[str, JointValue] = Field(default_factory=dict, description="joint values when every synergy is at 0")
+    effort_limits: dict[str, JointEffort] = Field(
+        default_factory=dict, description="largest actuator effort by synergy, a force if it moves slides only"
+    )
 
     def issues(self) -> Iterable[Issue]:
         """Refuse two sources of columns or none, an empty column and a limit that is not positive."""
@@ -94,9 +99,9 @@ class PostureTable(Table):
     """A posture with a name."""
 
     title: str = Field(default="", description="what it is, for people")
-    synergies: dict[str, Angle] | None = Field(default=None, description="values of the synergies of a set")
+    synergies: dict[str, JointValue] | None = Field(default=None, description="values of the synergies of a set")
     set: Text | None = Field(default=None, description="the set; the first one when absent")
-    joints: dict[str, Angle] | None = Field(default=None, description="joint values; instead of synergies")
+    joints: dict[str, JointValue] | None = Field(default=None, description="joint values; instead of synergies")
 
     def issues(self) -> Iterable[Issue]:
         """Refuse neither and both."""

@@ -39,7 +39,8 @@ def mjcf_couplings(file: Mjcf) -> dict[str, Coupling]:
     except InputError as error:
         root = file.source.lines[0]
         raise error.located(lambda issue: issue if issue.file else root.refused(issue.message).issues[0]) from None
-    return couplings([file.joints[joint] for joint in file.q], relations, _order(file, ties))
+    pulling = bool(np.any(np.count_nonzero(file.pulls, axis=1) > 1))  # a tendon lets joints part under contact
+    return couplings([file.joints[joint] for joint in file.q], relations, _order(file, ties), rigid=not pulling)
 
 
 def _no_loop(file: Mjcf, equality: Equality) -> None:

@@ -91,13 +91,16 @@ def _shared(A: Array, pulls: Array) -> list[int]:
     return sorted(shared)
 
 
-def couplings(names: Sequence[str], relations: Relations, order: Sequence[int]) -> dict[str, Coupling]:
+def couplings(
+    names: Sequence[str], relations: Relations, order: Sequence[int], *, rigid: bool = False
+) -> dict[str, Coupling]:
     """Return followers and what they follow: A q = b solved for as many joints as it determines.
 
     Args:
         names: the joints in the order of q.
         relations: rows of norm 1 that do not contradict each other.
         order: numbers of the joints, those first that are to be followers.
+        rigid: whether nothing but equalities made the relations.
     """
     left = np.column_stack([relations.A, relations.b])
     solved: dict[int, Array] = {}
@@ -116,7 +119,7 @@ def couplings(names: Sequence[str], relations: Relations, order: Sequence[int]) 
         row = solved[joint]
         kept = [i for i in range(len(names)) if i != joint and abs(row[i]) > ZERO]
         offset = _tidy(row[-1]) if abs(row[-1]) > ZERO else 0.0
-        found[names[joint]] = Coupling({names[i]: _tidy(-row[i]) for i in kept}, offset)
+        found[names[joint]] = Coupling({names[i]: _tidy(-row[i]) for i in kept}, offset, rigid)
     return found
 
 

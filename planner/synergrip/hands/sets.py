@@ -15,6 +15,7 @@ from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.hand_file import HandFile, SynergyTable
 from synergrip.hands.synergies import ALL, JOINTS, coupling_map, joint_set, joint_vector
 from synergrip.hands.synergy_file import read_synergies
+from synergrip.hands.units import judge, misfits, synergy_kinds
 from synergrip.linalg import frozen
 
 Given = TypeVar("Given")
@@ -35,41 +36,45 @@ def each_of(prefix: str, tables: Mapping[str, Given], make: Callable[[str, Given
 
 
 def synergy_sets(
-    file: HandFile, folder: Path, names: Sequence[str], couplings: Mapping[str, Coupling]
+    file: HandFile, folder: Path, kinds: Mapping[str, str], couplings: Mapping[str, Coupling]
 ) -> dict[str, SynergySet]:
     """Return the sets of a hand file in its order, and the set of all joints.
 
     Args:
         file: the hand file.
         folder: its folder, which paths are relative to.
-        names: the joints in the order of q.
+        kinds: "hinge" or "slide" by joint, in the order of q.
         couplings: what followers follow.
 
     Raises:
-        InputError: couplings or columns that name no joint, a synergy file that does not fit.
+        InputError: couplings or columns that name no joint, a synergy file that does not fit, units of the wrong kind.
     """
+    names = tuple(kinds)
     try:
         coupling_map(names, couplings)
     except InputError as error:
         raise error.under("couplings") from None
-    made = each_of("synergies", file.synergies, lambda name, table: _set(name, table, folder, names, couplings))
+    made = each_of("synergies", file.synergies, lambda name, table: _set(name, table, folder, kinds, couplings))
     return {**made, JOINTS: joint_set(names)}
 
 
 def _set(
-    name: str, table: SynergyTable, folder: Path, names: Sequence[str], couplings: Mapping[str, Coupling]
+    name: str, table: SynergyTable, folder: Path, kinds: Mapping[str, str], couplings: Mapping[str, Coupling]
 ) -> SynergySet:
     if name in (JOINTS, ALL):
         raise InputError.at(
             "", f"'{name}' is the set of all joints, which every hand has; choose another name", on_key=True
         )
     if table.file is not None:
-        made = read_synergies(folder / table.file, names, couplings, name=name, key="file")
+        made = read_synergies(folder / table.file, tuple(kinds), couplings, name=name, key="file")
     else:
-        made = _columns(name, table, names, couplings)
+        made = _columns(name, table, tuple(kinds), couplings)
     for each in table.effort_limits:
         if each not in made.synergies:
             raise InputError.at(f"effort_limits.{each}", one_of(each, made.synergies), on_key=True)
+    efforts = [(f"effort_limits.{each}", each, limit) for each, limit in table.effort_limits.items()]
+    offsets = [(f"offset.{joint}", joint, value) for joint, value in table.offset.items()]
+    judge([*misfits(offsets, kinds), *misfits(efforts, synergy_kinds(made, kinds.values()), "synergy")])
     limits = frozen([table.effort_limits.get(each, math.inf) for each in made.synergies])
     return replace(made, title=table.title or made.title, effort_limits=limits)
 

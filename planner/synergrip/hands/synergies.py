@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
+from synergrip.hands.units import joint_kinds, judge, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 
 JOINTS = "joints"
@@ -106,12 +107,13 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
     Args:
         hand: the hand.
         synergies: the chosen set; its names are looked up first.
-        wish: the name of a posture of the hand, or values [rad] by synergy or joint name. Names that are left
+        wish: the name of a posture of the hand, or values [rad or m] by synergy or joint name. Names left
             out are 0; a joint that follows another one follows unless it is named.
         key: where it stands, for the error.
 
     Raises:
-        InputError: an unknown name, names of different kinds, a joint outside its limits.
+        InputError: an unknown name, names of different kinds, units that do not suit a joint, a joint outside its
+            limits.
     """
     if isinstance(wish, str):
         if wish not in hand.postures:
@@ -133,11 +135,15 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
     for name in wish:
         if name not in known:
             raise InputError.at(f"{key}.{name}", f"synergy or joint {one_of(name, known)}", on_key=True)
+    given = [(f"{key}.{name}", name, value) for name, value in wish.items()]
+    kinds = joint_kinds(hand.joints)
     for each in sets:
         if each.name != JOINTS and all(name in each.synergies for name in wish):
+            judge(misfits(given, synergy_kinds(each, kinds.values()), "synergy"))
             return joint_values(each, wish)
     if not all(name in hand.joint_names for name in wish):
         raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
+    judge(misfits(given, kinds))
     return joint_posture(hand.joint_names, wish, hand.couplings)
 
 

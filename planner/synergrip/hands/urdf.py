@@ -177,7 +177,7 @@ def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str
         if driver not in moving:
             raise mimic.refused(f"joint '{name}' mimics a joint that is not there: {one_of(driver, moving)}")
         (ratio,), (offset,) = _numbers(mimic, "multiplier", "1", LARGEST), _numbers(mimic, "offset", "0", LARGEST)
-        couplings[name] = Coupling({driver: ratio}, offset)
+        couplings[name] = Coupling({driver: ratio}, offset, rigid=True)
     try:
         coupling_map(moving, couplings)
     except InputError as error:  # nothing but a loop is left to refuse

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.bend import SAMPLES, Bend, instants
+from synergrip.conic.bend import Bend, instants
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.object_error import AXES
@@ -49,10 +49,12 @@ def bend_of(task: Task, analysis: Analysis) -> Bend | None:
     """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
     if task.course is None or len(task.times) < 2:
         return None
-    times, interval = instants(task.times)
+    samples, times, interval = instants(task.times)
     load = task.course.load_at(times)
     wrench = frozen(interpolated(times, task.times, task.wrench)) if load is None else load
-    return Bend(frozen(times), interval, wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times))))
+    return Bend(
+        samples, frozen(times), interval, wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times)))
+    )
 
 
 def _displacement(task: Task, analysis: Analysis, values: Array) -> Array:
@@ -79,7 +81,7 @@ def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion
     usages = tuple(limit.usage(dense, there) for limit in limits if not limit.couples_knots)
     scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
     loads, paths = (scale.wrench(load), scale.wrench(bend.wrench)), (scale.twist(path), scale.twist(bend.wanted))
-    return Between(SAMPLES, _size(*loads), _size(*paths), usages)
+    return Between(bend.samples, _size(*loads), _size(*paths), usages)
 
 
 def _size(departure: Array, whole: Array) -> float:

@@ -14,7 +14,7 @@ from synergrip.statics.motion import forces_at_start
 
 
 def units_of(analysis: Analysis, task: Task) -> Units:
-    """Return the force unit (the load, as the contacts feel it) and the reference unit of a task."""
+    """Return the force unit (the load, as the contacts feel it), the reference unit and the motion unit of a task."""
     response = analysis.response
     change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
     load = response.scale.largest_force(forces_at_start(response) - change)
@@ -25,7 +25,9 @@ def units_of(analysis: Analysis, task: Task) -> Units:
             force = max(force, limit.upper)
         elif isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
             reference = float(np.max(limit.limit[np.isfinite(limit.limit)]))
-    return Units(force if force > 0 else _of_limits(analysis, task), reference)
+    # objects are moved by millimetres; in metres, tight tolerances drown the free part of the rigid motion
+    motion = max(task.tolerance, 1e-6) if task.tolerance > 0 else 1e-3
+    return Units(force if force > 0 else _of_limits(analysis, task), reference, motion)
 
 
 def _of_limits(analysis: Analysis, task: Task) -> float:

@@ -21,6 +21,8 @@ from synergrip.statics.motion import Motion, forces_at_start, forward
 
 EXACT = 1e-8
 """Relative tolerance of the identities: equilibrium, internal force, forward maps."""
+FAR = 0.05
+"""Displacement, relative to the grasp's length, from which on contacts and Jacobians are no longer where they were."""
 LIMIT = 1e-6
 """Relative tolerance of the limits, against the load or the limit itself."""
 
@@ -47,7 +49,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     return Plan(
         task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*stage.notes, *_ranges_left(task, situation, motion)), found,
+        (*stage.notes, *_ranges_left(task, situation, motion), *_far(analysis, motion)), found,
         stage.interrupted,
     )  # fmt: skip
 
@@ -63,6 +65,17 @@ def _ranges_left(task: Task, situation: Situation, motion: Motion) -> Iterator[s
         yield (
             f"joint '{usage.items[i]}' would leave its range by {factor * usage.excess[k, i]:.3g} {unit} at t = "
             f'{motion.times[k]:.3g} s; limits.joint_range = "hand" forbids it'
+        )
+
+
+def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
+    """Yield a note when the object moves so far that the linear model is no more than a first guess."""
+    scale = analysis.response.scale
+    size = float(np.linalg.norm(scale.twist(motion.du), axis=1).max(initial=0.0))
+    if size > FAR * scale.length:
+        yield (
+            f"the object moves by up to {1e3 * size:.3g} mm, {size / scale.length:.0%} of the size of the grasp "
+            f"({1e3 * scale.length:.3g} mm): the linear model is a first guess there"
         )
 
 

@@ -7,7 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.conic.goals.centred_joints import CentredJoints
+from synergrip.plans.goals import SIMPLE
 from synergrip.plans.problem import Problem
+from synergrip.plans.task import GoalName, Task
 
 
 def problem_lines(problem: Problem) -> Iterator[str]:
@@ -35,8 +38,13 @@ def _task(problem: Problem) -> Iterator[str]:
     load = np.linalg.norm(task.wrench[:, :3], axis=1).max(initial=0.0)
     yield f"load up to {load:.3g} N"
     yield f"slip margin ≥ {task.margin:.4g} N"
-    goals = {"margin": "largest margin", "effort": "least contact effort", "torque": "least torque effort"}
-    yield goals.get(task.goal, "least peak normal force")
+    yield ", then ".join(_goal(name, task) for name in task.order)
+
+
+def _goal(name: GoalName, task: Task) -> str:
+    if name == "weighted":
+        return " + ".join(f"{weight:g} {_goal(each, task)}" for each, weight in task.weights.items())
+    return CentredJoints.name if name == "centred" else SIMPLE[name].name
 
 
 def many(count: int, noun: str) -> str:

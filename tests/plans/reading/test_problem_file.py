@@ -206,7 +206,7 @@ def test_contacts_that_cannot_be(contact, key, fragment):
         ("task.duration=0.5 us", "task.duration", "unknown unit 'us'"),
         ("task.duration=0.0005 ms", "task.duration", "must be at least 1 us, got 0.5 us"),
         ("limits.normal_force=0 N", "limits.normal_force", "must be greater than 0 N"),
-        ("limits.joint_torque=1 N", "limits.joint_torque", "'N' is a unit of force; expected a torque"),
+        ("limits.joint_torque=1 m", "limits.joint_torque", "'m' is a unit of length; expected a torque"),
         ("limits.synergy_rate=[]", "limits.synergy_rate", "expected one or more numbers, got 0"),
         ("limits.margin=1e200 N", "limits.margin", "is too large"),
         ("hand.synergies=[1]", "hand.synergies[0]", "expected a name, got 1"),

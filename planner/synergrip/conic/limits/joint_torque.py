@@ -19,6 +19,8 @@ class JointTorque:
     """One bound for each of them; infinity for none."""
 
     limit: Array
+    unit: str = "N m"
+    """Of all joints: "N" when all slide; empty when some turn and some slide."""
     key: str = "limits.joint_torque"
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
@@ -38,4 +40,4 @@ class JointTorque:
     def usage(self, situation: Situation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
         items = situation.response.grasp.joints
-        return symmetric_usage("joint torque", "N m", items, motion.torques, self.limit, motion.times)
+        return symmetric_usage("joint torque", self.unit, items, motion.torques, self.limit, motion.times)

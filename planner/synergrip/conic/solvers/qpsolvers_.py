@@ -56,15 +56,13 @@ def solve(program: Program, settings: Settings, backend: str = "osqp") -> Soluti
     if other_cones(program):
         raise ValueError(f"a quadratic program holds no second-order cones: {', '.join(other_cones(program))}")
     equal, below = _rows(program, Kind.ZERO), _rows(program, Kind.NONNEGATIVE)
-    G, h = (sparse.csc_matrix(program.A[below]), np.array(program.b[below])) if below.size else (None, None)
-    A, b = (sparse.csc_matrix(program.A[equal]), np.array(program.b[equal])) if equal.size else (None, None)
-    problem = qpsolvers.Problem(sparse.csc_matrix(program.P), np.array(program.q), G, h, A, b)
     name = f"{backend} (qpsolvers {qpsolvers.__version__})"
     x, z = np.full(len(program.q), np.nan), np.zeros(len(program.b))
     start = time.perf_counter()
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         try:
+            problem = qpsolvers.Problem(*_data(program, below, equal, backend in qpsolvers.sparse_solvers))
             found = qpsolvers.solve_problem(problem, backend, **OPTIONS.get(backend, _as_it_comes)(settings))
         except Exception as error:  # twenty backends raise what they like; it is no more than a bad answer
             status = f"{type(error).__name__}: {error}"
@@ -77,6 +75,15 @@ def solve(program: Program, settings: Settings, backend: str = "osqp") -> Soluti
         claim, frozen(_sized(found.x, len(x))), frozen(z), name, _status(found, [str(w.message) for w in said]),
         int(getattr(info, "iter", 0)), seconds,
     )  # fmt: skip
+
+
+def _data(program: Program, below: NDArray[np.intp], equal: NDArray[np.intp], is_sparse: bool) -> list[Any]:
+    """Return P, q, G, h, A, b of ``G x <= h``, ``A x = b``; None for rows that there are none of."""
+    data: list[Any] = []
+    for matrix, vector in ((program.P, program.q), *((program.A[rows], program.b[rows]) for rows in (below, equal))):
+        columns = sparse.csc_matrix(matrix)
+        data += [columns if is_sparse else columns.toarray(), np.array(vector)] if vector.size else [None, None]
+    return data
 
 
 def _as_it_comes(settings: Settings) -> dict[str, Any]:

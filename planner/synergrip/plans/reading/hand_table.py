@@ -14,11 +14,11 @@ from synergrip.fields import (
     Text,
     Written,
     array_of,
+    either,
     listed,
     named,
     number,
     unit_schema,
-    with_unit,
 )
 from synergrip.hands.choice import SetChoice
 from synergrip.quantities import ratio
@@ -27,7 +27,7 @@ from synergrip.validation import shown
 
 def _posture(value: object) -> str | dict[str, float]:
     if isinstance(value, dict):
-        return named(with_unit("angle"), value)
+        return named(either("angle", "length"), value)
     if isinstance(value, str) and value:
         return value
     raise InputError.at(
@@ -87,8 +87,8 @@ def _one_or_list(read: Callable[[Any], float]) -> Callable[[Any], float | tuple[
     return lambda value: listed(read, value) if isinstance(value, list) else read(value)
 
 
-_COMPLIANCE = unit_schema("joint compliance")
-_ANGLES = {"type": "object", "additionalProperties": unit_schema("angle")}
+_COMPLIANCE = unit_schema("joint compliance", "slide compliance")
+_VALUES = {"type": "object", "additionalProperties": unit_schema("angle", "length")}
 _RATIO = {"anyOf": [NUMBER, {"type": "string", "examples": ["1/3"]}]}
 _NAME = {"type": "string", "minLength": 1}
 _COUNT = {"type": "integer", "minimum": 1}
@@ -102,7 +102,7 @@ _SET_CHOICE = {
     "additionalProperties": False,
 }
 
-Posture = Annotated[str | dict[str, float], Written(_posture, {"anyOf": [_NAME, _ANGLES]})]
+Posture = Annotated[str | dict[str, float], Written(_posture, {"anyOf": [_NAME, _VALUES]})]
 Close = Annotated[
     str | dict[str, float],
     Written(_close, {"anyOf": [_NAME, {"type": "object", "additionalProperties": NUMBER, "minProperties": 1}]}),
@@ -117,7 +117,10 @@ Coupling = Annotated[
 ]
 JointCompliances = Annotated[
     float | tuple[float, ...],
-    Written(_one_or_list(with_unit("joint compliance", at_least=0)), {"anyOf": [_COMPLIANCE, array_of(_COMPLIANCE)]}),
+    Written(
+        _one_or_list(either("joint compliance", "slide compliance", at_least=0)),
+        {"anyOf": [_COMPLIANCE, array_of(_COMPLIANCE)]},
+    ),
 ]
 SynergyCompliances = Annotated[
     float | tuple[float, ...],
@@ -135,7 +138,8 @@ class ComplianceTable(Table):
     """How far joints and synergies yield."""
 
     joint: JointCompliances | None = Field(
-        default=None, description="rotation of a joint per torque, one or one per joint (C_q)"
+        default=None,
+        description="rotation of a joint per torque, shift of a slide per force, one or one per joint (C_q)",
     )
     synergy: SynergyCompliances | None = Field(
         default=None,
@@ -148,7 +152,8 @@ class HandTable(Table):
 
     model: Text = Field(description="name of a bundled hand, or the folder of one")
     posture: Posture | None = Field(
-        default=None, description="name of a posture of the hand, or an angle per posture parameter"
+        default=None,
+        description="name of a posture of the hand, or an angle per posture parameter, a length for slides",
     )
     close: Close | None = Field(
         default=None,

@@ -19,7 +19,7 @@ from synergrip.fields import (
     Whole,
     Written,
     array_of,
-    bounded,
+    either,
     listed,
     named,
     number,
@@ -27,10 +27,10 @@ from synergrip.fields import (
     with_unit,
 )
 from synergrip.plans.task import EFFORTS, FORCE_GOALS, GoalName
-from synergrip.quantities import quantity
 from synergrip.validation import shown
 
 _force = with_unit("force", at_least=0)
+_written_effort = either("torque", "force", above=0)
 
 
 def _force_range(value: object) -> tuple[float, float]:
@@ -43,9 +43,7 @@ def _force_range(value: object) -> tuple[float, float]:
 
 
 def _effort(value: object) -> float:
-    if isinstance(value, str):
-        return bounded(quantity(value, "torque"), shown(value), above=0)
-    return number(value, above=0)
+    return _written_effort(value) if isinstance(value, str) else number(value, above=0)
 
 
 def _positive(value: object) -> float:
@@ -78,7 +76,7 @@ ReserveAngle = Annotated[float, Written(with_unit("angle", above=0), unit_schema
 SafetyFactor = Annotated[float, Written(lambda value: number(value, at_least=1), {"type": "number", "minimum": 1})]
 Efforts = Annotated[
     float | tuple[float, ...] | Literal["hand"],
-    Written(_each(_effort, "hand"), _each_schema([POSITIVE, unit_schema("torque")], "hand")),
+    Written(_each(_effort, "hand"), _each_schema([POSITIVE, unit_schema("torque", "force")], "hand")),
 ]
 References = Annotated[float | tuple[float, ...], Written(_each(_positive), _each_schema([POSITIVE]))]
 ForceRange = Annotated[
@@ -103,7 +101,9 @@ class LimitsTable(Table):
         default=None, description="largest normal force of a contact, or [least, largest]"
     )
     joint_torque: Efforts | None = Field(
-        default=None, description='largest torque of a joint in N m, one or one per joint; "hand": as the hand says'
+        default=None,
+        description="largest torque of a joint in N m, force of a slide in N, one or one per joint; "
+        '"hand": as the hand says',
     )
     actuator_effort: Efforts | None = Field(
         default=None, description='largest effort of a synergy, one or one per synergy; "hand": as the hand says'

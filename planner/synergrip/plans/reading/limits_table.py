@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.units import judge, list_misfits, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.problem_file import ProblemFile
 
@@ -34,25 +35,29 @@ BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_referenc
 class HandLimits:
     """What ``"hand"`` stands for; None where no hand is known."""
 
-    torque: Array | None = None  # (n_q,) [N m]
+    torque: Array | None = None  # (n_q,) [N m or N]
     effort: Array | None = None  # (n_z,)
     ranges: JointRange | None = None
+    joint_kinds: Mapping[str, str] = field(default_factory=dict)
+    """"hinge" or "slide" by joint; empty where no hand is known."""
+    synergy_kinds: Mapping[str, str] = field(default_factory=dict)
+    """The same by synergy."""
 
 
 def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit, ...]:
     """Return the limits of a problem, friction cones excepted.
 
     Raises:
-        InputError: a list of the wrong length, ``"hand"`` without a hand that states the limit, or a goal
-            that no limit bounds.
+        InputError: a list of the wrong length, ``"hand"`` without a hand that states the limit, units that do
+            not suit the joints, or a goal that no limit bounds.
     """
     table, each = file.limits, _Bounds(grasp)
     readers: dict[str, Callable[[Any], Limit]] = {
         "margin_angle": lambda value: _angle_reserve(grasp, value),
         "safety_factor": lambda value: FrictionReserve(frozen(np.full(grasp.n_c, 1 / value))),
         "normal_force": lambda value: NormalForce(*value),
-        "joint_torque": lambda value: JointTorque(each.joint(value, "joint_torque", hand.torque)),
-        "actuator_effort": lambda value: ActuatorEffort(each.synergy(value, "actuator_effort", hand.effort)),
+        "joint_torque": lambda value: _torques(each, value, hand),
+        "actuator_effort": lambda value: _efforts(each, value, hand),
         "synergy_reference": lambda value: SynergyReference(each.synergy(value, "synergy_reference")),
         "synergy_rate": lambda value: SynergyRate(each.synergy(value, "synergy_rate")),
         "synergy_acceleration": lambda value: SynergyAcceleration(each.synergy(value, "synergy_acceleration")),
@@ -81,6 +86,24 @@ def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
     ratios = [np.tan(rest) / contact.friction if contact.friction else 1.0
               for contact, rest in zip(grasp.contacts, left, strict=True)]  # fmt: skip
     return FrictionReserve(frozen(ratios), "limits.margin_angle", "slip margin with angle")
+
+
+def _torques(each: _Bounds, value: Given, hand: HandLimits) -> JointTorque:
+    limit = each.joint(value, "joint_torque", hand.torque)
+    _judge_units("limits.joint_torque", value, hand.joint_kinds, "joint")
+    kinds = hand.joint_kinds.values()
+    return JointTorque(limit, unit=unit_of(kinds, "N m", "N") if kinds else "N m")
+
+
+def _efforts(each: _Bounds, value: Given, hand: HandLimits) -> ActuatorEffort:
+    limit = each.synergy(value, "actuator_effort", hand.effort)
+    _judge_units("limits.actuator_effort", value, hand.synergy_kinds, "synergy")
+    return ActuatorEffort(limit)
+
+
+def _judge_units(key: str, value: Given, kinds: Mapping[str, str], what: str) -> None:
+    if kinds and not isinstance(value, str):
+        judge(list_misfits(key, value, kinds, what))
 
 
 def _ranges(hand: HandLimits) -> JointRange:

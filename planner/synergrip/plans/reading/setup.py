@@ -20,7 +20,9 @@ from synergrip.grasps.placing import Touch, place
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, Pad, SynergySet
+from synergrip.hands.parted import parted_notes
 from synergrip.hands.synergies import posture
+from synergrip.hands.units import joint_kinds, judge, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
 from synergrip.plans.reading.hand_table import HandTable
@@ -47,15 +49,19 @@ class Held:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is doubtful about it, though it is no error."""
-        return collision_notes(self.hand, self.q, self.thing, self.touches)
+        parted = tuple(parted_notes(self.hand, self.q))
+        return (*parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
 
     @property
     def limits(self) -> HandLimits:
         """What the hand itself allows."""
         torque = frozen([joint.torque_limit for joint in self.hand.joints])
-        unit = "rad" if all(joint.kind == "hinge" for joint in self.hand.joints) else ""
+        kinds = joint_kinds(self.hand.joints)
+        unit = unit_of(kinds.values(), "rad", "m")
         lower, upper = (frozen([getattr(joint, end) for joint in self.hand.joints]) for end in ("lower", "upper"))
-        return HandLimits(torque, self.synergies.effort_limits, JointRange(self.q, lower, upper, unit))
+        ranges = JointRange(self.q, lower, upper, unit)
+        moved = synergy_kinds(self.synergies, kinds.values())
+        return HandLimits(torque, self.synergies.effort_limits, ranges, kinds, moved)
 
 
 def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
@@ -98,11 +104,12 @@ def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Arra
     """Return synergies, joint values (n_q,), joint and synergy compliance of a hand."""
     synergies = select(hand, table.synergies, "hand.synergies", folder)
     if table.posture is None:
-        raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint angles")
+        raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint values")
     q = posture(hand, synergies, table.posture, "hand.posture")
     C_q = hand.C_q
     if table.compliance.joint is not None:
         C_q = _diagonal(table.compliance.joint, hand.joint_names, "hand.compliance.joint", "joints")
+        judge(list_misfits("hand.compliance.joint", table.compliance.joint, joint_kinds(hand.joints)))
     C_z = _diagonal(table.compliance.synergy or 0.0, synergies.synergies, "hand.compliance.synergy", "synergies")
     return synergies, q, C_q, C_z
 

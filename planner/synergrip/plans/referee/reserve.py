@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.bend import ALLOWANCE, Bend
+from synergrip.conic.bend import Bend
 from synergrip.linalg import Array, interpolated
 from synergrip.plans.referee.model import Cone, Model
 
@@ -61,6 +61,6 @@ def _needed(before: tuple[Array, Array | None], after: tuple[Array, Array | None
         need = need + np.linalg.norm(after[1] - before[1], axis=1)
     result = np.zeros((knots, *need.shape[1:]))
     for k in range(knots - 1):
-        worst = ALLOWANCE * need[bend.interval == k].max(axis=0)
+        worst = bend.allowance * need[bend.interval == k].max(axis=0)
         result[k : k + 2] = np.maximum(result[k : k + 2], worst)
     return result

@@ -1,0 +1,27 @@
+"""Joints that a posture parts although they are rigidly coupled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.hands.hand import Hand
+from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.linalg import Array
+
+PARTED = 1e-6
+"""Distance from what a coupling says that is no rounding [rad or m]."""
+
+
+def parted_notes(hand: Hand, q: Array) -> Iterator[str]:
+    """Yield a note for each rigid coupling that joint values `q` (n_q,) do not keep."""
+    E, e = coupling_map(hand.joint_names, hand.couplings)
+    for i, (joint, said) in enumerate(zip(hand.joints, E @ q + e, strict=True)):
+        coupling = hand.couplings.get(joint.name)
+        if coupling is not None and coupling.rigid and abs(q[i] - said) > PARTED:
+            factor, unit = (np.degrees(1.0), "deg") if joint.kind == "hinge" else (1e3, "mm")
+            yield (
+                f"joint '{joint.name}' is at {factor * q[i]:.4g} {unit}, its rigid coupling to {drivers(coupling)} "
+                f"says {factor * said:.4g} {unit}: the hand cannot take this posture"
+            )
