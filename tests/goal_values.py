@@ -11,7 +11,7 @@ from synergrip.plans.task import GoalName, Task
 
 
 def goal_value(name: GoalName, grasp: Grasp, task: Task, found: Course, units: tuple[float, float] = (1, 1)) -> float:
-    """Return what `name` is to make small: forces in N, references in their own units, rates and accelerations in seconds.
+    """Return what `name` is to make small: forces in N, references in their own units, times in seconds.
 
     `units` of force [N] and of references count in a weighted sum only, where time counts in durations of the task.
     """

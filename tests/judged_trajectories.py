@@ -10,13 +10,15 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from elastic_grasp import AXES, Course, course, motion_at_centroid, normal_forces, sizes_on, slip_margins
 from random_trajectories import random_trajectory
 
 from synergrip.errors import SelfCheckError
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, interpolated
 from synergrip.plans.outcome import Infeasible, Plan, Unknown
 from synergrip.plans.planning import plan
@@ -58,25 +60,19 @@ def judged(seed: int, knots: int) -> Judged:
     if isinstance(outcome, Infeasible):
         return Judged(seed, "infeasible", _proof(outcome), seconds=seconds)
     found = course(grasp, task.times, outcome.motion.dz_r, task.wrench)
-    result = Judged(seed, "feasible", [], outcome.notes, seconds=seconds)
-    result.round_trip = _round_trip(outcome.motion, found)
-    result.excess = max(excesses(outcome, found).values())
-    result.between = max(excesses(outcome, _dense(outcome)).values())
-    result.wrong += [f"round trip {result.round_trip:.1e}"] * (result.round_trip > EXACT)
-    result.wrong += [f"balance {_imbalance(outcome, found):.1e}"] * (_imbalance(outcome, found) > EXACT)
-    result.wrong += [f"{key} by {v:.1e}" for key, v in excesses(outcome, found).items() if v > HOLDS]
-    result.wrong += [
-        f"{key} between knots by {v:.1e}" for key, v in excesses(outcome, _dense(outcome)).items() if v > HOLDS
-    ]
-    return result
+    at_knots, between = excesses(outcome, found), excesses(outcome, _dense(outcome))
+    trip, balance = _round_trip(outcome.motion, found), _imbalance(outcome, found)
+    wrong = [f"round trip {trip:.1e}"] * (trip > EXACT) + [f"balance {balance:.1e}"] * (balance > EXACT)
+    wrong += [f"{key} by {value:.1e}" for key, value in at_knots.items() if value > HOLDS]
+    wrong += [f"{key} between knots by {value:.1e}" for key, value in between.items() if value > HOLDS]
+    worst = max(at_knots.values()), max(between.values())
+    return Judged(seed, "feasible", wrong, outcome.notes, trip, *worst, seconds)
 
 
 def _dense(outcome: Plan) -> Course:
     """Return what references and loads do that are linear between the knots, by the planner's own forward maps."""
     times = outcome.task.times
-    many = np.unique(
-        np.concatenate([np.linspace(a, b, BETWEEN + 1) for a, b in zip(times[:-1], times[1:], strict=True)])
-    )
+    many = np.unique(np.concatenate([np.linspace(a, b, BETWEEN + 1) for a, b in pairwise(times)]))
     dz_r, wrench = (interpolated(many, times, v) for v in (outcome.motion.dz_r, outcome.task.wrench))
     motion = forward(outcome.analysis.response, many, dz_r, wrench)
     return Course(many, dz_r, wrench, motion.forces, motion.torques, motion.efforts, motion.du, motion.sag, motion.dq,
@@ -120,6 +116,8 @@ def excesses(outcome: Plan, found: Course) -> dict[str, float]:
             worst = np.max(np.abs(values[key]) / limit.limit) - 1
         elif key == "limits.normal_force":
             worst = max(normal.max() - limit.upper, limit.lower - normal.min()) / unit
+        elif key == "limits.safety_factor":
+            worst = -slip_margins(_slippery(grasp, limit.ratios), found.forces).min() / unit
         elif key == "limits.joint_range":
             q, half = limit.start + found.dq, (limit.upper - limit.lower) / 2
             worst = np.max(np.maximum(q - limit.upper, limit.lower - q) / half)
@@ -130,6 +128,13 @@ def excesses(outcome: Plan, found: Course) -> dict[str, float]:
             worst = sizes_on(grasp, AXES, found.du - wanted).max() / limit.limit - 1
         result[key] = float(worst)
     return result | _tracking(outcome, found, rigid, wanted)
+
+
+def _slippery(grasp: Grasp, ratios: Array) -> Grasp:
+    """Return the grasp with less friction: mu and nu times a ratio for each contact."""
+    pairs = zip(grasp.contacts, ratios, strict=True)
+    less = (replace(c, friction=r * c.friction, spin_friction=r * c.spin_friction) for c, r in pairs)
+    return replace(grasp, contacts=tuple(less))
 
 
 def _tracking(outcome: Plan, found: Course, rigid: Array, wanted: Array) -> dict[str, float]:
@@ -194,13 +199,11 @@ def main() -> None:
             print(f"seed {seed}, {knots[seed]} knots, {each.verdict}: {line}", flush=True)
     plans = [each for each in found if each.verdict == "feasible"]
     print(", ".join(f"{verdict} {times}" for verdict, times in Counter(each.verdict for each in found).most_common()))
-    print(f"largest relative difference of the motion {max(each.round_trip for each in plans):.1e}")
-    print(
-        f"largest excess at a knot {max(each.excess for each in plans):.1e}, anywhere {max(each.between for each in plans):.1e}"
-    )
-    print(
-        f"seconds: median {np.median([each.seconds for each in found]):.2f}, most {max(each.seconds for each in found):.2f}"
-    )
+    trip, knot, anywhere = (max(getattr(each, name) for each in plans) for name in ("round_trip", "excess", "between"))
+    print(f"largest relative difference of the motion {trip:.1e}")
+    print(f"largest excess at a knot {knot:.1e}, anywhere {anywhere:.1e}")
+    seconds = [each.seconds for each in found]
+    print(f"seconds: median {np.median(seconds):.2f}, most {max(seconds):.2f}")
 
 
 if __name__ == "__main__":

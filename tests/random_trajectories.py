@@ -12,6 +12,7 @@ from random_tasks import LEVER, hand_like_grasp
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
+from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
@@ -44,6 +45,16 @@ MOTION = 1e-3
 def random_trajectory(seed: int, knots: int) -> tuple[Grasp, Task]:
     """A hand-like grasp and a task over `knots` instants; goals take turns with the seed."""
     rng = np.random.default_rng(seed)
+    for _ in range(3):  # most are to fail, if at all, by what limits ask for
+        grasp, task = _wish(rng, seed, knots)
+        easy = plan(grasp, replace(task, order=("effort",)))
+        if isinstance(easy, Plan):
+            return grasp, replace(task, limits=_limits(rng, task, easy))
+    return grasp, task
+
+
+def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, Task]:
+    """A grasp, its load, the motion wanted of it and the goal, with little to limit them."""
     grasp = _grasp(rng)
     duration = rng.uniform(0.5, 4.0)
     steps = rng.uniform(0.6, 1.4, knots - 1) if seed % 2 else np.ones(knots - 1)
@@ -52,18 +63,16 @@ def random_trajectory(seed: int, knots: int) -> tuple[Grasp, Task]:
     wrench = grasp.w_0 + _wrench(rng, times, load)
     if grasp.lambda_0 is None and rng.uniform() < 0.5:
         grasp = replace(grasp, w_0=frozen(wrench[0]))  # the grasp carries its load when the task begins
-    analysis = analyse(grasp)
     order = ORDERS[seed % len(ORDERS)]
     start = rng.uniform(-0.5, 0.5, grasp.n_q)
     room = rng.uniform(0.3, 1.5, (2, grasp.n_q))
     task = Task(
         times, frozen(wrench), still(times), float(rng.choice([0.0, 0.05, 0.2])) * load,
-        (NormalForce(0.0, 30 * load),), order,
+        (NormalForce(0.0, 30 * load), JointTorque(frozen(np.full(grasp.n_q, 10 * LEVER * load)))), order,
         weights=WEIGHTS[seed % len(WEIGHTS)] if "weighted" in order else {},
         ranges=JointRange(frozen(start), frozen(start - room[0]), frozen(start + room[1])),
     )  # fmt: skip
-    task = _tracked(rng, analysis, task)
-    return grasp, replace(task, limits=_limits(rng, grasp, task, load))
+    return grasp, _tracked(rng, analyse(grasp), task)
 
 
 def _grasp(rng: np.random.Generator) -> Grasp:
@@ -116,13 +125,9 @@ def _tracked(rng: np.random.Generator, analysis: Analysis, task: Task) -> Task:
     )  # fmt: skip
 
 
-def _limits(rng: np.random.Generator, grasp: Grasp, task: Task, load: float) -> tuple[Limit, ...]:
+def _limits(rng: np.random.Generator, task: Task, easy: Plan) -> tuple[Limit, ...]:
     """Some of all limits, each around what the least effort uses of it."""
-    easy = plan(grasp, replace(task, order=("effort",)))
-    if not isinstance(easy, Plan):  # then less margin, and without the wanted motion
-        easy = plan(grasp, replace(task, order=("effort",), margin=0.0, wanted=still(task.times), tracking="rigid"))
-    if not isinstance(easy, Plan):
-        return (*task.limits, JointTorque(frozen(np.full(grasp.n_q, 10 * LEVER * load))))
+    grasp = easy.analysis.grasp
     motion, h = easy.motion, np.diff(task.times)[:, None]
     rates = np.diff(motion.dz_r, axis=0) / h
     bends = 2 * np.diff(rates, axis=0) / (h[1:] + h[:-1])
@@ -131,7 +136,7 @@ def _limits(rng: np.random.Generator, grasp: Grasp, task: Task, load: float) -> 
     error = np.linalg.norm((motion.du - easy.situation.wanted) * ([1.0] * 3 + [scale.length] * 3), axis=1).max()
     normal = float(motion.forces[:, grasp.normal_rows].max())
     limits: list[Limit] = [
-        NormalForce(float(rng.choice([0.0, 0.02])) * load, normal * _more(rng)),
+        NormalForce(float(rng.choice([0.0, 0.02])) * easy.situation.force_unit, normal * _more(rng)),
         JointTorque(_around(rng, motion.torques)),
         ActuatorEffort(_around(rng, motion.efforts)),
         SynergyReference(_around(rng, motion.dz_r)),
@@ -140,19 +145,20 @@ def _limits(rng: np.random.Generator, grasp: Grasp, task: Task, load: float) -> 
         _range(rng, task, motion.dq),
         ElasticMotion(max(elastic, 1e-5) * _more(rng)),
         ObjectError(max(error, 1e-5) * _more(rng)),
+        FrictionReserve(frozen(rng.uniform(0.75, 1.0, grasp.n_c))),
     ]
-    first = len(limits) if "margin" not in task.order else 1  # something must bound a largest margin
-    return tuple(limit for k, limit in enumerate(limits) if k < first % len(limits) or rng.uniform() < 0.35)
+    needed = 1 if "margin" in task.order else 0  # something must bound a largest margin
+    return tuple(limit for k, limit in enumerate(limits) if k < needed or rng.uniform() < 0.35)
 
 
 def _more(rng: np.random.Generator) -> float:
-    return float(10 ** rng.uniform(-0.1, 0.5))
+    return float(10 ** rng.uniform(-0.06, 0.1))
 
 
 def _around(rng: np.random.Generator, used: Array) -> Array:
     """Bounds around the peaks of used (T, m), each its own way; one in six is free."""
     peaks = np.abs(used).max(axis=0)
-    bounds = np.maximum(peaks, max(0.1 * peaks.max(), 1e-6)) * _more(rng) * rng.uniform(1.0, 1.5, len(peaks))
+    bounds = np.maximum(peaks, max(0.1 * peaks.max(), 1e-6)) * _more(rng) * rng.uniform(1.0, 1.1, len(peaks))
     bounds[rng.uniform(size=len(peaks)) < 1 / 6] = np.inf
     return frozen(bounds)
 
@@ -160,6 +166,6 @@ def _around(rng: np.random.Generator, used: Array) -> Array:
 def _range(rng: np.random.Generator, task: Task, dq: Array) -> JointRange:
     """The ranges of the hand, drawn close around what the joints do."""
     assert task.ranges is not None
-    start, more = task.ranges.start, _more(rng)
+    start, more = task.ranges.start, 1.1 * _more(rng)
     low, high = (np.maximum(sign * dq, 0.02).max(axis=0) * more for sign in (-1, 1))
     return replace(task.ranges, lower=frozen(start - low), upper=frozen(start + high))

@@ -1,4 +1,4 @@
-"""Grasps small enough for closed forms, given as matrices: a pinch, three fingers on a ring or below a ball's equator."""
+"""Grasps small enough for closed forms, given as matrices: a pinch, three fingers on or below a ball's equator."""
 
 from __future__ import annotations
 
@@ -23,9 +23,11 @@ def pinch(
     )
     S = np.zeros((8, 1))
     S[[0, 4], 0] = 1
-    return Grasp("pinch", contacts, grasp_matrix(contacts), frozen(np.eye(8)), frozen(S),
-                 frozen(np.diag(np.repeat(compliance, 4))), frozen(joint_compliance * np.eye(8)),
-                 frozen(np.zeros((1, 1))), None, frozen(np.zeros(6)), tuple(f"q{i}" for i in range(8)), ("squeeze",))  # fmt: skip
+    return Grasp(
+        "pinch", contacts, grasp_matrix(contacts), frozen(np.eye(8)), frozen(S),
+        frozen(np.diag(np.repeat(compliance, 4))), frozen(joint_compliance * np.eye(8)), frozen(np.zeros((1, 1))),
+        None, frozen(np.zeros(6)), tuple(f"q{i}" for i in range(8)), ("squeeze",),
+    )  # fmt: skip
 
 
 def tripod(mu: float = 0.8, below: float = 0.0) -> Grasp:

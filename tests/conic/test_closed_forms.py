@@ -124,6 +124,19 @@ def test_a_joint_that_ends_its_range_ends_the_squeeze(joint_compliance: float) -
     assert outcome.motion.dz_r[0, 0] == pytest.approx(room * (1 + joint_compliance / 1e-3), rel=1e-5)
 
 
+def test_a_joint_that_yields_under_the_load_may_leave_its_range() -> None:
+    """The joints across the normals carry half the weight each and give way by C_q W / 2, whatever the squeeze."""
+    room = 2e-3 * 3.0 / 2
+    for factor, verdict in ((1.001, "feasible"), (0.999, "infeasible")):
+        ends = np.full(8, factor * room)
+        ends[[0, 4]] = np.inf  # along the normals
+        limit = JointRange(frozen(np.zeros(8)), frozen(-ends), frozen(ends))
+        outcome = plan(pinch(joint_compliance=2e-3), task([0, 0, -3, 0, 0, 0], 0.1, "effort", limit))
+        assert outcome.verdict == verdict
+        if isinstance(outcome, Infeasible):
+            assert {clash.key for clash in outcome.clashes} == {"limits.joint_range"}
+
+
 def test_a_squeeze_may_push_the_object_no_farther_than_its_limit() -> None:
     """The softer side gives way: the object moves by n (C_right - C_left) / 2."""
     grasp = pinch(compliance=(1e-3, 3e-3))
