@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from synergrip.plans.question import Question
 
 GOAL = "goal={minimise={effort=1, travel=0.001}}"
+BETWEEN = 'task.between="report"'
 LIMITS = 'limits={margin="0.5 N", normal_force="20 N", joint_torque="hand", synergy_rate=0.5}'
 CVXPY_KNOTS = 10_000
 """More than that takes the CVXPY model minutes."""
@@ -45,8 +46,8 @@ def child(what: str, knots: int) -> None:
     from synergrip.plans.problem import load_problem
     from synergrip.plans.referee import judge as referee
 
-    problem = load_problem("barrett-ball-hold", [f"task.knots={knots}", GOAL, LIMITS])
-    small = load_problem("barrett-ball-hold", ["task.knots=3", GOAL, LIMITS])
+    problem = load_problem("barrett-ball-hold", [f"task.knots={knots}", GOAL, BETWEEN, LIMITS])
+    small = load_problem("barrett-ball-hold", ["task.knots=3", GOAL, BETWEEN, LIMITS])
     warm = plan(small.grasp, small.task)
     assert isinstance(warm, Plan), "the problem is meant to be feasible"
     if what == "plan":

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from synergrip.linalg import Array, interpolated
 
-MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 20_000
+MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 4_000
 """Instants looked at in each interval between two knots: fewer in a task of many intervals, which bend less."""
 
 
