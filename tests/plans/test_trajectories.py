@@ -31,6 +31,7 @@ from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.task import Task
@@ -90,6 +91,15 @@ def test_the_judgement_and_the_limits_see_the_same_use(seed: int) -> None:
             excess = excesses(bound, found)[key]
             assert (excess < 0) is passes, (key, factor)
             assert abs(excess) > 1e-3, (key, factor)
+
+
+def test_least_references_leave_nothing_open_to_any_other_goal() -> None:
+    """Forces, redundancy and rigid motion are all functions of the references: no further program is solved."""
+    problem = load_problem("human-ball-near")
+    outcome = plan(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    assert outcome.situation.n_v > outcome.situation.n_alpha
+    assert [decision.goal for decision in outcome.decisions] == ["least motion"]
 
 
 def _coupled(task: Task) -> bool:

@@ -67,7 +67,9 @@ def after(stage: Stage, goal: Goal, solver: Answerer) -> Stage:
     held = stage.held
     if not isinstance(stage.goal, LargestMargin | LeastPeak):
         held = (*held, *(Held(part, stage.v) for part in stage.goal.objective(stage.situation).squares))
-    if held and not stage.open_beyond_forces and _forces_are_fixed(stage.situation, held):
+    if held and _are_fixed(stage.situation.n_v, stage.situation, held):
+        if isinstance(goal, LeastReconfiguration):
+            return stage
         return replace(stage, notes=(*stage.notes, f"the goals before it leave nothing open for '{goal.name}'"))
     situation = stage.situation if held else _in_units_of_its_forces(stage)
     for limits in _limits(stage, held):
@@ -95,16 +97,16 @@ def _limits(stage: Stage, held: tuple[Held, ...]) -> Iterator[tuple[Limit, ...]]
         for slack in SLACKS:
             yield (stage.goal.keeps(stage.scalar, slack * stage.situation.force_unit), *stage.limits)
         return
-    fixed = _forces_are_fixed(stage.situation, held)
+    fixed = _are_fixed(stage.situation.n_alpha, stage.situation, held)
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
 
 
-def _forces_are_fixed(situation: Situation, held: tuple[Held, ...]) -> bool:
-    """Return whether what is held leaves no internal force open."""
+def _are_fixed(count: int, situation: Situation, held: tuple[Held, ...]) -> bool:
+    """Return whether what is held leaves none of the first `count` unknowns of a knot open, forces before others."""
     directions = np.hstack([part.determines for part in held])
     space = split(directions.T).row_space
-    forces = np.eye(situation.n_v)[: situation.n_alpha]
-    return bool(np.abs(forces - forces @ space @ space.T).max(initial=0.0) < 1e-9)
+    unknowns = np.eye(situation.n_v)[:count]
+    return bool(np.abs(unknowns - unknowns @ space @ space.T).max(initial=0.0) < 1e-9)
 
 
 def _in_units_of_its_forces(stage: Stage) -> Situation:
