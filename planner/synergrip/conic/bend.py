@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from synergrip.linalg import Array, interpolated
 
@@ -19,8 +18,7 @@ class Bend:
 
     samples: int
     """Instants in each interval."""
-    times: Array  # (J,) [s]
-    interval: NDArray[np.intp]  # (J,) number of the knot before
+    times: Array  # (J,) [s], one interval after the other
     wrench: Array  # (J, 6) external wrench
     wanted: Array  # (J, 6) wanted displacement of the object
 
@@ -28,6 +26,10 @@ class Bend:
     def allowance(self) -> float:
         """Factor by which a curve that is a parabola in each interval exceeds its samples there at most."""
         return 1.0 + 8.0 / self.samples**2
+
+    def worst(self, values: Array) -> Array:
+        """Return the largest in each interval (intervals, ...) of values (J, ...)."""
+        return np.asarray(values.reshape(-1, self.samples, *values.shape[1:]).max(axis=1))
 
     def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
         """Return what wrench and wish (J, 6) depart by from straight lines between their values at knots `times`."""
@@ -37,10 +39,10 @@ class Bend:
         )
 
 
-def instants(times: Array) -> tuple[int, Array, NDArray[np.intp]]:
-    """Return how many instants lie in each interval, all of them (J,), and the number of the knot before each (J,)."""
+def instants(times: Array) -> tuple[int, Array]:
+    """Return how many instants lie in each interval, and all of them (J,)."""
     intervals = len(times) - 1
     samples = int(np.clip(SAMPLES_IN_ALL // intervals, LEAST_SAMPLES, MOST_SAMPLES))
     shares = np.arange(1, samples + 1) / (samples + 1)
     inner = times[:-1, None] + np.diff(times)[:, None] * shares
-    return samples, inner.ravel(), np.repeat(np.arange(intervals), samples)
+    return samples, inner.ravel()

@@ -9,6 +9,7 @@ left out (zero) when no limit looks at more than forces, beta as far as the want
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -88,38 +89,38 @@ class Situation:
         """Whether the redundancy is an unknown."""
         return bool(np.any(self.gamma.matrix))
 
-    @property
+    @cached_property
     def beta_basis(self) -> Array:
         """(dim Gamma_ucs, m) orthonormal directions in which the rigid motion is an unknown."""
-        return np.asarray(self.beta.matrix[:, np.any(self.beta.matrix, axis=0)] / self.units.motion)
+        return frozen(self.beta.matrix[:, np.any(self.beta.matrix, axis=0)] / self.units.motion)
 
     @property
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
 
-    @property
+    @cached_property
     def load_change(self) -> Array:
         """(T, 6) wrench on the object beyond the one at the start."""
-        return np.asarray(self.wrench - self.response.grasp.w_0)
+        return frozen(self.wrench - self.response.grasp.w_0)
 
-    @property
+    @cached_property
     def force(self) -> Affine:
         """Contact forces lambda (n_l) [N, N m]."""
         known = forces_at_start(self.response) - self.load_change @ self.response.right_inverse.T
         return self.alpha.after(self.spaces.E_s).plus(known)
 
-    @property
+    @cached_property
     def torque(self) -> Affine:
         """Joint torques tau = J' lambda (n_q) (6) [N m]."""
         return self.force.after(self.response.grasp.J.T)
 
-    @property
+    @cached_property
     def effort(self) -> Affine:
         """Actuator efforts sigma = S' tau (n_z)."""
         return self.torque.after(self.response.grasp.S.T)
 
-    @property
+    @cached_property
     def reference(self) -> Affine:
         """Synergy references dz_r (n_z) by (35)."""
         parts = (self.alpha, self.beta, self.gamma)
@@ -129,17 +130,17 @@ class Situation:
             frozen(np.hstack([part.constant for part in parts]) @ inverse.T),
         )
 
-    @property
+    @cached_property
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
         return self.reference.after(self.response.dq_dzr).plus(self.load_change @ self.response.dq_dw.T)
 
-    @property
+    @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
         return self.reference.after(self.response.du_dzr).plus(self.load_change @ self.response.du_dw.T)
 
-    @property
+    @cached_property
     def elastic(self) -> Affine:
         """What the references move the object beyond the rigid motion Gamma_ucs beta (6) [m, rad]."""
         return self.reference.after(self.response.du_dzr).minus(self.beta.after(self.spaces.Gamma_ucs))

@@ -49,12 +49,10 @@ def bend_of(task: Task, analysis: Analysis) -> Bend | None:
     """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
     if task.course is None or len(task.times) < 2:
         return None
-    samples, times, interval = instants(task.times)
+    samples, times = instants(task.times)
     load = task.course.load_at(times)
     wrench = frozen(interpolated(times, task.times, task.wrench)) if load is None else load
-    return Bend(
-        samples, frozen(times), interval, wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times)))
-    )
+    return Bend(samples, frozen(times), wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times))))
 
 
 def _displacement(task: Task, analysis: Analysis, values: Array) -> Array:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from scipy import sparse
 
 from synergrip.conic.program import Program
@@ -36,9 +35,7 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.static_regularization_constant = settings.regularisation
     options.max_step_fraction = settings.step
     P = sparse.triu(program.P, format="csc")
-    found = clarabel.DefaultSolver(
-        P, np.array(program.q), program.A, np.array(program.b), _cones(program), options
-    ).solve()
+    found = clarabel.DefaultSolver(P, program.q, program.A, program.b, _cones(program), options).solve()
     status = str(found.status)
     return Solution(
         CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,

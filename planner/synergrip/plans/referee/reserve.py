@@ -16,7 +16,6 @@ from synergrip.plans.referee.model import Cone, Model
 class Courses:
     """The same task written down between the knots: along straight lines, and as it really goes."""
 
-    knots: int
     bend: Bend
     straight: Model
     bent: Model
@@ -26,7 +25,7 @@ class Courses:
         """Write the task of `model` down with `write`, from instants (J,), wrench and wanted displacement (J, 6)."""
         lines = [interpolated(bend.times, model.times, values) for values in (model.wrench, model.wanted)]
         straight, bent = write(bend.times, *lines), write(bend.times, bend.wrench, bend.wanted)
-        return cls(len(model.times), bend, straight, bent)
+        return cls(bend, straight, bent)
 
     def reserved(self, cones: Sequence[Cone], again: Callable[[Model], Sequence[Cone]]) -> list[Cone]:
         """Return cones whose heads are lower by what the loads beside each knot can take away between the knots.
@@ -37,7 +36,7 @@ class Courses:
         """
         straight, bent = _values(again(self.straight)), _values(again(self.bent))
         return [
-            replace(cone, head=cone.head - _needed(before, after, self.bend, self.knots))
+            replace(cone, head=cone.head - _needed(before, after, self.bend))
             for cone, before, after in zip(cones, straight, bent, strict=True)
         ]
 
@@ -54,13 +53,11 @@ def _values(cones: Sequence[Cone]) -> list[tuple[Array, Array | None]]:
     return values
 
 
-def _needed(before: tuple[Array, Array | None], after: tuple[Array, Array | None], bend: Bend, knots: int) -> Array:
+def _needed(before: tuple[Array, Array | None], after: tuple[Array, Array | None], bend: Bend) -> Array:
     """Return how much lower the head must be at every knot, in the shape of the head."""
     need = np.maximum(before[0] - after[0], 0.0)
     if before[1] is not None and after[1] is not None:
         need = need + np.linalg.norm(after[1] - before[1], axis=1)
-    result = np.zeros((knots, *need.shape[1:]))
-    for k in range(knots - 1):
-        worst = bend.allowance * need[bend.interval == k].max(axis=0)
-        result[k : k + 2] = np.maximum(result[k : k + 2], worst)
-    return result
+    of_interval = bend.allowance * bend.worst(need)
+    ends = np.zeros((1, *need.shape[1:]))
+    return np.asarray(np.maximum(np.concatenate([ends, of_interval]), np.concatenate([of_interval, ends])))

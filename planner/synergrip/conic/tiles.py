@@ -1,0 +1,116 @@
+"""Rows that are alike at every knot, written straight into one sparse matrix: no entry is kept twice on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from synergrip.conic.rows import Earlier
+from synergrip.linalg import Array
+
+ROUNDING = 1e-15
+"""Entries this small beside the largest of their row are what rounding left of zeros; a solver would pay for them."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """The rows of one knot, which repeat down the diagonal: ``matrix v_k``, earlier knots' parts, and the scalar's."""
+
+    matrix: Array  # (h, n_v)
+    earlier: tuple[Earlier, ...]
+    scalar: Array
+    """(h,) entries in the last column, that of the goal's scalar."""
+    count: int
+    """How often it repeats; the last copy belongs to the last knot."""
+
+
+@dataclass(frozen=True)
+class _Part:
+    """What the copies of a tile say of knots: the same entries again and again, each copy's times its weight."""
+
+    first_knot: int
+    """The one that the first copy speaks of; the others follow."""
+    weights: Array  # (count,)
+    first_row: int
+    height: int
+    """Rows of a copy."""
+    row: NDArray[np.intp]  # (e,) within the copy, ascending
+    column: NDArray[np.intp]  # (e,) within the knot
+    value: Array  # (e,)
+
+    @property
+    def knots(self) -> tuple[int, int]:
+        """The first knot it speaks of, and the one after the last."""
+        return self.first_knot, self.first_knot + len(self.weights)
+
+
+def stacked(tiles: Sequence[Tile], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
+    """Return the tiles below one another.
+
+    Args:
+        tiles: (h, n_v) each.
+        knots: number of knots T.
+        n_v: unknowns of a knot.
+        extra: columns beyond those of the knots: 1 with a scalar, else 0.
+    """
+    tops = np.cumsum([0, *(len(tile.matrix) * tile.count for tile in tiles)])
+    placed = list(zip(tiles, tops.tolist(), strict=False))
+    parts = [part for tile, top in placed for part in _parts(tile, top, knots)]
+    scalars = [_scalar_column(tile, top) for tile, top in placed] if extra else []
+    total = sum(part.value.size * len(part.weights) for part in parts) + sum(len(rows) for rows, _ in scalars)
+    index: type[np.int32 | np.int64] = np.int32 if max(total, tops[-1]) < 2**31 else np.int64
+    lengths = np.zeros(knots * n_v + extra, dtype=index)
+    data, indices = np.empty(total), np.empty(total, dtype=index)
+    at = 0
+    for first, last in pairwise(sorted({0, knots, *(end for part in parts for end in part.knots)})):
+        there = [part for part in parts if part.knots[0] <= first and last <= part.knots[1]]
+        shape = last - first, sum(part.value.size for part in there)
+        here = slice(at, at + shape[0] * shape[1])
+        one = _fill(there, first, n_v, data[here].reshape(shape), indices[here].reshape(shape))
+        lengths[first * n_v : last * n_v] = np.tile(one, last - first)
+        at = here.stop
+    for rows, values in scalars:
+        indices[at : at + len(rows)], data[at : at + len(rows)] = rows, values
+        lengths[-1] += len(rows)
+        at += len(rows)
+    ends = np.concatenate([np.zeros(1, dtype=index), np.cumsum(lengths, dtype=index)])
+    return sparse.csc_matrix((data, indices, ends), shape=(int(tops[-1]), len(lengths)))
+
+
+def _parts(tile: Tile, top: int, knots: int) -> list[_Part]:
+    """Return what a tile says of its own knots, and of those before them."""
+    height, first = len(tile.matrix), knots - tile.count
+    result = []
+    for part in (Earlier(0, tile.matrix, np.ones(tile.count)), *sorted(tile.earlier, key=lambda part: part.lag)):
+        size = np.abs(part.matrix)
+        row, column = np.nonzero(size > ROUNDING * size.max(axis=1, keepdims=True, initial=0.0))
+        value = part.matrix[row, column]
+        result.append(_Part(first - part.lag, part.weights, top, height, row, column, value))
+    return result
+
+
+def _scalar_column(tile: Tile, top: int) -> tuple[NDArray[np.intp], Array]:
+    used = np.flatnonzero(tile.scalar)
+    rows = top + np.arange(tile.count)[:, None] * len(tile.scalar) + used
+    return rows.ravel(), np.tile(tile.scalar[used], tile.count)
+
+
+def _fill(
+    parts: Sequence[_Part], first: int, n_v: int, data: Array, indices: NDArray[np.signedinteger]
+) -> NDArray[np.intp]:
+    """Write the columns of all knots from `first` on, (knots, entries of one), and return their lengths (n_v,)."""
+    column = np.concatenate([np.zeros(0, dtype=np.intp), *(part.column for part in parts)])
+    place = np.argsort(np.argsort(column, kind="stable"))  # parts come in the order of their rows
+    start = 0
+    for part in parts:
+        where = place[start : start + len(part.column)]
+        copies = np.arange(len(data)) + first - part.first_knot
+        data[:, where] = part.weights[copies, None] * part.value
+        indices[:, where] = part.first_row + copies[:, None] * part.height + part.row
+        start += len(part.column)
+    return np.bincount(column, minlength=n_v)
