@@ -159,11 +159,11 @@ def _rigid_part(outcome: Plan, found: Course) -> Array:
 
 
 def _wanted(outcome: Plan) -> Array:
-    """Return where the object is wanted (T, 6); in rigid tracking it is to stay on the axes that are not asked for."""
+    """Return where the object is wanted (T, 6): where it starts, on the axes that are not asked for."""
     task, basis = outcome.task, outcome.analysis.spaces.Gamma_ucs
     values = task.wanted.values
     whole = values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T
-    return whole if task.tracking == "compliant" else whole * np.isin(AXES, task.axes)
+    return whole * np.isin(AXES, task.axes)
 
 
 def _proof(outcome: Infeasible) -> list[str]:

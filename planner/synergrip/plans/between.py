@@ -7,15 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.conic.bend import Bend, instants
-from synergrip.conic.limits.friction_cone import FrictionCone
-from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.limits.object_error import AXES
+from synergrip.conic.limits.limit import Usage
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
+from synergrip.plans.tracking import wished
 from synergrip.statics.motion import Motion, forward
-from synergrip.statics.theorem1 import motion_coordinates
 
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""
@@ -52,19 +50,7 @@ def bend_of(task: Task, analysis: Analysis) -> Bend | None:
     samples, times = instants(task.times)
     load = task.course.load_at(times)
     wrench = frozen(interpolated(times, task.times, task.wrench)) if load is None else load
-    return Bend(samples, frozen(times), wrench, frozen(_displacement(task, analysis, task.course.wanted_at(times))))
-
-
-def _displacement(task: Task, analysis: Analysis, values: Array) -> Array:
-    """Return the displacement (J, 6) that a wish asks for, as `followed` reads it at the knots."""
-    basis = analysis.spaces.Gamma_ucs
-    if task.wanted.kind == "hold":
-        return np.zeros((len(values), 6))
-    if task.wanted.kind != "motion":
-        return np.asarray(values @ basis[:, : values.shape[1]].T)
-    if task.tracking == "rigid" and len(task.axes) == len(AXES):
-        return motion_coordinates(analysis.response, analysis.spaces, values)[0] @ basis.T
-    return np.asarray(values) if task.tracking == "compliant" else np.where(np.isin(AXES, task.axes), values, 0.0)
+    return Bend(samples, frozen(times), wrench, wished(analysis, task, task.course.wanted_at(times)))
 
 
 def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion) -> Between | None:
@@ -75,8 +61,7 @@ def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion
     dz_r = interpolated(bend.times, task.times, motion.dz_r)
     there = forward(analysis.response, bend.times, dz_r, bend.wrench)
     dense = replace(situation, times=bend.times, wrench=bend.wrench, wanted=bend.wanted)
-    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.kept)
-    usages = tuple(limit.usage(dense, there) for limit in limits if not limit.couples_knots)
+    usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
     scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
     loads, paths = (scale.wrench(load), scale.wrench(bend.wrench)), (scale.twist(path), scale.twist(bend.wanted))
     return Between(bend.samples, _size(*loads), _size(*paths), usages)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.conic.situation import situate
+from synergrip.conic.situation import Situation
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
@@ -15,9 +15,8 @@ from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Check
 from synergrip.plans.reading.knots import distinct
 from synergrip.plans.references import References
+from synergrip.plans.situated import situated
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import Followed, followed
-from synergrip.plans.units import units_of
 from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
 from synergrip.statics.motion import Motion, forward
 
@@ -60,16 +59,11 @@ def judge_references(grasp: Grasp, task: Task, references: References) -> Judgem
     task = _at(task, times)
     dz_r = interpolated(times, references.times, references.values)
     analysis = analyse(grasp, task.wrench)
-    follow = followed(analysis, task)
-    situation = situate(
-        analysis.response, analysis.spaces, analysis.coordinates,
-        times=times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
-        units=units_of(analysis, task), redundancy=True,
-    )  # fmt: skip
+    situation = situated(analysis, task, redundancy=True)
     motion = forward(analysis.response, times, dz_r, task.wrench)
     usages = limit_usages(task, situation, motion)
     reached = analysis.coordinates.coordinates(dz_r)
-    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], follow), *limit_checks(usages))
+    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], situation), *limit_checks(usages))
     checks += _claims(references, motion)
     return Judgement(analysis, motion, frozen(usages[0].value), usages, checks)
 
@@ -90,10 +84,10 @@ def _claims(references: References, motion: Motion) -> tuple[Check, ...]:
     return tuple(found)
 
 
-def _tracking(task: Task, reached: Array, follow: Followed) -> Check:
+def _tracking(task: Task, reached: Array, situation: Situation) -> Check:
     """Judge the rigid motion as far as the wanted motion fixes it."""
-    beyond = reached - follow.beta
-    error = float(np.linalg.norm(beyond - beyond @ follow.basis @ follow.basis.T, axis=1).max(initial=0.0))
+    beyond, free = reached - situation.beta.constant, situation.beta_basis
+    error = float(np.linalg.norm(beyond - beyond @ free @ free.T, axis=1).max(initial=0.0))
     return Check("rigid motion [m]", error, max(task.tolerance, TRACKED))
 
 

@@ -11,7 +11,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.situation import Situation, situate
+from synergrip.conic.situation import Situation
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
@@ -23,11 +23,10 @@ from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
+from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
 from synergrip.plans.stages import SLACKS, Stage, after, settled
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import followed
-from synergrip.plans.units import units_of
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
 
@@ -44,14 +43,9 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     except NotRestrainedError as refusal:
         return _refused(grasp, task, None, refusal)
     try:
-        follow = followed(analysis, task)
+        situation = situated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
-    situation = situate(
-        analysis.response, analysis.spaces, analysis.coordinates,
-        times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
-        units=units_of(analysis, task), redundancy=task.watches_references,
-    )  # fmt: skip
     if task.between == "hold":
         situation = replace(situation, bend=bend_of(task, analysis))
     return _Planner(task, analysis, situation, solver).outcome()
@@ -73,8 +67,7 @@ class _Planner:
 
     def outcome(self) -> Outcome:
         first, *others = goals_of(self.task)
-        cones = FrictionCone(self.task.margin)
-        limits = self.task.kept if isinstance(first, LargestMargin) else (cones, *self.task.kept)
+        limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
         if not best.optimal:
             return self._without_optimum(best, first)

@@ -8,6 +8,7 @@ from typing import Literal, Protocol
 
 import numpy as np
 
+from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
@@ -89,6 +90,11 @@ class Task:
         """True when some limit looks at more than the forces, so that redundancy matters."""
         goals = {*self.order, *self.weights} - {"weighted"}
         return any(limit.watches == "references" for limit in self.limits) or not goals <= FORCE_GOALS
+
+    @property
+    def all_limits(self) -> tuple[Limit, ...]:
+        """All limits, friction cones first."""
+        return (FrictionCone(self.margin), *self.kept)
 
     @property
     def kept(self) -> tuple[Limit, ...]:

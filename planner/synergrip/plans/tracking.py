@@ -40,24 +40,35 @@ def followed(analysis: Analysis, task: Task) -> Followed:
         InputError: modes are given with another number of columns than Gamma_ucs has.
     """
     dimension = analysis.spaces.Gamma_ucs.shape[1]
-    if task.wanted.kind == "motion":
-        wanted = np.asarray(task.wanted.values)
-    else:
-        wanted = rigid_coordinates(analysis, task) @ analysis.spaces.Gamma_ucs.T
+    if task.wanted.kind in ("modes", "mode moves"):
+        _beta_of_modes(analysis, task)
+    wanted = wished(analysis, task, task.wanted.values)
     if task.tracking == "compliant":
-        return Followed(frozen(np.zeros((len(task.times), dimension))), frozen(np.eye(dimension)), frozen(wanted))
+        return Followed(frozen(np.zeros((len(task.times), dimension))), frozen(np.eye(dimension)), wanted)
     if len(task.axes) == len(AXES):
-        beta = rigid_coordinates(analysis, task)
-        return Followed(beta, frozen(np.zeros((dimension, 0))), frozen(beta @ analysis.spaces.Gamma_ucs.T))
+        return Followed(rigid_coordinates(analysis, task), frozen(np.zeros((dimension, 0))), wanted)
     return _on_axes(analysis, task, wanted)
+
+
+def wished(analysis: Analysis, task: Task, values: Array) -> Array:
+    """Return the displacement (K, 6) that a wish asks for: where the object stays on the axes that are not asked for.
+
+    Args:
+        analysis: of the grasp.
+        task: says what the wish means.
+        values: (K, m) at any instants, with the columns of `Wanted.values`.
+    """
+    if task.wanted.kind == "motion":
+        whole = np.asarray(values)
+    else:
+        whole = values @ analysis.spaces.Gamma_ucs[:, : values.shape[1]].T
+    return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
 
 
 def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
     """Fix beta as far as the asked axes see it."""
     scale = analysis.response.scale
     weights = axis_weights(task.axes, scale.length)
-    chosen = np.isin(AXES, task.axes)
-    wanted = np.where(chosen, wanted, 0.0)
     seen = weights @ analysis.spaces.Gamma_ucs  # (asked, dim Gamma_ucs)
     beta = wanted @ weights.T @ np.linalg.pinv(seen, rcond=RANK_TOLERANCE).T
     outside = wanted @ weights.T - beta @ seen.T
@@ -78,7 +89,7 @@ def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
         )
         residual = np.linalg.solve(scale.motion, covector)
         raise MotionDirectionError(message, frozen(residual), float(task.times[k]), reach / wish, reach)
-    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), frozen(wanted))
+    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), wanted)
 
 
 def _twist(weights: Array, values: Array) -> Array:
@@ -99,14 +110,7 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
     if task.wanted.kind == "hold":
         return frozen(np.zeros((len(task.times), dimension)))
     if task.wanted.kind in ("modes", "mode moves"):
-        asked = values.shape[1]
-        if asked > dimension or (task.wanted.kind == "modes" and asked < dimension):
-            what = (
-                f"mode {asked} is asked for" if task.wanted.kind == "mode moves" else f"{asked} columns of beta given"
-            )
-            message = f"{what}, but Gamma_ucs of this grasp has dimension {dimension}"
-            raise InputError.at(task.wanted.key, message)
-        return frozen(np.pad(values, ((0, 0), (0, dimension - asked))))
+        return _beta_of_modes(analysis, task)
     wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
     allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
     _count(analysis, values, allowed)
@@ -115,6 +119,14 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
     if sizes.max(initial=0.0) > allowed:
         raise _direction(analysis, task, outside, sizes)
     return frozen(beta)
+
+
+def _beta_of_modes(analysis: Analysis, task: Task) -> Array:
+    dimension, asked = analysis.spaces.Gamma_ucs.shape[1], task.wanted.values.shape[1]
+    if asked > dimension or (task.wanted.kind == "modes" and asked < dimension):
+        what = f"mode {asked} is asked for" if task.wanted.kind == "mode moves" else f"{asked} columns of beta given"
+        raise InputError.at(task.wanted.key, f"{what}, but Gamma_ucs of this grasp has dimension {dimension}")
+    return frozen(np.pad(task.wanted.values, ((0, 0), (0, dimension - asked))))
 
 
 def _count(analysis: Analysis, values: Array, allowed: float) -> None:

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_range import JointRange
-from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.limit import Usage
 from synergrip.conic.situation import Situation
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
@@ -81,8 +80,7 @@ def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
 
 def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
-    limits: tuple[Limit, ...] = (FrictionCone(task.margin), *task.kept)
-    return tuple(limit.usage(situation, motion) for limit in limits)
+    return tuple(limit.usage(situation, motion) for limit in task.all_limits)
 
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:

@@ -18,21 +18,20 @@ def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
     dimension = basis.shape[1]
     values = task.wanted.values
-    wanted = values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T
+    rows = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in task.axes]
+    wanted = np.zeros((len(task.times), 6))  # on the other axes, where the object starts
+    wanted[:, rows] = (values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T)[:, rows]
     if task.tracking == "compliant":
         return np.zeros((len(task.times), dimension)), np.eye(dimension), wanted
     if len(task.axes) == 6:
         return _wanted(analysis, task), np.zeros((dimension, 0)), wanted
-    rows = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in task.axes]
     scales = np.array([1.0] * 3 + [scale.length] * 3)[rows]
     seen, wish = scales[:, None] * basis[rows], scales * wanted[:, rows]
     beta = np.linalg.lstsq(seen, wish.T, rcond=1e-8)[0].T
     missed = np.linalg.norm(wish - beta @ seen.T, axis=1).max(initial=0.0)
     if missed > max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance):
         return None, np.zeros((dimension, 0)), wanted
-    held = np.zeros_like(wanted)
-    held[:, rows] = wanted[:, rows]
-    return np.asarray(beta), null_space(seen, rcond=1e-8), held
+    return np.asarray(beta), null_space(seen, rcond=1e-8), wanted
 
 
 def _wanted(analysis: Analysis, task: Task) -> Array | None:

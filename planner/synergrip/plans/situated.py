@@ -1,0 +1,29 @@
+"""A task on a grasp as a situation: what its wanted motion fixes, and what is left to the program."""
+
+from __future__ import annotations
+
+from synergrip.conic.situation import Situation, situate
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.task import Task
+from synergrip.plans.tracking import followed
+from synergrip.plans.units import units_of
+
+
+def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:
+    """Return what the program's unknowns mean in a task, at its knots.
+
+    Args:
+        analysis: of the grasp.
+        task: its loads and its wanted motion.
+        redundancy: whether gamma is an unknown.
+
+    Raises:
+        Refusal: the wanted motion is impossible by count or direction.
+        InputError: modes are given that do not fit the grasp.
+    """
+    follow = followed(analysis, task)
+    return situate(
+        analysis.response, analysis.spaces, analysis.coordinates,
+        times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
+        units=units_of(analysis, task), redundancy=redundancy,
+    )  # fmt: skip
