@@ -27,6 +27,9 @@ UNITS: dict[str, dict[str, float]] = {
 }
 """Unit -> factor to SI, for each kind of quantity."""
 
+SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N m": (1.0, "N m")}
+"""SI unit -> the factor and the unit in which people read it."""
+
 EXAMPLES = {
     "length": "10 mm", "angle": "5 deg", "mass": "200 g", "time": "2 s", "force": "0.5 N", "torque": "1.5 N m",
     "stiffness": "8 N/mm", "spin stiffness": "2 N m/rad", "joint compliance": "0.025 rad/(N m)",

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from synergrip.hands.hand import Hand
 from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
+from synergrip.quantities import SHOWN_IN
 
 PARTED = 1e-6
 """Distance from what a coupling says that is no rounding [rad or m]."""
@@ -20,7 +20,7 @@ def parted_notes(hand: Hand, q: Array) -> Iterator[str]:
     for i, (joint, said) in enumerate(zip(hand.joints, E @ q + e, strict=True)):
         coupling = hand.couplings.get(joint.name)
         if coupling is not None and coupling.rigid and abs(q[i] - said) > PARTED:
-            factor, unit = (np.degrees(1.0), "deg") if joint.kind == "hinge" else (1e3, "mm")
+            factor, unit = SHOWN_IN[SI_UNITS[joint.kind]]
             yield (
                 f"joint '{joint.name}' is at {factor * q[i]:.4g} {unit}, its rigid coupling to {drivers(coupling)} "
                 f"says {factor * said:.4g} {unit}: the hand cannot take this posture"

@@ -10,8 +10,9 @@ import numpy as np
 
 from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
-from synergrip.hands.units import joint_kinds, judge, misfits, synergy_kinds
+from synergrip.hands.units import SI_UNITS, joint_kinds, judge, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
+from synergrip.quantities import SHOWN_IN
 
 JOINTS = "joints"
 """The set every hand has: each joint is its own synergy (S = I)."""
@@ -159,7 +160,7 @@ def outside_limits(joints: Sequence[Joint], q: Array, key: str) -> list[Issue]:
     issues = []
     for joint, value in zip(joints, q, strict=True):
         if not joint.lower - LIMIT_SLACK <= value <= joint.upper + LIMIT_SLACK:
-            factor, unit = (180 / math.pi, "deg") if joint.kind == "hinge" else (1e3, "mm")
+            factor, unit = SHOWN_IN[SI_UNITS[joint.kind]]
             lower, upper, found = joint.lower * factor, joint.upper * factor, value * factor
             message = f"joint '{joint.name}' would be at {found:.4g} {unit}, outside {lower:.4g} to {upper:.4g} {unit}"
             issues.append(Issue(message, key=key))

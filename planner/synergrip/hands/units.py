@@ -13,6 +13,8 @@ from synergrip.validation import shown
 
 SLIDE_KINDS = {"angle": "length", "torque": "force", "joint compliance": "slide compliance"}
 """Kind of a quantity of a hinge -> kind of the same of a slide."""
+SI_UNITS = {"hinge": "rad", "slide": "m"}
+"""Kind of a joint -> unit of its value."""
 _HINGE_KINDS = {slide: hinge for hinge, slide in SLIDE_KINDS.items()}
 _DOES = {
     "joint": {"hinge": "turns", "slide": "slides"},

@@ -16,6 +16,7 @@ from synergrip.plans.between import between
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
+from synergrip.quantities import SHOWN_IN
 from synergrip.statics.motion import Motion, forces_at_start, forward
 
 EXACT = 1e-8
@@ -60,7 +61,7 @@ def _ranges_left(task: Task, situation: Situation, motion: Motion) -> Iterator[s
     usage = task.ranges.usage(situation, motion)
     if usage.excess.max(initial=-np.inf) > LIMIT:
         k, i = usage.worst()
-        factor, unit = (np.degrees(1.0), "deg") if usage.unit == "rad" else (1.0, "(rad or m)")
+        factor, unit = SHOWN_IN.get(usage.unit, (1.0, "(rad or m)"))
         yield (
             f"joint '{usage.items[i]}' would leave its range by {factor * usage.excess[k, i]:.3g} {unit} at t = "
             f'{motion.times[k]:.3g} s; limits.joint_range = "hand" forbids it'

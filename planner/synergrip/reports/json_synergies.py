@@ -14,6 +14,7 @@ from synergrip.hands.fitting import Fit
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.pairing import Pair
 from synergrip.hands.spans import Span, span
+from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 
 
@@ -24,7 +25,7 @@ def fit_document(fit: Fit, written: Path | None, picture: Path | None = None) ->
         "written": str(written) if written else None,
         "picture": str(picture) if picture else None,
         **fit.file.model_dump(by_alias=True),
-        "unit": "rad" if recorded.kind == "hinge" else "m",
+        "unit": SI_UNITS[recorded.kind],
         "postures": len(recorded.postures),
         "rank": found.decision.rank,
         "ambiguous": found.decision.ambiguous,

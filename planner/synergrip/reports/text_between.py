@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Plan
 from synergrip.plans.verified import LIMIT
-from synergrip.quantities import apart
+from synergrip.quantities import SHOWN_IN, apart
 from synergrip.reports.tables import wrapped
 
 
@@ -38,16 +38,16 @@ def _held(plan: Plan, between: Between) -> str:
     k, i = worst.worst()
     value = float(worst.value[k, i])
     bound = float(worst.lower[i] if worst.lower[i] - value >= value - worst.upper[i] else worst.upper[i])
-    reached, limit = apart(value, bound)
-    unit = f" {worst.unit}" if worst.unit in ("N", "N m", "m", "rad") else ""
+    factor, unit = SHOWN_IN.get(worst.unit, (1.0, ""))
+    reached, limit = (f"{number} {unit}".rstrip() for number in apart(factor * value, factor * bound))
     advice = (
         ""
         if plan.task.between == "hold"
         else '; task.between = "hold" keeps the limits there, more knots straighten it'
     )
     return (
-        f"{worst.title} of {worst.items[i]} reaches {reached}{unit} at t = {worst.times[k]:.3g} s, "
-        f"past its limit of {limit}{unit}{advice}"
+        f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
+        f"past its limit of {limit}{advice}"
     )
 
 

@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.hands.fitting import Fit
+from synergrip.hands.units import SI_UNITS
+from synergrip.quantities import SHOWN_IN
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many
 
 TURN = 2 * math.pi
-UNITS = {"hinge": (180 / math.pi, "deg"), "slide": (1e3, "mm")}
 NOTHING = 1e-12
 """[rad or m] What is smaller is rounding."""
 INDENT = " " * 9
@@ -72,5 +73,5 @@ def _directions(fit: Fit) -> Iterator[str]:
 
 
 def _size(value: float, kind: str) -> str:
-    factor, unit = UNITS[kind]
+    factor, unit = SHOWN_IN[SI_UNITS[kind]]
     return f"{factor * value:.3g} {unit}" if value > NOTHING else f"0 {unit}"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 from synergrip.plans.problem import Problem
 from synergrip.plans.reading.setup import Held
+from synergrip.quantities import SHOWN_IN
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many
 
@@ -48,8 +49,8 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
 
 def _value(kind: str, q: float) -> str:
     """Return a joint value in the unit people use."""
-    value, unit = (math.degrees(q), "deg") if kind == "hinge" else (1e3 * q, "mm")
-    return f"{round(value, 6) + 0.0:.4g} {unit}"
+    factor, unit = SHOWN_IN[SI_UNITS[kind]]
+    return f"{round(factor * q, 6) + 0.0:.4g} {unit}"
 
 
 def _triple(values: Array, digits: int) -> str:

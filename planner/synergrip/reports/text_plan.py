@@ -13,13 +13,11 @@ from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
-from synergrip.quantities import apart
+from synergrip.quantities import SHOWN_IN, apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import between_lines
 from synergrip.reports.text_problem import many, problem_lines
 
-_SHOWN = {"N": (1.0, " N"), "N m": (1.0, " N m"), "m": (1e3, " mm"), "rad": (180 / math.pi, " deg")}
-"""Unit of a usage -> factor and unit in which people read it."""
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"
 
@@ -103,7 +101,7 @@ def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], ti
 
 def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
     """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
-    factor, unit = _SHOWN.get(usage.unit, (1.0, ""))
+    factor, unit = SHOWN_IN.get(usage.unit, (1.0, ""))
     two_sided = np.all(usage.lower == -usage.upper)
     bounds = {"largest ": usage.upper, "smallest ": usage.lower}
     sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
@@ -118,7 +116,8 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
         where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
         limit = limit.lstrip("-") if two_sided else limit
-        yield f"{side if len(sides) > 1 else ''}{usage.title}", f"{shown}{unit}", where, f"{sign}{limit}{unit}"
+        title = f"{side if len(sides) > 1 else ''}{usage.title}"
+        yield title, f"{shown} {unit}".rstrip(), where, f"{sign}{limit} {unit}".rstrip()
 
 
 def _proof(outcome: Infeasible) -> str:

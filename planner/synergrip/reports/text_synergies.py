@@ -12,6 +12,7 @@ from synergrip.hands.angles import Comparison, Side
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.pairing import Pair
 from synergrip.hands.spans import Span, span
+from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 from synergrip.reports.tables import table, wrapped
 
@@ -35,7 +36,7 @@ def list_text(sets: Sequence[tuple[str, SynergySet]]) -> str:
 def show_text(hand: Hand, chosen: SynergySet, q: Array | None, picture: Path | None = None) -> str:
     """Return S with a row for each joint, its offset and rank, and the posture `q` (n_q,) when there is one."""
     found = span(chosen.S)
-    units = [unit for kind, unit in (("hinge", "rad"), ("slide", "m")) if kind in {joint.kind for joint in hand.joints}]
+    units = [unit for kind, unit in SI_UNITS.items() if kind in {joint.kind for joint in hand.joints}]
     extra = [("offset", chosen.offset)] if np.any(chosen.offset) else []
     extra += [("posture", q)] if q is not None else []
     columns = [(name, _entries(values), "") for name, values in extra]

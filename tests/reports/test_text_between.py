@@ -1,0 +1,27 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from synergrip.conic.limits.limit import Usage
+from synergrip.plans.between import Between
+from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
+from synergrip.reports.text_between import between_lines
+
+
+@pytest.mark.parametrize(
+    ("unit", "said"),
+    [
+        ("rad", "reaches 120.3 deg at t = 0.5 s, past its limit of 114.6 deg"),
+        ("m", "reaches 2100 mm at t = 0.5 s, past its limit of 2000 mm"),
+        ("N m", "reaches 2.1 N m at t = 0.5 s, past its limit of 2 N m"),
+        ("", "reaches 2.1 at t = 0.5 s, past its limit of 2;"),
+    ],
+)
+def test_a_limit_that_is_passed_is_told_in_the_units_of_the_table(unit, said):
+    problem = load_problem("pinch-soft")
+    one = np.ones(1)
+    passed = Usage("limit", unit, ("item",), np.array([[2.1]]), -2 * one, 2 * one, one, np.array([0.5]))
+    answer = replace(plan(problem.grasp, problem.task), between=Between(16, 0.1, 0.0, (passed,)))
+    assert said in " ".join(" ".join(between_lines(answer)).split())
