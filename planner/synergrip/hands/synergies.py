@@ -131,21 +131,48 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
 def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: str) -> Array:
     if not wish:
         raise InputError.at(key, "expected the value of at least one synergy or joint")
-    sets = {id(each): each for each in (synergies, *hand.synergy_sets.values())}.values()
-    known = dict.fromkeys(name for each in sets for name in each.synergies)
-    for name in wish:
-        if name not in known:
-            raise InputError.at(f"{key}.{name}", f"synergy or joint {one_of(name, known)}", on_key=True)
-    given = [(f"{key}.{name}", name, value) for name, value in wish.items()]
-    kinds = joint_kinds(hand.joints)
-    for each in sets:
-        if each.name != JOINTS and all(name in each.synergies for name in wish):
-            judge(misfits(given, synergy_kinds(each, kinds.values()), "synergy"))
-            return joint_values(each, wish)
-    if not all(name in hand.joint_names for name in wish):
-        raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
+    keys = {name: f"{key}.{name}" for name in wish}
+    chosen, kinds = set_named(hand, synergies, keys, key), joint_kinds(hand.joints)
+    given = [(keys[name], name, value) for name, value in wish.items()]
+    if chosen is not None:
+        judge(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
+        return joint_values(chosen, wish)
     judge(misfits(given, kinds))
     return joint_posture(hand.joint_names, wish, hand.couplings)
+
+
+def names_known(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
+    """Return the names of synergies and joints that a hand answers to, those of the chosen set first."""
+    return tuple(dict.fromkeys(name for each in _sets(hand, synergies) for name in each.synergies))
+
+
+def set_named(hand: Hand, synergies: SynergySet, names: Mapping[str, str], key: str) -> SynergySet | None:
+    """Return the first set that has all of some names, the chosen one first; None when they are names of joints.
+
+    Args:
+        hand: the hand.
+        synergies: the chosen set.
+        names: each name, with the key where it stands: one of its own, or `key` itself.
+        key: where all of them stand, for the error.
+
+    Raises:
+        InputError: an unknown name, or names of different kinds.
+    """
+    known = names_known(hand, synergies)
+    for name, at in names.items():
+        if name not in known:
+            raise InputError.at(at, f"synergy or joint {one_of(name, known)}", on_key=at != key)
+    for each in _sets(hand, synergies):
+        if each.name != JOINTS and all(name in each.synergies for name in names):
+            return each
+    if not all(name in hand.joint_names for name in names):
+        raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
+    return None
+
+
+def _sets(hand: Hand, synergies: SynergySet) -> tuple[SynergySet, ...]:
+    """Return the chosen set and those of the hand; the last of them, "joints", names every joint."""
+    return tuple({id(each): each for each in (synergies, *hand.synergy_sets.values())}.values())
 
 
 def joint_posture(joints: Sequence[str], values: Mapping[str, float], couplings: Mapping[str, Coupling]) -> Array:
