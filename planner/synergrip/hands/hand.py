@@ -108,6 +108,12 @@ class Hand:
         """Names of the joints in the order of q."""
         return tuple(joint.name for joint in self.joints)
 
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Names of the links, the palm first and parents before their children."""
+        palm = [link for link in self.parents.values() if link not in self.parents][:1]
+        return (*palm, *self.parents)
+
     def pad(self, name: str, key: str = "") -> Pad:
         """Return a pad by name or raise an `InputError` that lists the pads."""
         if name not in self.pads:

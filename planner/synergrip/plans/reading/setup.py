@@ -129,9 +129,8 @@ def _pad(hand: Hand, contact: ContactSpec) -> Pad:
     if isinstance(contact.at, str):
         return hand.pad(contact.at, contact.key)
     place = contact.at
-    root = [link for link in hand.parents.values() if link not in hand.parents][:1]
-    if place.link not in (links := [*root, *hand.parents]):
-        raise InputError.at(contact.key, f"link {one_of(place.link, links)}")
+    if place.link not in hand.links:
+        raise InputError.at(contact.key, f"link {one_of(place.link, hand.links)}")
     normal = frozen(place.normal or np.zeros(3))
     return Pad(contact.name, place.link, frozen(place.point), normal, place.radius)
 

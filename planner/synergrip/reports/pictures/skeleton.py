@@ -33,14 +33,9 @@ class Skeleton:
         return np.vstack([self.bones.reshape(-1, 3), self.pads])
 
 
-def links_of(hand: Hand) -> tuple[str, ...]:
-    """Return the names of the links, the palm first."""
-    return tuple(dict.fromkeys([*hand.parents.values(), *hand.parents]))
-
-
 def skeleton(hand: Hand, q: Array, pads: Sequence[Pad]) -> Skeleton:
     """Return the bones of a hand and its `pads` at joint values `q` (n_q,)."""
-    links, every = links_of(hand), [*pads, *hand.pads.values()]
+    links, every = hand.links, [*pads, *hand.pads.values()]
     asked = [(link, np.zeros(3)) for link in links] + [(pad.link, pad.point) for pad in every]
     places = [motion.position for motion in hand.kinematics.at(q, asked)]
     origins, ends = dict(zip(links, places, strict=False)), places[len(links) :]
@@ -49,8 +44,7 @@ def skeleton(hand: Hand, q: Array, pads: Sequence[Pad]) -> Skeleton:
     tips = {(pad.link, *pad.point): (origins[pad.link], end) for pad, end in zip(every, ends, strict=True)
             if pad.link in last}  # fmt: skip
     bones = [pair for pair in [*pairs, *tips.values()] if np.linalg.norm(pair[1] - pair[0]) > SHORTEST]
-    roots = [link for link in links if link not in hand.parents]
-    palm = [origins[link] for link in links if link in roots or hand.parents[link] in roots]
+    palm = [origins[link] for link in links if hand.parents.get(link, links[0]) == links[0]]
     return Skeleton(
         frozen(bones, (len(bones), 2, 3)), frozen(palm, (len(palm), 3)),
         frozen(ends[: len(pads)], (len(pads), 3)), frozen([pad.radius for pad in pads]),

@@ -9,7 +9,6 @@ import numpy as np
 
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.linalg import Array
-from synergrip.reports.pictures.skeleton import links_of
 
 SHARE = 0.08
 """The point that moves most moves by this share of the size of the hand."""
@@ -62,7 +61,7 @@ def steps(hand: Hand, synergies: SynergySet, q: Array) -> tuple[Step, ...]:
 
     To first order the link origin or pad that moves most moves by `SHARE` of the largest distance between two of them.
     """
-    points = [(link, np.zeros(3)) for link in links_of(hand)] + [(p.link, p.point) for p in hand.pads.values()]
+    points = [(link, np.zeros(3)) for link in hand.links] + [(p.link, p.point) for p in hand.pads.values()]
     motions = hand.kinematics.at(q, points)
     size = _size(np.array([motion.position for motion in motions]))
     velocities = np.array([motion.jacobian[:3] for motion in motions])  # (points, 3, n_q)
