@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os.path import isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
@@ -32,9 +31,6 @@ from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
 FILE = "hand.toml"
-
-Given = TypeVar("Given")
-Value = TypeVar("Value")
 
 
 def bundled_hands() -> tuple[str, ...]:
