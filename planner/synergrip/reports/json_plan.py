@@ -11,10 +11,11 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
+from synergrip.plans.between import Between
 from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
+from synergrip.plans.verified import LIMIT
 from synergrip.reports.json_analysis import refusal_document, structure_document
-from synergrip.reports.text_between import between_document
 
 
 def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -93,6 +94,18 @@ def usage_document(usage: Usage) -> dict[str, Any]:
     return {
         "name": usage.title, "unit": usage.unit, "item": usage.items[i], "time_s": float(usage.times[k]),
         "value": float(usage.value[k, i]), "lower": _finite(usage.lower[i]), "upper": _finite(usage.upper[i]),
+    }  # fmt: skip
+
+
+def between_document(between: Between | None) -> dict[str, Any] | None:
+    """Return how far load and wanted motion bend between the knots, and the worst value of every limit there."""
+    if between is None:
+        return None
+    return {
+        "samples": between.samples, "load_departure_N": between.load_departure,
+        "path_departure_m": between.path_departure, "holds": bool(between.excess <= LIMIT),
+        "limits": [usage_document(usage) for usage in between.usages],
+        "worst_margin_N": float(between.usages[0].value.min()),
     }  # fmt: skip
 
 

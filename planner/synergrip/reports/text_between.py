@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Plan
 from synergrip.plans.verified import LIMIT
@@ -49,19 +47,3 @@ def _held(plan: Plan, between: Between) -> str:
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
         f"past its limit of {limit}{advice}"
     )
-
-
-def between_document(between: Between | None) -> dict[str, object] | None:
-    """Return it as a document: departures, and the worst value of every limit there."""
-    if between is None:
-        return None
-    limits = []
-    for usage in between.usages:
-        k, i = usage.worst()
-        limits.append({"name": usage.title, "value": float(usage.value[k, i]), "item": usage.items[i],
-                       "time_s": float(usage.times[k]), "unit": usage.unit})  # fmt: skip
-    return {
-        "samples": between.samples, "load_departure_N": between.load_departure,
-        "path_departure_m": between.path_departure, "holds": bool(between.excess <= LIMIT), "limits": limits,
-        "worst_margin_N": float(np.min(between.usages[0].value)),
-    }  # fmt: skip

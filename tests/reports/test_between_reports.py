@@ -7,6 +7,7 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.plans.between import Between
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
+from synergrip.reports.json_plan import between_document, outcome_document
 from synergrip.reports.text_between import between_lines
 
 
@@ -25,3 +26,12 @@ def test_a_limit_that_is_passed_is_told_in_the_units_of_the_table(unit, said):
     passed = Usage("limit", unit, ("item",), np.array([[2.1]]), -2 * one, 2 * one, one, np.array([0.5]))
     answer = replace(plan(problem.grasp, problem.task), between=Between(16, 0.1, 0.0, (passed,)))
     assert said in " ".join(" ".join(between_lines(answer)).split())
+
+
+def test_the_document_tells_the_bounds_of_the_limits_as_at_the_knots():
+    problem = load_problem("barrett-ball-hold", ["task.knots=5"])
+    answer = plan(problem.grasp, problem.task)
+    found, knots = between_document(answer.between), outcome_document("", problem.grasp, answer)["limits"]
+    told = ("name", "unit", "lower", "upper")
+    assert [[each[key] for key in told] for each in found["limits"]] == [[each[key] for key in told] for each in knots]
+    assert all(each["lower"] is not None or each["upper"] is not None for each in found["limits"])
