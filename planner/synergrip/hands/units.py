@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from synergrip.errors import InputError, Issue
@@ -45,6 +45,11 @@ def unit_of(joints: Iterable[str], hinge: str, slide: str) -> str:
     """Return the unit that suits joints of these kinds, or no unit when some turn and some slide."""
     kinds = set(joints)
     return {"hinge": hinge, "slide": slide}[kinds.pop()] if len(kinds) == 1 else ""
+
+
+def torque_unit(joints: Collection[str]) -> str:
+    """Return the unit of the torques of joints of these kinds; N m where no kind is known, as in a grasp file."""
+    return unit_of(joints, "N m", "N") if joints else "N m"
 
 
 def misfits(values: Iterable[tuple[str, str, float]], kinds: Mapping[str, str], what: str = "joint") -> list[Issue]:

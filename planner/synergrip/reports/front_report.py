@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.hands.units import torque_unit
 from synergrip.plans.front import FrontPoint
 from synergrip.plans.problem import Problem
 from synergrip.reports.tables import table
@@ -16,9 +17,10 @@ from synergrip.reports.text_problem import problem_lines
 def front_text(problem: Problem, points: Sequence[FrontPoint], interrupted: bool) -> str:
     """Return one line for each point: margin, least peak force, and the largest joint torque that goes with it."""
     header = ("slip margin", "least peak normal force", "largest joint torque")
+    unit = torque_unit([joint.kind for joint in problem.held.hand.joints] if problem.held else [])
+    torques = [f"{np.abs(point.plan.motion.torques).max():.4g} {unit}".rstrip() for point in points]
     rows = [
-        (f"{point.margin:.4g} N", f"{point.peak:.4g} N", f"{np.abs(point.plan.motion.torques).max():.4g} N m")
-        for point in points
+        (f"{point.margin:.4g} N", f"{point.peak:.4g} N", torque) for point, torque in zip(points, torques, strict=True)
     ]
     lines = [*problem_lines(problem), "", table(header, rows, right=(0, 1, 2))]
     return "\n".join(lines + (["interrupted; these points are finished"] if interrupted else []))

@@ -21,7 +21,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.grasp import Grasp
-from synergrip.hands.units import judge, list_misfits, unit_of
+from synergrip.hands.units import judge, list_misfits, torque_unit
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.problem_file import ProblemFile
 
@@ -91,8 +91,7 @@ def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
 def _torques(each: _Bounds, value: Given, hand: HandLimits) -> JointTorque:
     limit = each.joint(value, "joint_torque", hand.torque)
     _judge_units("limits.joint_torque", value, hand.joint_kinds, "joint")
-    kinds = hand.joint_kinds.values()
-    return JointTorque(limit, unit=unit_of(kinds, "N m", "N") if kinds else "N m")
+    return JointTorque(limit, unit=torque_unit(hand.joint_kinds.values()))
 
 
 def _efforts(each: _Bounds, value: Given, hand: HandLimits) -> ActuatorEffort:
