@@ -3,35 +3,16 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
-from typing import Any
 
+import command_line
 import pytest
-from typer.testing import CliRunner, Result
 
-from synergrip.cli.app import app
 from synergrip.plans.dimensions import dimension_table
 from synergrip.plans.problem import load_problem
 
-
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
-def run(*arguments: str) -> Result:
-    result = CliRunner().invoke(app, ["analyse", *arguments])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return result
-
-
-def document(*arguments: str, code: int = 0) -> dict[str, Any]:
-    result = run(*arguments, "--format", "json")
-    assert result.exit_code == code, result.output
-    found = json.loads(result.stdout)
-    assert isinstance(found, dict)
-    return found
+run, document = partial(command_line.run, "analyse"), partial(command_line.document, "analyse")
 
 
 def test_a_picture_adds_one_line_and_one_key() -> None:

@@ -14,11 +14,10 @@ from typing import Any
 import bad_inputs as bad
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
+from command_line import document, run
 
 from synergrip import __version__
 from synergrip.cli import main
-from synergrip.cli.app import app
 from synergrip.conic.decide import judge
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
@@ -31,27 +30,6 @@ from synergrip.reports import plan_files
 TOO_MUCH = "limits.margin=100 N"
 """More than any bundled grasp can hold."""
 FILES = {"plan.json", "plan.csv", "plan.npz"}
-
-
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
-def run(*arguments: str) -> Result:
-    result = CliRunner().invoke(app, arguments)
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return result
-
-
-def document(*arguments: str, code: int = 0) -> dict[str, Any]:
-    """The one JSON document on standard output."""
-    result = run(*arguments, "--format", "json")
-    assert result.exit_code == code, result.output
-    found = json.loads(result.stdout)  # refuses anything before or after it
-    assert isinstance(found, dict)
-    return found
 
 
 def command(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:

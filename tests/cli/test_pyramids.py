@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import command_line
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
+from command_line import run
 
-from synergrip.cli.app import app
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Solution
 from synergrip.conic.solvers import qpsolvers_
@@ -25,24 +26,7 @@ VOLATILE = ("programs", "pyramids")
 """Times are in both."""
 
 
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
-def run(*arguments: str) -> Result:
-    result = CliRunner().invoke(app, arguments)
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return result
-
-
-def document(*arguments: str, code: int = 0) -> dict[str, Any]:
-    result = run("plan", *arguments, "--format", "json")
-    assert result.exit_code == code, result.output
-    found = json.loads(result.stdout)
-    assert isinstance(found, dict)
-    return found
+document = partial(command_line.document, "plan")
 
 
 def without_times(answer: dict[str, Any]) -> dict[str, Any]:

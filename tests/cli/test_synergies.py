@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import io
-import json
 import math
 import re
 import subprocess
 import sys
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import command_line
 import numpy as np
 import pytest
 from scipy.linalg import subspace_angles
-from typer.testing import CliRunner, Result
 
-from synergrip.cli.app import app
 from synergrip.hands.folder import bundled_hands, load_hand
 from synergrip.hands.synergy_file import SynergyFile, read_synergy_file
 from synergrip.plans.analysis import analyse
@@ -32,26 +31,14 @@ BLOCKS = re.findall(r"```(\w+)\n(.*?)\n```", PAGE.read_text(encoding="utf-8"), r
 FREE = ("finger1_inner", "finger2_spread", "finger2_inner", "finger3_spread", "finger3_inner")
 
 
-@pytest.fixture(autouse=True)
-def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
-def run(*arguments: str) -> Result:
-    result = CliRunner().invoke(app, ["synergies", *arguments])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    assert "Traceback" not in result.output
-    return result
+run = partial(command_line.run, "synergies")
 
 
 def document(*arguments: str, code: int = 0) -> dict[str, Any]:
-    """The one JSON document on standard output."""
+    """The one JSON document on standard output, with nothing beside it."""
     result = run(*arguments, "--format", "json")
-    assert result.exit_code == code, result.output
+    found = command_line.document_of(result, code)
     assert result.stderr == ""
-    found = json.loads(result.stdout)
-    assert isinstance(found, dict)
     return found
 
 
