@@ -1,10 +1,16 @@
-"""Texts of XML files with one thing broken."""
+"""Texts of XML files with one thing broken, and what becomes of hands that are read from them."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
+
+from synergrip.errors import InputError, Issue
+from synergrip.hands.folder import load_hand
+from synergrip.hands.hand import Hand
 
 NUMBER = re.compile(r"(?<=[\"\s])-?\d+\.?\d*(e-?\d+)?(?=[\"\s])")
 ATTRIBUTE = re.compile(r"\s[\w:]+=\"[^\"]*\"")
@@ -30,3 +36,22 @@ def damaged(text: str, rng: np.random.Generator) -> str:
         return text[: first.end()] + first[0] + text[first.end() :]
     between = text[first.end() : second.start()]
     return text[: first.start()] + second[0] + between + first[0] + text[second.end() :]
+
+
+def refusals(text: str, seed: int, times: int, look: Callable[[Hand], None]) -> list[Issue]:
+    """Return what is refused of damaged copies of a text, each read as ``hand.xml`` in the current folder.
+
+    `look` is given every hand that loads. Each refusal has a place, and nothing else is left in the folder.
+    """
+    rng, issues = np.random.default_rng(seed), list[Issue]()
+    for _ in range(times):
+        Path("hand.xml").write_text(damaged(text, rng), encoding="utf-8")
+        try:
+            hand = load_hand("hand.xml")
+        except InputError as error:
+            issues += error.issues
+        else:
+            look(hand)
+    assert all(issue.file or issue.key for issue in issues)
+    assert [entry.name for entry in Path().iterdir()] == ["hand.xml"]  # and no log file of MuJoCo
+    return issues

@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from published_hands import check_frames
 
 from synergrip.files import bundled
 from synergrip.hands.choice import select
@@ -60,10 +61,8 @@ def test_the_frames_are_those_of_the_manual(barrett, seed):
     q = [inner[0], outer[0], spread, inner[1], outer[1], -spread, inner[2], outer[2]]
     for k in (1, 2, 3):
         links = [f"finger{k}_{name}" for name in ("inner_link", "outer_link", "tip")]
-        found = barrett.kinematics.at(np.array(q), [(link, ORIGIN) for link in links])
-        for motion, frame in zip(found, manual_frames(k, spread, inner[k - 1], outer[k - 1]), strict=True):
-            np.testing.assert_allclose(motion.position, frame[:3, 3], rtol=0, atol=1e-9)
-            np.testing.assert_allclose(motion.rotation, frame[:3, :3], rtol=0, atol=1e-9)
+        expected = manual_frames(k, spread, inner[k - 1], outer[k - 1])
+        check_frames(barrett, np.array(q), links, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize(("name", "alpha"), [("barrett", 1 / 3), ("barrett-table2", 1.0)])

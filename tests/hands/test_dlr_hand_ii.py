@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from denavit_hartenberg import frames, row
 from pad_motion import pads_at, push, urdf_efforts
+from published_hands import check_fingertip, check_frames
 
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.plans.problem import load_problem
 
 DEG = math.pi / 180
-ORIGIN = np.zeros(3)
 FINGERS = ("thumb", "index", "middle", "ring")
 PARTS = ("proximal", "abduction", "medial", "distal")
 # theta offset, d, a, alpha
@@ -80,10 +80,7 @@ def test_the_frames_are_those_of_graspit(hand, seed):
         chain = [base(finger), *frames(base(finger), rows, angles)]
         turned = [frame @ row(r[0] + angle, r[1], 0, 0) for frame, r, angle in zip(chain, rows, angles, strict=False)]
         links = [*(f"{finger}_{part}_link" for part in PARTS), f"{finger}_tip"]
-        found = hand.kinematics.at(q, [(link, ORIGIN) for link in links])
-        for motion, frame in zip(found, [*turned, chain[-1]], strict=True):
-            np.testing.assert_allclose(motion.position, frame[:3, 3], rtol=0, atol=1e-12)
-            np.testing.assert_allclose(motion.rotation, frame[:3, :3], rtol=0, atol=1e-12)
+        check_frames(hand, q, links, [*turned, chain[-1]])
 
 
 def test_joints_and_ranges_are_those_of_graspit(hand):
@@ -132,9 +129,7 @@ def test_torque_limits_are_30_newtons_at_the_stretched_fingertip(hand):
 def test_fingertips_pass_through_the_contacts_of_graspit(hand, finger):
     pad = hand.pads[f"{finger}/tip"]
     place, normal = np.array(CONTACTS[finger][0]) / 1e3, np.array(CONTACTS[finger][1])
-    outward = place - pad.point
-    assert np.linalg.norm(outward) == pytest.approx(pad.radius, abs=2e-4)
-    assert outward @ normal / np.linalg.norm(outward) > math.cos(15 * DEG)
+    check_fingertip(pad, place, normal)
     assert pad.normal @ normal > math.cos(21 * DEG)
 
 

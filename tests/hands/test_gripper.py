@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from denavit_hartenberg import frames, row
 from pad_motion import pads_at, push, urdf_efforts
+from published_hands import check_frames
 
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
@@ -13,7 +14,6 @@ from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 
 DEG = math.pi / 180
-ORIGIN = np.zeros(3)
 JOINTS = ("left_proximal", "left_distal", "right_proximal", "right_distal")
 ROWS = [(0, 0, 0.060, 0), (0, 0, 0.042, 0)]
 # x along the palm's z, z along the joint axis; columns are x, y, z
@@ -33,12 +33,9 @@ def test_the_frames_are_those_of_the_table(gripper, seed):
     q = np.random.default_rng(seed).uniform(-1, 1, 4)
     for side, angles in (("left", q[:2]), ("right", q[2:])):
         links = [f"{side}_proximal_link", f"{side}_distal_link", f"{side}_tip"]
-        found = gripper.kinematics.at(q, [(link, ORIGIN) for link in links])
         chain = frames(BASES[side], ROWS, angles)
         expected = [BASES[side] @ row(angles[0], 0, 0, 0), chain[0] @ row(angles[1], 0, 0, 0), chain[1]]
-        for motion, frame in zip(found, expected, strict=True):
-            np.testing.assert_allclose(motion.position, frame[:3, 3], rtol=0, atol=1e-12)
-            np.testing.assert_allclose(motion.rotation, frame[:3, :3], rtol=0, atol=1e-12)
+        check_frames(gripper, q, links, expected)
 
 
 def test_joints_limits_and_synergies_are_those_of_the_readme(gripper):

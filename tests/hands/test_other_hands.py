@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 import pytest
-from damaged import damaged
+from damaged import refusals
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
@@ -206,18 +206,9 @@ def test_a_gripper_with_closed_loops_is_refused_where_the_loop_is():
 
 @pytest.mark.parametrize("name", ["inspire", "shadow right"])
 def test_a_damaged_file_loads_or_is_refused(name, tmp_path, monkeypatch):
-    text, rng = hand_file(name).read_text(encoding="utf-8"), np.random.default_rng(3)
+    def look(hand):
+        (motion, *_) = hand.kinematics.at(hand.postures["zero"], [(leaves(hand)[0], np.zeros(3))])
+        assert np.all(np.isfinite(motion.jacobian))
+
     monkeypatch.chdir(tmp_path)
-    issues = []
-    for _ in range(100):
-        Path("hand.xml").write_text(damaged(text, rng), encoding="utf-8")
-        try:
-            hand = load_hand("hand.xml")
-        except InputError as error:
-            issues += error.issues
-        else:
-            (motion, *_) = hand.kinematics.at(hand.postures["zero"], [(leaves(hand)[0], np.zeros(3))])
-            assert np.all(np.isfinite(motion.jacobian))
-    assert 20 < len(issues) < 90
-    assert all(issue.file or issue.key for issue in issues)
-    assert [entry.name for entry in tmp_path.iterdir()] == ["hand.xml"]  # and no log file of MuJoCo
+    assert 20 < len(refusals(hand_file(name).read_text(encoding="utf-8"), 3, 100, look)) < 90

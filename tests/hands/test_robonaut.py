@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from denavit_hartenberg import frames, orthonormal, row
 from pad_motion import pads_at, push, urdf_efforts
+from published_hands import check_fingertip, check_frames
 
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
@@ -127,11 +128,8 @@ def test_the_frames_are_those_of_graspit(hand, seed):
     q = np.array([values[name] for name in hand.joint_names])
     for finger, parts in PARTS.items():
         links = [*(f"{finger}_{part}_link" for part in parts), f"{finger}_tip"]
-        found = hand.kinematics.at(q, [(link, ORIGIN) for link in links])
         expected = chain(finger, [values[f"{finger}_{part}"] for part in parts])
-        for motion, frame in zip(found, expected, strict=True):
-            np.testing.assert_allclose(motion.position, frame[:3, 3], rtol=0, atol=1e-12)
-            np.testing.assert_allclose(motion.rotation, frame[:3, :3], rtol=0, atol=1e-12)
+        check_frames(hand, q, links, expected)
 
 
 @pytest.mark.parametrize("finger", BASES)
@@ -185,9 +183,7 @@ def test_torque_limits_share_89_newtons_among_four_straight_fingers(hand):
 def test_fingertips_pass_through_the_contacts_of_graspit(hand, finger):
     pad = hand.pads[f"{finger}/tip"]
     place, normal = np.array(CONTACTS[finger][0]) / 1e3, np.array(CONTACTS[finger][1])
-    outward = place - pad.point
-    assert np.linalg.norm(outward) == pytest.approx(pad.radius, abs=2e-4)
-    assert outward @ normal / np.linalg.norm(outward) > math.cos(15 * DEG)
+    check_fingertip(pad, place, normal)
     np.testing.assert_allclose(pad.normal, normal, rtol=0, atol=2e-4)
     assert pad.point[1] == pad.point[2] == 0
 

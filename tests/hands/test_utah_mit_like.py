@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from denavit_hartenberg import frames, row
 from pad_motion import pads_at, push, urdf_efforts
+from published_hands import check_frames
 
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.plans.problem import load_problem
 
 DEG = math.pi / 180
-ORIGIN = np.zeros(3)
 DIGITS = ("thumb", "index", "middle", "ring")
 PARTS = ("abduction", "proximal", "middle", "distal")
 ROWS = [(0, 0, 0.012, math.pi / 2), (0, 0, 0.045, 0), (0, 0, 0.032, 0), (0, 0, 0.017, 0)]
@@ -42,10 +42,7 @@ def test_the_frames_are_those_of_the_table(hand, seed):
         chain = [base(digit), *frames(base(digit), ROWS, angles)]
         turned = [frame @ row(angle, 0, 0, 0) for frame, angle in zip(chain[:-1], angles, strict=True)]
         links = [*(f"{digit}_{part}_link" for part in PARTS), f"{digit}_tip"]
-        found = hand.kinematics.at(q, [(link, ORIGIN) for link in links])
-        for motion, frame in zip(found, [*turned, chain[-1]], strict=True):
-            np.testing.assert_allclose(motion.position, frame[:3, 3], rtol=0, atol=1e-12)
-            np.testing.assert_allclose(motion.rotation, frame[:3, :3], rtol=0, atol=1e-12)
+        check_frames(hand, q, links, [*turned, chain[-1]])
 
 
 def test_the_structure_is_four_digits_of_four_joints_and_the_title_says_that_no_more_is_claimed(hand):
