@@ -1,5 +1,6 @@
 import pickle
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -119,6 +120,17 @@ def test_calls_leave_nothing_behind():
         np.testing.assert_array_equal(a.jacobian, b.jacobian)
     with pytest.raises(ValueError, match="read-only"):
         before[0].jacobian[0, 0] = 1
+
+
+def test_threads_do_not_disturb_each_other():
+    hand, asked = barrett(), np.random.default_rng(7).uniform(-2, 2, (2000, 8))
+    alone = [hand.at(q, TIPS) for q in asked]
+    with ThreadPoolExecutor(4) as threads:
+        together = list(threads.map(lambda q: hand.at(q, TIPS), asked))
+    for a, b in zip(alone, together, strict=True):
+        for one, other in zip(a, b, strict=True):
+            np.testing.assert_array_equal(one.position, other.position)
+            np.testing.assert_array_equal(one.jacobian, other.jacobian)
 
 
 def test_it_can_be_sent_to_another_process():

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from synergrip.linalg import Array, frozen
 
 @dataclass(frozen=True, eq=False)
 class MujocoKinematics:
-    """The `Kinematics` of a hand. Calls share nothing that changes."""
+    """The `Kinematics` of a hand. Calls leave nothing behind, and threads do not disturb each other."""
 
     joints: tuple[str, ...]
     """Names in the order of q."""
@@ -39,7 +41,9 @@ class MujocoKinematics:
         for link, _ in points:
             if link not in self.bodies:
                 raise InputError.at("link", one_of(link, self.bodies))
-        data = mujoco.MjData(self.model)
+        data = _SCRATCH.of.get(self)
+        if data is None:
+            data = _SCRATCH.of[self] = mujoco.MjData(self.model)
         data.qpos[list(self.places)] = values
         mujoco.mj_kinematics(self.model, data)
         mujoco.mj_comPos(self.model, data)
@@ -53,6 +57,16 @@ class MujocoKinematics:
         jacobian = np.zeros((6, self.model.nv))
         mujoco.mj_jac(self.model, data, jacobian[:3], jacobian[3:], position, body)
         return PointMotion(frozen(position), frozen(rotation), frozen(jacobian[:, list(self.places)]))
+
+
+class _Scratch(threading.local):
+    """A `mujoco.MjData` for each kinematics that this thread has asked: making one takes far longer than using it."""
+
+    def __init__(self) -> None:
+        self.of: WeakKeyDictionary[MujocoKinematics, Any] = WeakKeyDictionary()
+
+
+_SCRATCH = _Scratch()
 
 
 def kinematics(tree: LinkTree, joints: Sequence[str]) -> MujocoKinematics:
