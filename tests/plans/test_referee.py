@@ -11,8 +11,6 @@ from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.decide import decide, judge
-from synergrip.conic.goals.after import After, Held
-from synergrip.conic.goals.goal import squares_of
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -74,7 +72,7 @@ def test_certificates_verify_and_both_paths_agree(start: int) -> None:
             continue
         assert program.objective(second.x) == pytest.approx(program.objective(direct.x), rel=1e-7, abs=1e-7), seed
         if isinstance(question.goal, LeastEffort):  # strictly convex in alpha
-            n = question.situation.n_alpha
+            n = question.situation.coordinates.dimensions[0]
             alpha, expected = program.unknowns(second.x)[:, :n], program.unknowns(direct.x)[:, :n]
             assert np.abs(alpha - expected).max() <= 1e-5 * np.abs(expected).max(), seed
     assert kinds == {"optimal", "infeasible"}
@@ -85,18 +83,18 @@ def test_redundancy_is_settled_alike(seed: int) -> None:
     outcome = plan(*random_task_on_grasp(np.random.default_rng(seed)))
     assert isinstance(outcome, Plan)
     situation = outcome.situation
-    forces = squares_of(situation.alpha, 1 / situation.force_unit)
     v = np.hstack([outcome.alpha / situation.force_unit, np.zeros_like(outcome.gamma)])
-    goal = After(LeastReconfiguration(), (Held(forces, v),))
+    n_alpha = outcome.alpha.shape[1]
+    situation = situation.around(v, np.eye(situation.n_v)[:, n_alpha:])
     watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
     loosened = tuple(limit.loosened(LOOSE) for limit in watching)
-    question = Question(situation, loosened, goal)
+    question = Question(situation, loosened, LeastReconfiguration())
     program = question.program()
     direct = decide("redundancy", program, clarabel_.solve).solution
     second = decide("redundancy", program, lambda program, settings: solve(question, program, settings)).solution
     assert judge(program, second).verified
     assert judge(program, second).kind == "optimal"
-    assert np.abs(program.unknowns(direct.x)[:, situation.n_alpha :]).max() > 1e-4
+    assert np.abs(program.unknowns(direct.x)).max() > 1e-4
     np.testing.assert_allclose(second.x, direct.x, atol=1e-6)
 
 
@@ -127,7 +125,7 @@ def test_every_limit_has_an_effect() -> None:
 
 
 def test_rates_are_compared_between_uneven_knots() -> None:
-    seed = next(s for s in range(100) if len(_task(s)[0].times) >= 3 and _task(s)[0].n_alpha >= 3)
+    seed = next(s for s in range(100) if len(_task(s)[0].times) >= 3 and _task(s)[0].coordinates.dimensions[0] >= 3)
     situation, _ = _task(seed)
     grasp = situation.response.grasp
     for rate in (1e-3, 0.1, 10.0):

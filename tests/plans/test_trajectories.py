@@ -98,7 +98,7 @@ def test_least_references_leave_nothing_open_to_any_other_goal() -> None:
     problem = load_problem("human-ball-near")
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
-    assert outcome.situation.n_v > outcome.situation.n_alpha
+    assert outcome.situation.n_v > outcome.alpha.shape[1]
     assert [decision.goal for decision in outcome.decisions] == ["least motion"]
 
 

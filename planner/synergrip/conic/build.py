@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 
 from synergrip.conic.box import LARGEST, box
-from synergrip.conic.goals.goal import Goal, Squares
+from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
@@ -31,7 +32,23 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
     blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
-    return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds))
+    program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost))
+    return program if situation.courses is None else _of_courses(program, situation.courses)
+
+
+def _constant(cost: Objective) -> float:
+    return sum(float((part.constant**2).sum()) / 2 for part in cost.squares)
+
+
+def _of_courses(program: Program, courses: Array) -> Program:
+    """Return the program whose unknowns are the coefficients of courses in time (T, f)."""
+    extra = len(program.q) - program.knots * program.n_v
+    N = sparse.block_diag([sparse.kron(courses, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc")
+    # the coefficients that make v are the pseudo-inverse of the courses times v
+    sizes = np.abs(np.linalg.pinv(courses)) @ program.unknowns(program.box)
+    bounds = np.concatenate([sizes.ravel(), program.box[len(program.box) - extra :]])
+    P, A = sparse.csc_matrix(N.T @ program.P @ N), sparse.csc_matrix(program.A @ N)
+    return replace(program, P=P, q=frozen(N.T @ program.q), A=A, box=frozen(bounds), courses=courses)
 
 
 def _rows(situation: Situation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:

@@ -60,9 +60,10 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     stationarity = program.P @ x + program.q + program.A.T @ moved
     size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(program.P @ x).max(initial=0.0)))
     dual = float(np.abs(stationarity).max(initial=0.0)) / size
-    quadratic = float(x @ (program.P @ x))
-    value, bound = quadratic / 2 + float(program.q @ x), -quadratic / 2 - float(program.b @ moved)
-    gap = abs(value - bound) / max(1.0, abs(value), abs(bound))
+    half, constant = float(x @ (program.P @ x)) / 2, program.constant
+    value, bound = half + float(program.q @ x), -half - float(program.b @ moved)
+    # relative to the goal's value, or to the terms that cancel in it
+    gap = abs(value - bound) / max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
 

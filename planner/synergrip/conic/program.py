@@ -1,4 +1,4 @@
-"""The convex program, as data: minimise ``x'P x / 2 + q'x`` with ``b - A x`` in a product of cones."""
+"""The convex program, as data: minimise ``x'P x / 2 + q'x + constant`` with ``b - A x`` in a product of cones."""
 
 from __future__ import annotations
 
@@ -45,7 +45,8 @@ class Block:
 class Program:
     """A second-order cone program with a quadratic objective, and what its rows mean.
 
-    The unknowns are the knots' v_k one after the other, then the goal's scalar when it has one.
+    The unknowns are the knots' v_k one after the other, or the coefficients of their courses in time one after the
+    other, and then the goal's scalar when it has one.
     """
 
     P: sparse.csc_matrix  # (n, n) symmetric, whole
@@ -58,6 +59,10 @@ class Program:
     """Unknowns at each knot."""
     box: Array
     """(n,) every unknown is also bounded by |x| <= box, which the limits imply or no plan exceeds."""
+    courses: Array | None = None
+    """(T, f) the courses in time that the unknowns of the knots are made of; None when each knot has its own."""
+    constant: float = 0.0
+    """Of the objective, so that its value is the goal's: gaps are measured against it."""
 
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""
@@ -68,16 +73,31 @@ class Program:
 
     def unknowns(self, x: Array) -> Array:
         """Return v (T, n_v) of a solution x (n,)."""
-        return np.asarray(x[: self.knots * self.n_v]).reshape(self.knots, self.n_v)
+        if self.courses is None:
+            return np.asarray(x[: self.knots * self.n_v]).reshape(self.knots, self.n_v)
+        f = self.courses.shape[1]
+        return np.asarray(self.courses @ x[: f * self.n_v].reshape(f, self.n_v))
+
+    def solution(self, v: Array, scalar: float | None = None) -> Array:
+        """Return x (n,) of unknowns v (T, n_v), the nearest when they are none of the courses."""
+        of_knots = v if self.courses is None else np.linalg.lstsq(self.courses, v, rcond=None)[0]
+        x = np.zeros(len(self.q))
+        x[: of_knots.size] = of_knots.ravel()
+        if scalar is not None:
+            x[-1] = scalar
+        return x
 
     def objective(self, x: Array) -> float:
         """Return the value of the objective at x (n,)."""
-        return float(x @ (self.P @ x) / 2 + self.q @ x)
+        return float(x @ (self.P @ x) / 2 + self.q @ x + self.constant)
 
     def save(self, path: str | Path) -> None:
         """Write the exact program to an .npz file, atomically."""
-        header = {"knots": self.knots, "n_v": self.n_v, "blocks": [asdict(b) for b in self.blocks]}
+        blocks = [asdict(block) for block in self.blocks]
+        header = {"knots": self.knots, "n_v": self.n_v, "constant": self.constant, "blocks": blocks}
         arrays = {"q": self.q, "b": self.b, "box": self.box, "header": np.array(json.dumps(header))}
+        if self.courses is not None:
+            arrays["courses"] = self.courses
         for name, matrix in (("P", self.P), ("A", self.A)):
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
         with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
@@ -113,4 +133,5 @@ class Program:
             return cls(
                 matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
                 header["knots"], header["n_v"], frozen(stored["box"]),
+                frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
             )  # fmt: skip

@@ -18,6 +18,9 @@ from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
 
+ROUNDING = 1e-12
+"""An entry this small beside its row's largest, after a change of directions, is 0."""
+
 
 @dataclass(frozen=True)
 class Affine:
@@ -68,6 +71,10 @@ class Situation:
     units: Units
     bend: Bend | None = None
     """What happens between the knots, when the program is to allow for it."""
+    courses: Array | None = None
+    """(T, f) the courses in time that the unknowns are made of; None when each knot has its own."""
+    origin: Situation | None = None
+    """What it was before goals determined a part of the plan; None when none has."""
 
     @property
     def knots(self) -> int:
@@ -80,19 +87,30 @@ class Situation:
         return int(self.alpha.matrix.shape[1])
 
     @property
-    def n_alpha(self) -> int:
-        """Of these, the coordinates of the internal force; they come first."""
-        return self.coordinates.dimensions[0]
+    def frees_alpha(self) -> bool:
+        """Whether the internal force is an unknown, or a part of it."""
+        return bool(np.any(self.alpha.matrix))
+
+    @property
+    def frees_beta(self) -> bool:
+        """Whether the rigid motion is an unknown, or a part of it."""
+        return bool(np.any(self.beta.matrix))
 
     @property
     def frees_gamma(self) -> bool:
-        """Whether the redundancy is an unknown."""
+        """Whether the redundancy is an unknown, or a part of it."""
         return bool(np.any(self.gamma.matrix))
+
+    @property
+    def whole(self) -> Situation:
+        """The situation in which no goal has determined anything yet."""
+        return self.origin or self
 
     @cached_property
     def beta_basis(self) -> Array:
-        """(dim Gamma_ucs, m) orthonormal directions in which the rigid motion is an unknown."""
-        return frozen(self.beta.matrix[:, np.any(self.beta.matrix, axis=0)] / self.units.motion)
+        """(dim Gamma_ucs, m) orthonormal directions in which the rigid motion was an unknown at first."""
+        matrix = self.whole.beta.matrix
+        return frozen(matrix[:, np.any(matrix, axis=0)] / self.units.motion)
 
     @property
     def force_unit(self) -> float:
@@ -146,11 +164,28 @@ class Situation:
         return self.reference.after(self.response.du_dzr).minus(self.beta.after(self.spaces.Gamma_ucs))
 
     def in_units_of(self, force: float) -> Situation:
-        """Return the same situation with another force unit [N]: the unknowns become smaller or larger."""
-        columns = np.ones(self.n_v)
-        columns[: self.n_alpha] = force / self.force_unit
-        alpha = replace(self.alpha, matrix=frozen(self.alpha.matrix * columns))
+        """Return the same situation, of which nothing is determined, with unknown forces in another unit [N]."""
+        alpha = replace(self.alpha, matrix=frozen(self.alpha.matrix * (force / self.force_unit)))
         return replace(self, alpha=alpha, units=replace(self.units, force=force))
+
+    def around(self, v: Array, open_directions: Array, courses: Array | None = None) -> Situation:
+        """Return what is left of it when all plans are alike but for some directions and courses.
+
+        The unknowns are then what is added to v, as coordinates of the directions.
+
+        Args:
+            v: (T, n_v) one of the plans.
+            open_directions: (n_v, m) orthonormal: in which the unknowns of a knot may still differ.
+            courses: (T, f) how the difference may vary in time; None when it may be any at each knot.
+        """
+
+        def left(part: Affine) -> Affine:
+            matrix = part.matrix @ open_directions
+            size = np.abs(part.matrix).max(axis=1, keepdims=True, initial=0.0)
+            return Affine(frozen(np.where(np.abs(matrix) > ROUNDING * size, matrix, 0.0)), frozen(part.at(v)))
+
+        alpha, beta, gamma = (left(part) for part in (self.alpha, self.beta, self.gamma))
+        return replace(self, alpha=alpha, beta=beta, gamma=gamma, courses=courses, origin=self.whole)
 
     def parts(self, v: Array) -> tuple[Array, Array, Array]:
         """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""

@@ -10,6 +10,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.errors import InputError
 from synergrip.plans.task import EFFORTS, GoalName, Task
@@ -27,14 +28,18 @@ SIMPLE: dict[GoalName, Goal] = {
 
 
 def goals_of(task: Task) -> tuple[Goal, ...]:
-    """Return the goals of a task in their order; least contact effort comes last when nothing else settles the forces.
+    """Return the goals of a task in their order.
 
     Raises:
         InputError: joints are to be centred and their ranges are not known.
     """
-    settles = EFFORTS & {*task.order, *task.weights}
-    names = task.order if settles else (*task.order, "effort")
-    return tuple(_goal(name, task) for name in names)
+    return tuple(_goal(name, task) for name in task.order)
+
+
+def unasked_goals(task: Task) -> tuple[Goal, ...]:
+    """Return the goals that settle what those of a task leave open: forces, then redundancy and rigid motion."""
+    effort = () if EFFORTS & {*task.order, *task.weights} else (LeastEffort(),)
+    return (*effort, LeastReconfiguration())
 
 
 def _goal(name: GoalName, task: Task) -> Goal:

@@ -18,14 +18,14 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.between import bend_of
 from synergrip.plans.clash import clashes
-from synergrip.plans.goals import goals_of
+from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
-from synergrip.plans.stages import SLACKS, Stage, after, settled
+from synergrip.plans.stages import SLACKS, Stage, through
 from synergrip.plans.task import Task
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
@@ -76,9 +76,8 @@ class _Planner:
             largest = stage.scalar
             if largest < self.task.margin - SLACKS[0] * self.situation.force_unit:
                 return self._short_of_margin(best, largest)
-        for goal in others:
-            stage = after(stage, goal, self.solver)
-        return verified_plan(self.task, self.analysis, settled(stage, self.solver), largest)
+        stage = through(stage, others, unasked_goals(self.task), self.solver)
+        return verified_plan(self.task, self.analysis, stage, largest)
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
         decision = ask(Question(self.situation, limits, goal), self.solver)

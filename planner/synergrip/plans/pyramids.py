@@ -29,12 +29,12 @@ from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import InputError, Issue, SelfCheckError, one_of
 from synergrip.plans.check import judge_references
-from synergrip.plans.goals import goals_of
+from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.question import Question
 from synergrip.plans.references import References
 from synergrip.plans.solvers import SOLVERS, ask
-from synergrip.plans.stages import SLACKS, Stage, after, settled
+from synergrip.plans.stages import SLACKS, Stage, through
 from synergrip.plans.task import EFFORTS
 from synergrip.plans.verified import verified_plan
 
@@ -166,9 +166,8 @@ def _best(cones: Plan, question: Question, first: Decision, facets: int) -> Plan
         largest = stage.scalar
         if largest < task.margin - SLACKS[0] * question.situation.force_unit:
             return None
-    for goal in goals_of(task)[1:]:
-        stage = after(stage, goal_in_pyramids(goal, facets), clarabel)
-    stage = settled(stage, clarabel)
+    goals = [goal_in_pyramids(goal, facets) for goal in goals_of(task)[1:]]
+    stage = through(stage, goals, unasked_goals(task), clarabel)
     if stage.interrupted:  # half of the goals would compare nothing
         raise KeyboardInterrupt
     try:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.conic.decide import Decision
-from synergrip.conic.goals.after import After, Held
-from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak
-from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
-from synergrip.linalg import Array, split
+from synergrip.linalg import Array, frozen, split
 from synergrip.plans.question import Question
 from synergrip.plans.solvers import Answerer, ask
 
@@ -36,7 +34,6 @@ class Stage:
     goal: Goal
     """The goal of the last decision that verified."""
     decisions: tuple[Decision, ...]
-    held: tuple[Held, ...] = ()
     notes: tuple[str, ...] = ()
     interrupted: bool = False
     """Whether somebody stopped it before the goals were through."""
@@ -51,62 +48,89 @@ class Stage:
         """The last goal's scalar [N]."""
         return float(self.decisions[-1].solution.x[-1]) * self.situation.force_unit
 
-    @property
-    def open_beyond_forces(self) -> bool:
-        """Whether anything but the internal force is an unknown."""
-        return self.situation.n_v > self.situation.n_alpha
+
+def through(stage: Stage, goals: Sequence[Goal], unasked: Sequence[Goal], solver: Answerer) -> Stage:
+    """Return the stage after further goals.
+
+    Args:
+        stage: after the first.
+        goals: that are asked for.
+        unasked: that settle what those leave open; of no interest where they leave nothing.
+        solver: who answers.
+    """
+    for goal in goals:
+        stage = after(stage, goal, solver)
+    for goal in unasked:
+        stage = after(stage, goal, solver, asked=False)
+    return stage
 
 
-def after(stage: Stage, goal: Goal, solver: Answerer) -> Stage:
+def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> Stage:
     """Return the stage of the best plans by `goal`; with a note, and else as before, when none verifies.
 
     An interrupt keeps what the goals before have led to, and no further goal is looked at.
     """
     if stage.interrupted:
         return stage
-    held = stage.held
-    if not isinstance(stage.goal, LargestMargin | LeastPeak):
-        held = (*held, *(Held(part, stage.v) for part in stage.goal.objective(stage.situation).squares))
-    if held and _are_fixed(stage.situation.n_v, stage.situation, held):
-        if isinstance(goal, LeastReconfiguration):
-            return stage
-        return replace(stage, notes=(*stage.notes, f"the goals before it leave nothing open for '{goal.name}'"))
-    situation = stage.situation if held else _in_units_of_its_forces(stage)
-    for limits in _limits(stage, held):
-        chosen = After(goal, held) if held else goal
+    situation = _left_open(stage)
+    if not asked and goal.objective(situation).empty:
+        return stage
+    if not situation.n_v:
+        note = f"the goals before it leave nothing open for '{goal.name}'"
+        return replace(stage, notes=(*stage.notes, note)) if asked else stage
+    for limits in _limits(stage, situation):
         try:
-            decision = ask(Question(situation, limits, chosen), solver)
+            decision = ask(Question(situation, limits, goal), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
         if decision.optimal:
-            decisions = (*stage.decisions, decision)
-            return replace(stage, situation=situation, limits=limits, goal=goal, decisions=decisions, held=held)
+            return replace(stage, situation=situation, limits=limits, goal=goal, decisions=(*stage.decisions, decision))
     note = f"'{goal.name}' among the plans that are best by the goals before it was not verified; it is one of them"
     return replace(stage, notes=(*stage.notes, note))
 
 
-def settled(stage: Stage, solver: Answerer) -> Stage:
-    """Return the stage in which what the goals leave open is as small as it can be."""
-    return after(stage, LeastReconfiguration(), solver) if stage.open_beyond_forces else stage
+def _left_open(stage: Stage) -> Situation:
+    """Return the situation of the plans that are best by the last goal.
+
+    The best by a sum of squares agree in everything that is squared, and so differ only in what it does not see.
+    """
+    situation, goal = stage.situation, stage.goal
+    if isinstance(goal, LargestMargin | LeastPeak):
+        return _in_units_of_its_forces(stage) if situation.origin is None else situation
+    squares = goal.objective(situation).squares
+    if not squares:
+        return situation
+    seen = [split(part.matrix).row_space for part in squares if part.unseen is None]
+    directions = split(np.hstack([np.zeros((situation.n_v, 0)), *seen]).T).null_space
+    courses = _common([*([] if situation.courses is None else [situation.courses]), *_unseen(squares)])
+    return situation.around(stage.v, directions, courses)
 
 
-def _limits(stage: Stage, held: tuple[Held, ...]) -> Iterator[tuple[Limit, ...]]:
+def _unseen(squares: Sequence[Squares]) -> Iterator[Array]:
+    for part in squares:
+        if part.unseen is not None:
+            yield part.unseen
+
+
+def _common(courses: Sequence[Array]) -> Array | None:
+    """Return the courses in time (T, f) that are common to several sets, whose columns are independent."""
+    common = courses[0] if courses else None
+    for other in courses[1:]:
+        assert common is not None
+        outside = common - other @ np.linalg.lstsq(other, common, rcond=None)[0]
+        common = frozen(common @ split(outside, float(np.linalg.norm(common, 2))).null_space)
+    return common
+
+
+def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if isinstance(stage.goal, LargestMargin | LeastPeak):
         for slack in SLACKS:
             yield (stage.goal.keeps(stage.scalar, slack * stage.situation.force_unit), *stage.limits)
         return
-    fixed = _are_fixed(stage.situation.n_alpha, stage.situation, held)
+    fixed = not situation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
-
-
-def _are_fixed(count: int, situation: Situation, held: tuple[Held, ...]) -> bool:
-    """Return whether what is held leaves none of the first `count` unknowns of a knot open, forces before others."""
-    directions = np.hstack([part.determines for part in held])
-    space = split(directions.T).row_space
-    unknowns = np.eye(situation.n_v)[:count]
-    return bool(np.abs(unknowns - unknowns @ space @ space.T).max(initial=0.0) < 1e-9)
 
 
 def _in_units_of_its_forces(stage: Stage) -> Situation:

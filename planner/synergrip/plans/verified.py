@@ -47,7 +47,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
         raise SelfCheckError("the plan fails its own check (" + "; ".join(failed) + "); please report this problem")
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
-        task, analysis, situation, motion, frozen(alpha), frozen(beta), frozen(gamma),
+        task, analysis, situation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*stage.notes, *_ranges_left(task, situation, motion), *_far(analysis, motion)), found,
         stage.interrupted,

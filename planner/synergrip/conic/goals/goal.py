@@ -20,6 +20,9 @@ class Squares:
     matrix: Array  # (m, n_v)
     constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
     earlier: tuple[Earlier, ...] = ()
+    unseen: Array | None = None
+    """(T, f) the courses in time of the unknowns, any of them, that the squares do not see; None when they see each
+    knot by itself."""
 
     def at(self, v: Array) -> Array:
         """Return the values (K, m) whose squares are summed, at unknowns v (T, n_v)."""
@@ -37,6 +40,11 @@ class Objective:
 
     squares: tuple[Squares, ...] = ()
     epigraph: float | None = None
+
+    @property
+    def empty(self) -> bool:
+        """True when nothing is minimised."""
+        return not self.squares and self.epigraph is None
 
 
 class Goal(Protocol):

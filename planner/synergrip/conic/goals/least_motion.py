@@ -68,7 +68,9 @@ def _differences(situation: Situation, order: int, unit: float, stiffest: float)
     count = len(weights)
     constant = sum(weights[:, lag, None] * known[order - lag : order - lag + count] for lag in range(order + 1))
     earlier = tuple(Earlier(lag, frozen(matrix), frozen(weights[:, lag])) for lag in range(order + 1))
-    return Squares(frozen(np.zeros_like(matrix)), frozen(constant), earlier)
+    time = (situation.times - situation.times[0]) / (situation.times[-1] - situation.times[0])
+    unseen = np.column_stack([np.ones(len(time)), 2 * time - 1])[:, :order]
+    return Squares(frozen(np.zeros_like(matrix)), frozen(constant), earlier, frozen(unseen))
 
 
 def _weights(times: Array, order: int) -> Array:

@@ -24,7 +24,7 @@ class LeastReconfiguration:
         """Return the squares of the unknowns but for the forces."""
         units = situation.units
         parts = [squares_of(situation.gamma, 1 / units.reference)]
-        if situation.beta_basis.size:
-            free = situation.beta.plus(-situation.beta.constant)
-            parts.append(squares_of(free, 1 / units.motion))
+        if situation.frees_beta:
+            beyond = situation.beta.plus(-situation.whole.beta.constant)
+            parts.append(squares_of(beyond, 1 / units.motion))
         return Objective(tuple(part for part in parts if part.matrix.any()))

@@ -36,4 +36,5 @@ class WeightedSum:
 
 def _times(squares: Squares, factor: float) -> Squares:
     earlier = tuple(replace(part, weights=frozen(factor * part.weights)) for part in squares.earlier)
-    return Squares(frozen(factor * squares.matrix), frozen(factor * squares.constant), earlier)
+    matrix, constant = frozen(factor * squares.matrix), frozen(factor * squares.constant)
+    return replace(squares, matrix=matrix, constant=constant, earlier=earlier)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.conic.goals.after import After
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -32,7 +31,7 @@ from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
 from synergrip.plans.referee.model import Cone, Expression, Model, Wish
 from synergrip.plans.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
-from synergrip.plans.referee.motion_goals import centred_joints, held, least_motion, least_reconfiguration
+from synergrip.plans.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
 
 
 class NotWrittenError(SynergripError, TypeError):
@@ -161,11 +160,6 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
     return Wish(peak, (Cone("goal.minimise", names, peak - _normals(model)),), peak)
 
 
-def _after(model: Model, goal: After) -> Wish:
-    wish = write_goal(model, goal.goal)
-    return Wish(wish.cost, (*wish.cones, *(held(model, part) for part in goal.held)), wish.scalar)
-
-
 def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:
     return Wish(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
 
@@ -190,6 +184,5 @@ GOALS: dict[type, Callable[[Model, Any], Wish]] = {
     LeastReconfiguration: least_reconfiguration,
     LeastMotion: least_motion,
     CentredJoints: centred_joints,
-    After: _after,
     WeightedSum: _weighted_sum,
 }

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from synergrip.conic.goals.after import After
+from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
 from synergrip.conic.situation import Situation, Units
@@ -134,15 +134,14 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     situation = question.situation
-    model = _written(situation, situation.times, situation.wrench, situation.wanted)
+    model = _left_open(_written(situation, situation.times, situation.wrench, situation.wanted), situation)
     wish, limits = _cones(question, model)
     posed = pose(model, wish.cost, [*limits, *wish.cones])
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
     if claim is Claim.NOTHING:
-        # the goal's scalar has no say in feasibility; equalities that hold the forces do
-        held = [cone for cone in wish.cones if cone.equality]
-        posed = pose_relaxed(model, [*limits, *held])
+        # the goal's scalar has no say in feasibility
+        posed = pose_relaxed(model, limits)
         posed.run("CLARABEL", _options(settings))
         claim = Claim.INFEASIBLE if posed.solved and posed.value > 0 else Claim.NOTHING
         iterations, seconds = iterations + posed.iterations, seconds + posed.seconds
@@ -154,12 +153,29 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
 
 def _written(situation: Situation, times: Array, wrench: Array, wanted: Array) -> Model:
     """Write the situation down at the knots, or at other instants, where beta is on straight lines between them."""
+    whole = situation.whole
     return write_model(
         situation.response, situation.coordinates, times=times, wrench=wrench,
-        beta=interpolated(times, situation.times, situation.beta.constant), units=situation.units,
-        redundancy=situation.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
+        beta=interpolated(times, situation.times, whole.beta.constant), units=situation.units,
+        redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
         rigid_basis=situation.spaces.Gamma_ucs,
     )  # fmt: skip
+
+
+def _left_open(model: Model, situation: Situation) -> Model:
+    """Confine the references to what earlier goals have left open of them."""
+    import cvxpy as cp
+
+    if situation.origin is None:
+        return model
+    matrix, constant = situation.reference.matrix, situation.reference.constant
+    courses = situation.courses
+    free = cp.Variable((situation.knots if courses is None else courses.shape[1], situation.n_v))
+    apart = model.dz_r - constant - (free if courses is None else courses @ free) @ matrix.T
+    size = float(np.linalg.norm(matrix, 2))
+    names = tuple(f"reference {i + 1}" for i in range(len(matrix)))
+    # in place of what ties beta and gamma, which the constant part keeps
+    return replace(model, tracking=(Cone("goals before", names, apart / size, equality=True),))
 
 
 def _cones(question: Question, model: Model) -> tuple[Wish, list[Cone]]:
@@ -173,10 +189,11 @@ def _cones(question: Question, model: Model) -> tuple[Wish, list[Cone]]:
     for limit in question.limits:
         written = write_limit(model, limit)
         cones += written if limit.couples_knots else courses.reserved(written, partial(_limit_again, limit))
-    inner = question.goal.goal if isinstance(question.goal, After) else question.goal
-    own = [cone for cone in wish.cones if not cone.equality]
-    held = [cone for cone in wish.cones if cone.equality]
-    return replace(wish, cones=(*courses.reserved(own, lambda there: write_goal(there, inner).cones), *held)), cones
+    return replace(wish, cones=tuple(courses.reserved(wish.cones, partial(_wish_again, question.goal)))), cones
+
+
+def _wish_again(goal: Goal, there: Model) -> tuple[Cone, ...]:
+    return write_goal(there, goal).cones
 
 
 def _limit_again(limit: Limit, there: Model) -> tuple[Cone, ...]:
@@ -185,16 +202,9 @@ def _limit_again(limit: Limit, there: Model) -> tuple[Cone, ...]:
 
 def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:
     """Return x (n,) of the references found."""
-    alpha, beta, gamma = situation.coordinates.coordinates(model.dz_r.value)
-    units, x = situation.units, np.zeros(len(program.q))
-    parts = [alpha / units.force]
-    if situation.frees_gamma:
-        parts.append(gamma / units.reference)
-    parts.append((beta - situation.beta.constant) @ situation.beta_basis / units.motion)
-    x[: program.knots * program.n_v] = np.hstack(parts).ravel()
-    if wish.scalar is not None and wish.scalar.value is not None:
-        x[-1] = float(wish.scalar.value)
-    return x
+    reference = situation.reference
+    v = np.linalg.lstsq(reference.matrix, (model.dz_r.value - reference.constant).T, rcond=None)[0].T
+    return program.solution(v, None if wish.scalar is None else wish.scalar.value)
 
 
 def _multipliers(program: Program, posed: Posed) -> Array:

@@ -64,7 +64,6 @@ class Model:
     wrench: Array  # (T, 6) external wrench on the object
     dz_r: Expression  # (T, n_z)
     force: Expression  # (T, n_l) [N, N m]
-    alpha: Expression  # (T, dim E_s) [N]
     beta: Expression  # (T, dim Gamma_ucs) [m]
     rigid_basis: Array  # (6, dim Gamma_ucs)
     beta_free: Expression
@@ -81,15 +80,6 @@ class Model:
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
-
-    @property
-    def v(self) -> Expression:
-        """The unknowns of the direct path (T, n_v)."""
-        import cvxpy as cp
-
-        free = [self.alpha / self.units.force, self.gamma / self.units.reference, self.beta_free / self.units.motion]
-        chosen = [part for part, used in zip(free, (True, self.redundancy, True), strict=True) if used and part.size]
-        return cp.hstack(chosen)
 
     @property
     def moved(self) -> Expression:
@@ -128,7 +118,7 @@ def write_model(
     dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
     known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
     n_alpha, n_beta, _ = coordinates.dimensions
-    to_alpha, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
+    _, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
     gamma = dz_r @ to_gamma.T
     tracking = []
     beyond = dz_r @ to_beta.T - beta
@@ -139,7 +129,7 @@ def write_model(
     if len(to_gamma) and not redundancy:
         tracking.append(_equal("gamma", gamma))
     return Model(
-        response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T, dz_r @ to_alpha.T,
+        response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T,
         dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, wanted, units,
     )  # fmt: skip
 

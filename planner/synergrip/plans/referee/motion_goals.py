@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.conic.goals.after import Held
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.least_motion import STIFFEST, LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
-from synergrip.plans.referee.model import Cone, Model, Wish
+from synergrip.plans.referee.model import Model, Wish
 from synergrip.plans.referee.motion_formulas import times_rows
 
 
@@ -53,14 +52,3 @@ def centred_joints(model: Model, goal: CentredJoints) -> Wish:
     known = (model.wrench - model.response.grasp.w_0) @ model.response.dq_dw.T + goal.start
     q = model.dz_r @ model.response.dq_dzr.T + known
     return Wish(0.5 * cp.sum_squares((q[:, used] - np.tile(middle, (len(model.times), 1))) @ np.diag(1 / half[used])))
-
-
-def held(model: Model, part: Held) -> Cone:
-    """Write down that the quantities of an earlier goal are what they were."""
-    rows, v = part.rows(), model.v
-    count = len(rows.constant)
-    value = v[len(model.times) - count :] @ rows.matrix.T + rows.constant
-    for each in rows.earlier:
-        start = len(model.times) - count - each.lag
-        value = value + times_rows(each.weights[:, None], v[start : start + count] @ each.matrix.T)
-    return Cone(rows.limit, rows.items, value, equality=True)

@@ -1,0 +1,79 @@
+"""What earlier goals leave open of a situation: the same program, written in fewer unknowns."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from random_situations import KNOTS, LIMITS, random_situation
+
+from synergrip.conic.build import build
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_motion import LeastMotion
+from synergrip.conic.goals.least_peak import LeastPeak
+from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.weighted_sum import WeightedSum
+from synergrip.linalg import frozen
+
+GOALS: tuple[Goal, ...] = (
+    LargestMargin(), LeastPeak(), LeastEffort(), LeastEffort("torque"), LeastMotion(), LeastMotion("rates"),
+    LeastMotion("accelerations"), LeastReconfiguration(),
+    WeightedSum(((LeastEffort(), 2.0), (LeastMotion("accelerations", exact=True), 0.1))),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("in_courses", [False, True])
+@pytest.mark.parametrize("goal", GOALS, ids=lambda goal: goal.name)
+@pytest.mark.parametrize("seed", range(4))
+def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_open(seed: int, goal: Goal, in_courses: bool) -> None:
+    rng, situation = random_situation(seed)
+    limits = [make(situation.response.grasp) for make in LIMITS.values()]
+    v = rng.normal(size=(KNOTS, situation.n_v))
+    directions = np.linalg.qr(rng.normal(size=(situation.n_v, situation.n_v)))[0][:, : situation.n_v - 1 - seed % 2]
+    courses = frozen(rng.normal(size=(KNOTS, 2))) if in_courses else None
+    left = situation.around(v, directions, courses)
+    whole, part = build(situation, limits, goal), build(left, limits, goal)
+    some, other = (rng.normal(size=len(part.q)) for _ in range(2))
+
+    def of_whole(x: np.ndarray) -> np.ndarray:
+        scalar = x[-1:] if goal.objective(situation).epigraph is not None else []
+        return np.append(v + part.unknowns(x) @ directions.T, scalar)
+
+    assert part.A.shape[1] == (2 if in_courses else KNOTS) * directions.shape[1] + len(whole.q) % situation.n_v
+    slack, expected = part.b - part.A @ some, whole.b - whole.A @ of_whole(some)
+    np.testing.assert_allclose(slack, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+    difference = part.objective(some) - part.objective(other)  # the constant part drops out
+    size = abs(whole.objective(of_whole(some))) + abs(whole.objective(of_whole(other)))
+    assert difference == pytest.approx(
+        whole.objective(of_whole(some)) - whole.objective(of_whole(other)), rel=1e-9, abs=1e-11 * size
+    )
+    np.testing.assert_allclose(part.unknowns(part.solution(part.unknowns(some))), part.unknowns(some), atol=1e-10)
+
+
+@pytest.mark.parametrize("of", ["rates", "accelerations"])
+@pytest.mark.parametrize("seed", range(4))
+def test_motions_in_unseen_courses_change_nothing_that_is_squared(of: str, seed: int) -> None:
+    rng, situation = random_situation(seed)
+    (squares,) = LeastMotion(of).objective(situation).squares  # type: ignore[arg-type]
+    assert squares.unseen is not None
+    assert squares.unseen.shape == (KNOTS, 1 if of == "rates" else 2)
+    v, change = rng.normal(size=(KNOTS, situation.n_v)), rng.normal(size=(squares.unseen.shape[1], situation.n_v))
+    np.testing.assert_allclose(squares.at(v + squares.unseen @ change), squares.at(v), atol=1e-10)
+    assert np.linalg.matrix_rank(squares.unseen) == squares.unseen.shape[1]
+    other = v + rng.normal(size=(KNOTS, 1)) @ rng.normal(size=(1, situation.n_v))
+    assert np.abs(squares.at(other) - squares.at(v)).max() > 1e-3
+
+
+def test_a_box_of_courses_holds_every_plan_in_the_box_of_the_knots() -> None:
+    rng, situation = random_situation(1)
+    limits = [LIMITS[name](situation.response.grasp) for name in ("friction", "normal", "reference")]
+    courses = frozen(np.column_stack([np.ones(KNOTS), np.linspace(-1, 1, KNOTS)]))
+    left = situation.around(np.zeros((KNOTS, situation.n_v)), np.eye(situation.n_v), courses)
+    whole, part = build(situation, limits, LeastEffort()), build(left, limits, LeastEffort())
+    box = whole.unknowns(whole.box)
+    for _ in range(200):
+        coefficients = rng.normal(size=(2, situation.n_v))
+        v = courses @ coefficients
+        coefficients /= np.abs(v / box).max(axis=0)  # at the edge of the box
+        assert np.all(np.abs(coefficients.ravel()) <= part.box * (1 + 1e-9))
