@@ -20,6 +20,8 @@ PRIMAL_TOLERANCE = 5e-7
 """Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
 DUAL_TOLERANCE = 1e-7
 GAP_TOLERANCE = 1e-8
+NEARLY = 1e-4
+"""Gap within which a plan that holds is still of use, although it is not the best to all digits."""
 SHARP = 1e-8
 """A violation below this is not worth another attempt."""
 ROUNDING = 1e-12
@@ -41,6 +43,11 @@ class Certificate:
     """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
+
+    @property
+    def nearly(self) -> bool:
+        """True for an x that keeps every row and is the best to some digits, verified or not."""
+        return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= NEARLY
 
     @property
     def sharp(self) -> bool:

@@ -38,6 +38,11 @@ class Decision:
         return self.certificate.verified and self.certificate.kind == "optimal"
 
     @property
+    def nearly(self) -> bool:
+        """True when a plan was found that holds and is nearly the best, even if that it is the best did not verify."""
+        return self.certificate.nearly
+
+    @property
     def infeasible(self) -> bool:
         """True when infeasibility was found and verified."""
         return self.certificate.verified and self.certificate.kind == "infeasible"
@@ -46,7 +51,8 @@ class Decision:
 def decide(goal: str, program: Program, solver: Solver) -> Decision:
     """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
 
-    The best is the verified one with the smallest violation. When none verifies, neither does the decision.
+    The best is the verified one with the smallest violation. When none verifies, neither does the decision; it is
+    then, if there is one, the claim that keeps every row and has the smallest gap.
     """
     best: Decision | None = None
     for attempt, settings in enumerate(ATTEMPTS, start=1):
@@ -61,9 +67,12 @@ def decide(goal: str, program: Program, solver: Solver) -> Decision:
     return best
 
 
-def _rank(decision: Decision) -> tuple[bool, float]:
-    """Order decisions: verified ones first, then by violation."""
-    return not decision.certificate.verified, decision.certificate.primal_residual
+def _rank(decision: Decision) -> tuple[int, float]:
+    """Order decisions: verified ones first, by violation; then those that hold, by gap."""
+    certificate = decision.certificate
+    if certificate.verified:
+        return 0, certificate.primal_residual
+    return (1, certificate.gap) if certificate.nearly else (2, certificate.primal_residual)
 
 
 def judge(program: Program, solution: Solution) -> Certificate:

@@ -25,7 +25,7 @@ from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
-from synergrip.plans.stages import SLACKS, Stage, through
+from synergrip.plans.stages import SLACKS, Stage, not_the_best, through
 from synergrip.plans.task import Task
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
@@ -69,9 +69,10 @@ class _Planner:
         first, *others = goals_of(self.task)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
-        if not best.optimal:
+        if not (best.optimal or best.nearly):
             return self._without_optimum(best, first)
-        stage, largest = Stage(self.situation, limits, first, (best,)), None
+        notes = () if best.optimal else (not_the_best(best),)
+        stage, largest = Stage(self.situation, limits, first, (best,), notes), None
         if isinstance(first, LargestMargin):
             largest = stage.scalar
             if largest < self.task.margin - SLACKS[0] * self.situation.force_unit:
@@ -98,9 +99,20 @@ class _Planner:
         largest = self._scalar(first) if first.optimal else None
         if decision.infeasible:
             return self._infeasible(decision, largest)
-        if first.optimal and largest is not None and largest < self.task.margin:
+        if first.infeasible:
+            return self._infeasible(first, None)
+        if largest is not None and largest < self.task.margin:
             return self._short_of_margin(first, largest)
-        return self._no_optimum(first)
+        return self._any_plan(goal)
+
+    def _any_plan(self, goal: Goal) -> Outcome:
+        """A plan that holds, when there is one and the best by the goal that was asked for is out of reach."""
+        some = self._ask(self.task.all_limits, LeastEffort())
+        if not some.optimal:
+            return self._no_optimum(some)
+        note = f"'{goal.name}' was not verified, nor came any goal after it; this is the plan of least contact effort"
+        stage = Stage(self.situation, self.task.all_limits, LeastEffort(), (some,), (note,))
+        return verified_plan(self.task, self.analysis, through(stage, (), unasked_goals(self.task), self.solver), None)
 
     def _no_optimum(self, decision: Decision) -> Outcome:
         if decision.infeasible:

@@ -78,16 +78,28 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     if not situation.n_v:
         note = f"the goals before it leave nothing open for '{goal.name}'"
         return replace(stage, notes=(*stage.notes, note)) if asked else stage
+    nearly = stage
     for limits in _limits(stage, situation):
         try:
             decision = ask(Question(situation, limits, goal), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
+        best = replace(stage, situation=situation, limits=limits, goal=goal, decisions=(*stage.decisions, decision))
         if decision.optimal:
-            return replace(stage, situation=situation, limits=limits, goal=goal, decisions=(*stage.decisions, decision))
+            return best
+        if decision.nearly:
+            nearly = replace(best, notes=(*stage.notes, not_the_best(decision)))
+    if nearly is not stage:
+        return nearly
     note = f"'{goal.name}' among the plans that are best by the goals before it was not verified; it is one of them"
     return replace(stage, notes=(*stage.notes, note))
+
+
+def not_the_best(decision: Decision) -> str:
+    """Return the note on a plan that holds, and of which it did not verify that it is the best."""
+    bound = f"by the solver's own bound none is by more than {decision.certificate.gap:.0e} of it"
+    return f"that no plan is better by '{decision.goal}' was not verified; {bound}"
 
 
 def _left_open(stage: Stage) -> Situation:

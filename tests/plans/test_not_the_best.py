@@ -1,0 +1,104 @@
+"""Plans that hold although the best by a goal was not found: they are given, and said to be that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from synergrip.conic.certificate import NEARLY
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.program import Program
+from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.conic.solvers import clarabel_
+from synergrip.linalg import frozen
+from synergrip.plans.outcome import Outcome, Plan, Unknown
+from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
+from synergrip.plans.question import Question
+from synergrip.plans.solvers import SOLVERS
+
+Spoil = Callable[[Question, Solution], Solution]
+
+
+def spoiled(share: float) -> Spoil:
+    """Return what goes by a share towards the best plan of twice the margin: inside the limits, and not the best."""
+
+    def spoil(question: Question, best: Solution) -> Solution:
+        wider = tuple(
+            FrictionCone(2 * limit.margin) if isinstance(limit, FrictionCone) else limit for limit in question.limits
+        )
+        inner = clarabel_.solve(replace(question, limits=wider).program(), Settings()).x
+        return replace(best, x=frozen(best.x + share * (inner - best.x)))
+
+    return spoil
+
+
+def nothing(question: Question, best: Solution) -> Solution:
+    return replace(best, claim=Claim.NOTHING, x=frozen(0 * best.x))
+
+
+def planned(order: str, spoil: dict[str, Spoil], more: str = "") -> Outcome:
+    """Plan with a solver that spoils its answers to some goals."""
+
+    def answer(question: Question, program: Program, settings: Settings) -> Solution:
+        best = SOLVERS["clarabel"](question, program, settings)
+        return spoil[question.goal.name](question, best) if question.goal.name in spoil else best
+
+    problem = load_problem("tripod", [f"goal={{order={order}}}", f'limits={{margin="0.5 N"{more}}}'])
+    return plan(problem.grasp, problem.task, answer)
+
+
+def said(outcome: Plan) -> list[str]:
+    return [note for note in outcome.notes if "verified" in note]
+
+
+def test_a_plan_that_is_the_best_to_some_digits_is_given_with_a_note() -> None:
+    outcome, best = planned("['torque']", {"least torque effort": spoiled(1e-5)}), planned("['torque']", {})
+    assert isinstance(outcome, Plan)
+    assert isinstance(best, Plan)
+    assert not outcome.decisions[0].optimal
+    assert 1e-8 < outcome.decisions[0].certificate.gap <= NEARLY
+    (note,) = said(outcome)
+    assert "'least torque effort' was not verified; by the solver's own bound" in note
+    assert not said(best)
+    np.testing.assert_allclose(outcome.motion.forces, best.motion.forces, rtol=1e-3, atol=1e-9)
+    assert all(check.passed for check in outcome.checks)
+
+
+@pytest.mark.parametrize("more", ["", ', normal_force="50 N"'])  # nothing bounds the largest margin; something does
+@pytest.mark.parametrize("spoil", [spoiled(0.5), nothing])
+def test_without_the_best_a_plan_of_least_effort_is_given_with_a_note(spoil: Spoil, more: str) -> None:
+    outcome = planned("['torque', 'references']", {"least torque effort": spoil}, more)
+    expected = planned("['effort']", {})
+    assert isinstance(outcome, Plan)
+    assert isinstance(expected, Plan)
+    (note,) = said(outcome)
+    assert note.startswith("'least torque effort' was not verified, nor came any goal after it")
+    np.testing.assert_allclose(outcome.motion.forces, expected.motion.forces, rtol=1e-6, atol=1e-9)
+
+
+def test_without_any_verified_plan_the_answer_is_unknown() -> None:
+    outcome = planned("['torque']", dict.fromkeys(("least torque effort", "least contact effort"), spoiled(0.5)))
+    assert isinstance(outcome, Unknown)
+    assert [decision.goal for decision in outcome.decisions] == [
+        "least torque effort", "largest margin", "least contact effort"
+    ]  # fmt: skip
+
+
+def test_a_plan_that_breaks_a_limit_is_not_nearly_the_best() -> None:
+    loose = spoiled(-1e-5)  # a little less squeeze than the margin needs
+    outcome = planned("['effort']", {"least contact effort": loose})
+    assert isinstance(outcome, Unknown)
+    assert outcome.decisions[0].certificate.gap <= NEARLY
+    assert not outcome.decisions[0].nearly
+
+
+def test_a_later_goal_that_is_nearly_reached_counts_with_a_note() -> None:
+    spoil = {"least torque effort": spoiled(1e-5)}
+    outcome = planned("['travel', 'torque']", spoil)
+    assert isinstance(outcome, Plan)
+    assert [decision.goal for decision in outcome.decisions] == ["least travel", "least torque effort"]
+    assert "'least torque effort' was not verified; by the solver's own bound" in said(outcome)[0]
