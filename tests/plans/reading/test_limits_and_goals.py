@@ -13,6 +13,8 @@ from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.errors import InputError
+from synergrip.plans.outcome import Plan
+from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 from synergrip.plans.reading.problem_file import read_problem_file
 
@@ -179,6 +181,9 @@ def test_tracking_reaches_the_task_and_adds_its_own_limits() -> None:
     [
         (["limits.synergy_acceleration=[1, 2]"], "limits.synergy_acceleration", "expected 1 numbers"),
         (["limits.joint_range=hand"], "limits.joint_range", "needs a [hand]; a grasp file states no joint ranges"),
+        (["goal={minimise='centred'}"], "goal.minimise", "'centred' needs a [hand]; a grasp file states no joint"),
+        (["goal={order=['effort', 'centred']}"], "goal.order[1]", "'centred' needs a [hand]"),
+        (["goal={minimise={effort=1, centred=2}}"], "goal.minimise.centred", "'centred' needs a [hand]"),
     ],
 )
 def test_what_a_grasp_file_cannot_answer_is_refused(overrides: list[str], key: str, fragment: str) -> None:
@@ -194,3 +199,14 @@ def test_a_margin_in_an_order_needs_something_that_bounds_it() -> None:
     assert load_problem("pinch-soft", bounded).task.order == ("margin", "smooth")
     with pytest.raises(InputError, match="nothing bounds the largest margin"):
         load_problem("pinch-soft", ["limits={synergy_rate=3}", "goal={order=['margin', 'smooth']}"])
+
+
+def test_a_peak_before_the_margin_bounds_it() -> None:
+    problem = load_problem("pinch-soft", ["limits={}", "goal={order=['peak_force', 'margin']}"])
+    outcome = plan(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    assert [decision.goal for decision in outcome.decisions][:2] == ["least peak normal force", "largest margin"]
+    for order, key in (("['margin', 'peak_force']", "goal.order[0]"), ("['travel', 'margin']", "goal.order[1]")):
+        with pytest.raises(InputError, match="nothing bounds the largest margin") as caught:
+            load_problem("pinch-soft", ["limits={}", f"goal={{order={order}}}"])
+        assert caught.value.issues[0].key == key

@@ -176,6 +176,12 @@ class GoalTable(Table):
         """The weights of a sum of goals; empty for a single goal."""
         return self.minimise if isinstance(self.minimise, dict) else {}
 
+    def key_of(self, name: GoalName) -> str:
+        """Return the key under which a goal is stated."""
+        if self.order:
+            return f"order[{self.order.index(name)}]"
+        return f"minimise.{name}" if name in self.weights else "maximise" if self.maximise else "minimise"
+
     def issues(self) -> Iterable[Issue]:
         """Refuse two ways of stating goals, a goal twice, and goals of force when no force is open any more."""
         given = [name for name in ("maximise", "minimise", "order") if getattr(self, name)]

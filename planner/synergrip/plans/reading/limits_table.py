@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,12 +23,15 @@ from synergrip.errors import InputError, Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import judge, list_misfits, torque_unit
 from synergrip.linalg import Array, frozen
+from synergrip.plans.reading.limits_file import GoalTable
 from synergrip.plans.reading.problem_file import ProblemFile
 
 Given = float | str | tuple[float, ...]
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference")
 """Limits each of which alone bounds the largest margin."""
+SETTLING = {"peak_force", "references"}
+"""Goals that bound the largest margin among the plans that are best by them."""
 
 
 @dataclass(frozen=True)
@@ -67,9 +70,20 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
     }
     given = {key: getattr(table, key) for key in readers}
     limits = tuple(readers[key](value) for key, value in given.items() if value is not None)
-    if "margin" in file.goal.names and not any(given[name] is not None for name in BOUNDING):
-        raise unbounded()
+    bounded = any(given[name] is not None for name in BOUNDING)
+    judge([*_without_ranges(file.goal, hand), *(() if bounded else _without_bound(file.goal))])
     return limits
+
+
+def _without_ranges(goal: GoalTable, hand: HandLimits) -> Iterator[Issue]:
+    if "centred" in {*goal.names, *goal.weights} and hand.ranges is None:
+        message = "'centred' needs a [hand]; a grasp file states no joint ranges"
+        yield Issue(message, key=f"goal.{goal.key_of('centred')}")
+
+
+def _without_bound(goal: GoalTable) -> Iterator[Issue]:
+    if "margin" in goal.names and not SETTLING & {*goal.names[: goal.names.index("margin")]}:
+        yield unbounded(f"goal.{goal.key_of('margin')}").issues[0]
 
 
 def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
@@ -124,13 +138,13 @@ class _Bounds:
         return _each(value, self.grasp.synergies, "synergy", key, of_hand)
 
 
-def unbounded() -> InputError:
-    """Return the error of a largest margin that nothing bounds."""
+def unbounded(key: str = "goal.maximise") -> InputError:
+    """Return the error of a largest margin, asked for under `key`, that nothing bounds."""
     listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
     message = (
         f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
     )
-    return InputError.at("goal.maximise", message)
+    return InputError.at(key, message)
 
 
 def _each(value: Given, names: tuple[str, ...], what: str, key: str, of_hand: Array | None = None) -> Array:
