@@ -26,10 +26,11 @@ class NormalForce:
     couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
-        """Return two bounds per contact, in force units."""
+        """Return two bounds per contact, in force units; that contacts push, friction cones say already."""
         grasp = situation.response.grasp
         value = situation.force.after(normal_selection(situation))
-        bounds = (np.full(grasp.n_c, self.lower), np.full(grasp.n_c, self.upper))
+        lower = self.lower if self.lower > 0 else -np.inf
+        bounds = (np.full(grasp.n_c, lower), np.full(grasp.n_c, self.upper))
         return within(self.key, _names(situation), value, *bounds, np.full(grasp.n_c, situation.force_unit))
 
     def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:

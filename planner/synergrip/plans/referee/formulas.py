@@ -94,7 +94,7 @@ def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
     return tuple(
         Cone(limit.key, tuple(f"{n} ({side})" for n in names), sign * (_normals(model) - bound / model.force_unit))
         for side, bound, sign in sides
-        if np.isfinite(bound)
+        if np.isfinite(bound) and not (side == "lowest" and bound <= 0)  # friction cones say that
     )
 
 
