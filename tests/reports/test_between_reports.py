@@ -28,6 +28,23 @@ def test_a_limit_that_is_passed_is_told_in_the_units_of_the_table(unit, said):
     assert said in " ".join(" ".join(between_lines(answer)).split())
 
 
+@pytest.mark.parametrize(
+    ("load", "path", "said"),
+    [
+        (0.1, 0.0, "; the load leaves its straight line by 0.1 N; all"),
+        (0.0, 2e-4, "; the wanted motion leaves its straight line by 0.2 mm; all"),
+        (0.1, 2e-4, "; the load leaves its straight line by 0.1 N; the wanted motion its own by 0.2 mm; all"),
+        (0.0, 0.0, "loads and wishes are straight lines from knot to knot; all"),
+    ],
+)
+def test_what_leaves_its_straight_line_is_told(load: float, path: float, said: str) -> None:
+    problem = load_problem("pinch-soft")
+    one = np.ones(1)
+    kept = Usage("limit", "m", ("item",), np.array([[1.0]]), -2 * one, 2 * one, one, np.array([0.5]))
+    answer = replace(plan(problem.grasp, problem.task), between=Between(16, load, path, (kept,)))
+    assert said in " ".join(" ".join(between_lines(answer)).split())
+
+
 def test_the_document_tells_the_bounds_of_the_limits_as_at_the_knots():
     problem = load_problem("barrett-ball-hold", ["task.knots=5"])
     answer = plan(problem.grasp, problem.task)

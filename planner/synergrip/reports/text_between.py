@@ -26,7 +26,8 @@ def _departures(between: Between) -> Iterator[str]:
     if between.load_departure:
         yield f"the load leaves its straight line by {between.load_departure:.3g} N"
     if between.path_departure:
-        yield f"the wanted motion by {1e3 * between.path_departure:.3g} mm"
+        leaves = "its own" if between.load_departure else "leaves its straight line"
+        yield f"the wanted motion {leaves} by {1e3 * between.path_departure:.3g} mm"
 
 
 def _held(plan: Plan, between: Between) -> str:
