@@ -22,7 +22,7 @@ DUAL_TOLERANCE = 1e-7
 GAP_TOLERANCE = 1e-8
 NEARLY = 1e-4
 """Gap within which a plan that holds is still of use, although it is not the best to all digits."""
-SHARP = 1e-8
+SHARP = 1e-7
 """A violation below this is not worth another attempt."""
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""

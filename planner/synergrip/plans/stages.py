@@ -98,8 +98,12 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
 
 def not_the_best(decision: Decision) -> str:
     """Return the note on a plan that holds, and of which it did not verify that it is the best."""
-    bound = f"by the solver's own bound none is by more than {decision.certificate.gap:.0e} of it"
-    return f"that no plan is better by '{decision.goal}' was not verified; {bound}"
+    value = abs(decision.program.objective(decision.solution.x))
+    apart = decision.certificate.gap * max(1.0, value)  # gaps are relative to the value, or to 1
+    note = f"that no plan is better by '{decision.goal}' was not verified"
+    return (
+        f"{note}; by the solver's own bound none is by more than {apart / value:.0e} of it" if apart < value else note
+    )
 
 
 def _left_open(stage: Stage) -> Situation:
