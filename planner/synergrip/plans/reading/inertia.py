@@ -10,9 +10,11 @@ from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.palm_motion import PalmMotion
+from synergrip.plans.reading.palm_motion import Palm
 
 KEY = "task.palm.inertia"
+LOOKS = 65
+"""Evenly spaced instants at which the size of the load is looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +24,7 @@ class Inertia:
     mass: float  # [kg]
     centre: Array  # (3,) centre of mass in the palm frame [m]
     tensor: Array  # (3, 3) about the centre, axes of the palm [kg m^2]
-    palm: PalmMotion
+    palm: Palm
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B: force ``-m a``, moment ``-(I alpha + omega x I omega)`` (Euler)."""
@@ -32,7 +34,7 @@ class Inertia:
         return np.hstack([force, moment])
 
 
-def inertia(thing: Object | None, mass: float, palm: PalmMotion) -> Inertia:
+def inertia(thing: Object | None, mass: float, palm: Palm) -> Inertia:
     """Return the inertial load on a placed object; without one, on a point mass at the origin of the palm frame.
 
     Raises:
@@ -41,17 +43,24 @@ def inertia(thing: Object | None, mass: float, palm: PalmMotion) -> Inertia:
     if mass == 0:
         message = "inertia needs the mass of the object: give object.mass (a grasp file has none: use task.wrench)"
         raise InputError.at(KEY, message)
-    course = palm.course
-    span = course.end - course.start
-    if span <= 0:
-        raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {course.end:g} s")
+    start, end = palm.corners[[0, -1]]
+    if end <= start:
+        raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {end:g} s")
     centre = np.zeros(3) if thing is None else thing.position
-    reach = float(np.linalg.norm(palm.shift)) + (1 + abs(palm.turn)) * abs(palm.turn) * float(np.linalg.norm(centre))
-    size = mass * reach / span / span
-    if not size < LARGEST_NUMBER:
-        raise InputError.at(KEY, f"an inertial load of the order of {size:.1e} N is too large; check task.duration")
     shape = None if thing is None else thing.shape
-    return Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
+    found = Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
+    _judge_size(found)
+    return found
+
+
+def _judge_size(load: Inertia) -> None:
+    """Refuse a load that is beyond all numbers; the corners of the motion are looked at, too, where peaks are."""
+    corners = load.palm.corners
+    with np.errstate(over="ignore", invalid="ignore"):
+        size = float(np.abs(load.at(np.union1d(corners, np.linspace(corners[0], corners[-1], LOOKS)))).max())
+    if not size < LARGEST_NUMBER:
+        message = f"an inertial load of the order of {size:.1e} N or N m is too large; check task.duration"
+        raise InputError.at(KEY, message)
 
 
 def uniform_tensor(shape: Shape | None) -> Array:

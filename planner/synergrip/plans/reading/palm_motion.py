@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.motion_tables import PalmTable
 from synergrip.plans.reading.profiles import Course
+
+
+class Palm(Protocol):
+    """How the palm moves, seen from the palm itself: all vectors are in its axes at each instant."""
+
+    @property
+    def corners(self) -> Array:
+        """Start and end of the motion (K,) [s], and between them the instants where its acceleration has a corner."""
+
+    def seen(self, vectors: Array, times: Array) -> Array:
+        """Return vectors (T, 3) that are given, (3,) or (T, 3), in the palm frame at the start."""
+
+    def rotation_rates(self, times: Array) -> tuple[Array, Array]:
+        """Return angular velocity (T, 3) [rad/s] and acceleration (T, 3) [rad/s^2]."""
+
+    def acceleration(self, point: Array, times: Array) -> Array:
+        """Return the acceleration (T, 3) [m/s^2] of a point (3,) [m] fixed to the palm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,6 +40,11 @@ class PalmMotion:
     turn: float  # [rad]
     shift: Array  # (3,) [m]
     course: Course
+
+    @property
+    def corners(self) -> Array:
+        """Start and end (2,) [s]; there are no corners on the way."""
+        return np.array([self.course.start, self.course.end])
 
     def seen(self, vectors: Array, times: Array) -> Array:
         """Return vectors of the world (3,) or (T, 3) in the palm frame (T, 3): ``R(axis, -angle) v`` (Rodrigues)."""
@@ -37,13 +60,9 @@ class PalmMotion:
         return np.outer(self.course.at(times, 1), turn), np.outer(self.course.at(times, 2), turn)
 
     def acceleration(self, point: Array, times: Array) -> Array:
-        """Return the acceleration (T, 3) [m/s^2], in the palm frame, of a point (3,) [m] fixed to the palm.
-
-        ``R' shift s'' + alpha x p + omega x (omega x p)``: of the origin, tangential, centripetal.
-        """
-        omega, alpha = self.rotation_rates(times)
+        """Return the acceleration (T, 3) [m/s^2], in the palm frame, of a point (3,) [m] fixed to the palm."""
         origin = self.seen(np.outer(self.course.at(times, 2), self.shift), times)
-        return np.asarray(origin + np.cross(alpha, point) + np.cross(omega, np.cross(omega, point)))
+        return acceleration_of(point, origin, *self.rotation_rates(times))
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,11 +71,19 @@ class Weight:
 
     force: Array
     """(3,) in the palm frame at the start [N]."""
-    palm: PalmMotion
+    palm: Palm
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B; the centre of mass is there."""
         return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
+
+
+def acceleration_of(point: Array, origin: Array, omega: Array, alpha: Array) -> Array:
+    """Return the acceleration (T, 3) of a point (3,) fixed to a body: of its origin, tangential, centripetal.
+
+    ``a + alpha x p + omega x (omega x p)``, all of it in the axes of the body (T, 3).
+    """
+    return np.asarray(origin + np.cross(alpha, point) + np.cross(omega, np.cross(omega, point)))
 
 
 def palm_motion(table: PalmTable, start: float, end: float) -> PalmMotion:
