@@ -17,6 +17,7 @@ BEFORE, AFTER = INTACT[: INTACT.index("[task]")], INTACT[INTACT.index("[limits]"
 WAY = '[[task.waypoint]]\ntime = "1 s"\n'
 PUSH = '[[task.push]]\nforce = "3 N"\ndirection = "x"\n'
 PALM = '[task.palm]\naxis = "x"\nturn = "90 deg"\n'
+PATH = '[task.palm]\npath = "arm.csv"\ninertia = true\n'
 CASES = [
     # name, the [task] table without its head, key, fragment, the line pointed at
     ("no-time", '[[task.waypoint]]\nposition = ["0 m", "0 m", "1 mm"]', "task.waypoint[0].time", "key 'time'", ""),
@@ -66,6 +67,14 @@ CASES = [
     ("shift-of-two", '[task.palm]\nshift = ["1 m", "0 m"]', "task.palm.shift", "expected 3 lengths, got 2", "shift"),
     ("inertia-word", PALM + 'inertia = "yes"', "task.palm.inertia", "expected true or false, got 'yes'", "inertia"),
     ("inertia-number", PALM + "inertia = 1", "task.palm.inertia", "expected true or false, got 1", "inertia"),
+    ("path-and-axis", PATH + 'axis = "x"', "task.palm.axis", "leave out 'axis', or path", "axis"),
+    ("path-and-turn", PATH + 'turn = "90 deg"', "task.palm.turn", "leave out 'turn', or path", "turn"),
+    ("path-and-shift", PATH + 'shift = ["1 m", "0 m", "0 m"]', "task.palm.shift", "leave out 'shift', or", "shift"),
+    ("path-and-profile", PATH + 'profile = "linear"', "task.palm.profile", "leave out 'profile', or path", "linear"),
+    ("path-changes-nothing", '[task.palm]\npath = "arm.csv"', "task.palm", "changes nothing without", ""),
+    ("path-gone", PATH, "task.palm.path", "arm.csv", 'path = "arm.csv"'),
+    ("path-number", "[task.palm]\npath = 3", "task.palm.path", "expected a string, got 3", "path"),
+    ("path-one-knot", "knots = 1\n" + PATH, "task.knots", "moves or turns needs at least 2 knots", "knots = 1"),
     ("jerk", PALM + 'inertia = true\nprofile = "linear"', "task.palm.profile", "use 'min-jerk' or 'cubic'", "linear"),
     ("no-force", '[[task.push]]\ndirection = "x"', "task.push[0].force", "missing key 'force'", ""),
     ("pull", PUSH.replace("3 N", "-3 N"), "task.push[0].force", "must be at least 0", "force"),

@@ -27,7 +27,7 @@ def span(task: TaskTable, tables: Mapping[str, Table]) -> tuple[float, float]:
     """
     ends = [float(table.times[-1]) for table in tables.values()] + [point.time for point in task.waypoint[-1:]]
     end = max(ends) if ends and "duration" not in task.model_fields_set else task.duration
-    if not tables or task.knots is not None or task.curved:
+    if not tables or task.knots is not None or task.timed:
         return 0.0, end
     return min(*(float(table.times[0]) for table in tables.values()), end), end
 

@@ -14,7 +14,8 @@ from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.inertia import inertia
 from synergrip.plans.reading.knots import cover, knots, span
 from synergrip.plans.reading.moves import moved
-from synergrip.plans.reading.palm_motion import Weight, palm_motion
+from synergrip.plans.reading.palm_motion import Palm, Weight, palm_motion
+from synergrip.plans.reading.palm_path import judge_path, palm_path
 from synergrip.plans.reading.profiles import Constant, Profile, Profiles, Tabled
 from synergrip.plans.reading.pushes import Push, pushed
 from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, Table, read_table
@@ -23,6 +24,7 @@ from synergrip.plans.reading.waypoints import passing
 from synergrip.plans.task import Wanted
 
 Kind = Literal["hold", "motion", "modes", "mode moves"]
+PATH = "palm.path"
 
 
 @dataclass(frozen=True)
@@ -65,11 +67,16 @@ def loads(task: TaskTable, folder: Path, mass: float, thing: Object | None = Non
 def _tables(task: TaskTable, folder: Path) -> dict[str, Table]:
     """Return the CSV files of the task by their keys, or everything that is wrong with them."""
     tables, issues = dict[str, Table](), list[Issue]()
-    for key, columns in (("wrench", WRENCH), ("motion", MOTION), ("modes", MODES)):
-        name = getattr(task, key)
+    files: tuple[tuple[str, object, tuple[str, ...] | str], ...] = (
+        ("wrench", task.wrench, WRENCH), ("motion", task.motion, MOTION), ("modes", task.modes, MODES),
+        (PATH, task.palm and task.palm.path, MOTION),
+    )  # fmt: skip
+    for key, name, columns in files:
         try:
             if isinstance(name, str):
                 tables[key] = read_table(folder / name, columns, f"task.{key}")
+            if key == PATH and key in tables:
+                judge_path(tables[key], task.palm is not None and task.palm.inertia)
         except InputError as error:
             issues += error.issues
     if issues:
@@ -99,13 +106,20 @@ def _load(
         found.append(Tabled(tables["wrench"]))
     elif task.wrench is not None:
         found.append(Constant(frozen(task.wrench)))
-    palm = palm_motion(task.palm, start, end) if task.palm is not None else None
+    palm = _palm(task, tables, start, end)
     if task.gravity is not None:
         weight = mass * np.array(task.gravity)
         found.append(Weight(frozen(weight), palm) if palm else Constant(frozen([*weight, 0, 0, 0])))
     if palm is not None and task.palm is not None and task.palm.inertia:
         found.append(inertia(thing, mass, palm))
     return found
+
+
+def _palm(task: TaskTable, tables: dict[str, Table], start: float, end: float) -> Palm | None:
+    """Return how the palm moves; None when it stands still."""
+    if PATH in tables:
+        return palm_path(tables[PATH], start, end)
+    return None if task.palm is None else palm_motion(task.palm, start, end)
 
 
 def _wanted(task: TaskTable, tables: dict[str, Table], start: float, end: float) -> tuple[Kind, str, Profile]:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from synergrip.errors import Issue
-from synergrip.fields import Angle, Axis, Length, Table, Time, Written, array_of, listed, unit_schema, with_unit
+from synergrip.fields import Angle, Axis, Length, Table, Text, Time, Written, array_of, listed, unit_schema, with_unit
 
 CourseName = Literal["min-jerk", "cubic", "linear"]
 WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]
@@ -39,14 +39,34 @@ class PalmTable(Table):
         default=None, description="whole displacement of the palm: 3 lengths along its axes at the start"
     )
     profile: CourseName = Field(default="min-jerk", description=COURSE)
+    path: Text | None = Field(
+        default=None,
+        description="the motion of an arm instead: CSV file with t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad, the pose of "
+        "the palm frame in any fixed frame",
+    )
     inertia: bool = Field(
         default=False, strict=True, description="whether the moving palm loads the object by its inertia"
     )
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse half a turn, no motion, a shift that changes nothing, and a start at once."""
+        """Refuse a motion given twice, half a turn, no motion, a shift that changes nothing, and a start at once."""
+        if self.path is not None:
+            yield from self._path_issues()
+        else:
+            yield from self._turn_issues()
+
+    def _path_issues(self) -> Iterable[Issue]:
+        for name in ("axis", "turn", "shift", "profile"):
+            if name in self.model_fields_set:
+                message = f"'path' tells the whole motion of the palm; leave out '{name}', or path"
+                yield Issue(message, key=name, on_key=True)
+
+    def _turn_issues(self) -> Iterable[Issue]:
         if self.turn is None and self.shift is None:
-            yield Issue('the palm needs a motion: axis with turn, for example axis = "x", turn = "90 deg", or shift')
+            message = (
+                'the palm needs a motion: axis with turn, for example axis = "x", turn = "90 deg", or shift, or path'
+            )
+            yield Issue(message)
         elif self.turn is not None and self.axis is None:
             yield Issue("missing key 'axis' (axis of the turn: x, y, z or 3 numbers)", key="axis", on_key=True)
         elif self.turn is None and self.axis is not None:

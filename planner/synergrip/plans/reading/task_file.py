@@ -79,9 +79,15 @@ class TaskTable(Table):
 
     @property
     def curved(self) -> bool:
-        """True when something happens that no table of lines tells: waypoints, pushes that come and go, inertia."""
+        """True when something bends between the lines of all tables: what is timed, and a path of the palm."""
+        return self.timed or (self.palm is not None and self.palm.path is not None)
+
+    @property
+    def timed(self) -> bool:
+        """True when something happens that no table tells: waypoints, pushes that come and go, a palm with inertia."""
         pushes = any(not push.lasting for push in self.push)
-        return bool(self.waypoint) or pushes or (self.palm is not None and self.palm.inertia)
+        palm = self.palm is not None and self.palm.path is None and self.palm.inertia
+        return bool(self.waypoint) or pushes or palm
 
     def issues(self) -> Iterable[Issue]:
         """Refuse a motion given twice, what changes nothing, and too few instants to move."""
