@@ -9,6 +9,7 @@ from scipy import sparse
 from synergrip.conic.program import Program
 from synergrip.conic.rows import Kind
 from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.conic.solvers.interrupts import interruptible
 from synergrip.linalg import frozen
 
 CLAIMS = {
@@ -23,7 +24,11 @@ CLAIMS = {
 
 
 def solve(program: Program, settings: Settings) -> Solution:
-    """Solve a program with Clarabel."""
+    """Solve a program with Clarabel.
+
+    Raises:
+        KeyboardInterrupt: somebody interrupted it.
+    """
     import clarabel
 
     options = clarabel.DefaultSettings()
@@ -35,7 +40,11 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.static_regularization_constant = settings.regularisation
     options.max_step_fraction = settings.step
     P = sparse.triu(program.P, format="csc")
-    found = clarabel.DefaultSolver(P, program.q, program.A, program.b, _cones(program), options).solve()
+    with interruptible() as stop:
+        solver = clarabel.DefaultSolver(P, program.q, program.A, program.b, _cones(program), options)
+        solver.set_termination_callback(stop)
+        found = solver.solve()
+        del solver  # its memory, many times that of the program
     status = str(found.status)
     return Solution(
         CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,

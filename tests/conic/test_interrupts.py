@@ -1,0 +1,104 @@
+"""Ctrl-C while a solver runs stops it at its next iteration, and nothing else changes."""
+
+from __future__ import annotations
+
+import signal
+import threading
+
+import pytest
+
+from synergrip.conic.solution import Claim, Settings
+from synergrip.conic.solvers import clarabel_
+from synergrip.conic.solvers.interrupts import interruptible
+from synergrip.plans.planning import plan
+from synergrip.plans.problem import load_problem
+from synergrip.plans.solvers import Answerer
+
+
+def test_an_interrupt_is_told_to_the_solver_and_raised_when_it_has_stopped() -> None:
+    said: list[bool] = []
+
+    def solved() -> None:
+        with interruptible() as stop:
+            said.append(stop(None))
+            signal.raise_signal(signal.SIGINT)
+            said.append(stop(None))
+
+    with pytest.raises(KeyboardInterrupt):
+        solved()
+    assert said == [False, True]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_without_an_interrupt_nothing_is_raised() -> None:
+    with interruptible() as stop:
+        assert not stop(None)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_program_that_handles_signals_itself_is_left_alone() -> None:
+    heard: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        with interruptible() as stop:
+            signal.raise_signal(signal.SIGINT)
+            assert not stop(None)
+        assert heard == [signal.SIGINT]
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_another_thread_solves_as_ever() -> None:
+    problem = load_problem("pinch-soft")
+    found: list[object] = []
+    thread = threading.Thread(target=lambda: found.append(plan(problem.grasp, problem.task).verdict))
+    thread.start()
+    thread.join()
+    assert found == ["feasible"]
+
+
+def test_clarabel_stops_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, iterations = load_problem("barrett-ball-hold"), []
+    cones = clarabel_._cones
+
+    def interrupted(program):
+        signal.raise_signal(signal.SIGINT)
+        return cones(program)
+
+    class Counting:
+        """The solver, which tells how often it asks whether to stop."""
+
+        def __init__(self, *data) -> None:
+            self.solver = solver(*data)
+
+        def set_termination_callback(self, stop) -> None:
+            self.solver.set_termination_callback(lambda info: (iterations.append(info), stop(info))[1])
+
+        def solve(self):
+            return self.solver.solve()
+
+    import clarabel
+
+    solver = clarabel.DefaultSolver
+    monkeypatch.setattr(clarabel, "DefaultSolver", Counting)
+    answer = first_answer(problem)
+    assert answer.claim is Claim.OPTIMAL
+    assert len(iterations) > 5
+    iterations.clear()
+    monkeypatch.setattr(clarabel_, "_cones", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        first_answer(problem)
+    assert len(iterations) <= 1
+
+
+def first_answer(problem):
+    """Return what Clarabel says of the first question that planning asks."""
+    asked = []
+
+    def ask(question, program, settings):
+        asked.append(clarabel_.solve(program, Settings()))
+        return asked[-1]
+
+    answerer: Answerer = ask
+    plan(problem.grasp, problem.task, answerer)
+    return asked[0]
