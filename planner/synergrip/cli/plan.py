@@ -9,7 +9,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from synergrip.cli.progress import telling
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show, writing
+from synergrip.cli.running import (
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    color,
+    picture_format,
+    show,
+    writing,
+)
 
 if TYPE_CHECKING:
     from synergrip.plans.outcome import Outcome
@@ -27,6 +37,9 @@ def plan(
     ] = "clarabel",
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
+    ] = None,
+    picture: Annotated[
+        Path | None, typer.Option("--picture", metavar="FILE", help="Draw the plan over time: .svg, .png or .pdf.")
     ] = None,
     pyramids: Annotated[
         int | None,
@@ -47,6 +60,7 @@ def plan(
         from synergrip.reports.plan_files import FORMATS, write_outcome
         from synergrip.reports.text_plan import outcome_text
 
+        picture_format(picture)
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
         loaded = load_problem(problem, overrides or [])
         folder = output or Path("out") / loaded.name
@@ -63,7 +77,10 @@ def plan(
         if save_program:
             with writing("--save-program", save_program):
                 _save(outcome, save_program)
-        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()) + cost, lambda: document)
+        drawn = ""
+        if picture and _drawn(outcome, loaded.title, picture):
+            document["picture"], drawn = str(picture), f"\nwrote {picture}"
+        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()) + cost + drawn, lambda: document)
     raise typer.Exit(outcome.exit_code)
 
 
@@ -76,3 +93,16 @@ def _save(outcome: Outcome, path: Path) -> None:
         print(f"no program was solved, so '{path}' was not written", file=sys.stderr)
     else:
         program.save(path)
+
+
+def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
+    """Draw a plan; say so when there is none."""
+    from synergrip.plans.outcome import Plan
+    from synergrip.reports.pictures.plan_picture import draw_plan
+
+    if not isinstance(outcome, Plan):
+        print(f"there is no plan, so '{picture}' was not drawn", file=sys.stderr)
+        return False
+    with writing("--picture", picture):
+        draw_plan(outcome, title, picture)
+    return True
