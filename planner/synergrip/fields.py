@@ -73,7 +73,9 @@ def number(value: object, *, above: float = -math.inf, at_least: float = -math.i
         InputError: no number, not finite, not greater than `above` or less than `at_least`.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError.at("", f"expected a number, got {shown(value)}")
+        plain = re.match(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\b", value.strip()) if isinstance(value, str) else None
+        advice = f"; there is no unit here, write {plain[0]}" if plain else ""
+        raise InputError.at("", f"expected a number, got {shown(value)}{advice}")
     if not math.isfinite(value):
         raise InputError.at("", f"{value} is not a finite number")
     return bounded(float(value), shown(value), above=above, at_least=at_least)

@@ -10,10 +10,14 @@ import pytest
 from typer.testing import CliRunner
 
 from synergrip.cli.app import app
+from synergrip.conic.program import Program
+from synergrip.conic.solution import Settings, Solution
 from synergrip.plans.front import ROOM, front, largest
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
+from synergrip.plans.question import Question
+from synergrip.plans.solvers import SOLVERS
 
 
 @pytest.mark.parametrize("name", ["barrett-ball-hold", "utah-mit-ball"])
@@ -51,7 +55,7 @@ def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:
 def test_the_verb_prints_a_line_for_each_point() -> None:
     found = CliRunner().invoke(app, ["front", "utah-mit-ball", "-n", "3"])
     assert found.exit_code == 0
-    assert len(found.stdout.splitlines()) == 3 + 1 + 3  # read, task, blank; header; points
+    assert len(found.stdout.splitlines()) == 4 + 1 + 3  # read, task, front, blank; header; points
     document = json.loads(CliRunner().invoke(app, ["front", "utah-mit-ball", "-n", "3", "--format", "json"]).stdout)
     assert [sorted(point) for point in document["front"]] == [["dz_r", "margin_N", "peak_normal_N"]] * 3
 
@@ -60,3 +64,26 @@ def test_a_task_that_cannot_be_done_has_no_front() -> None:
     found = CliRunner().invoke(app, ["front", "barrett-ball-lift"])
     assert found.exit_code == 1
     assert "infeasible" in found.stdout
+
+
+@pytest.mark.parametrize("goal", ["least peak normal force", "least contact effort"])
+def test_an_interrupt_ends_the_front_and_keeps_whole_points_only(goal: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether it comes in the first goal of the third point or in its second goal, after which there is a plan."""
+    arguments = ["front", "utah-mit-ball", "-n", "5", "--format", "json"]
+    whole = json.loads(CliRunner().invoke(app, arguments).stdout)["front"]
+    asked: list[str] = []
+
+    def interrupted(question: Question, program: Program, settings: Settings) -> Solution:
+        asked.append(question.goal.name)
+        if asked.count("least peak normal force") == 3 and question.goal.name == goal:
+            raise KeyboardInterrupt
+        return clarabel(question, program, settings)
+
+    clarabel = SOLVERS["clarabel"]
+    monkeypatch.setitem(SOLVERS, "clarabel", interrupted)
+    found = CliRunner().invoke(app, arguments)
+    assert found.exit_code == 130
+    document = json.loads(found.stdout)
+    assert document["interrupted"] is True
+    assert document["front"] == whole[:2]
+    assert asked[-1] == goal

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ def test_a_limit_that_is_passed_is_told_in_the_units_of_the_table(unit, said):
     problem = load_problem("pinch-soft")
     one = np.ones(1)
     passed = Usage("limit", unit, ("item",), np.array([[2.1]]), -2 * one, 2 * one, one, np.array([0.5]))
-    answer = replace(plan(problem.grasp, problem.task), between=Between(16, 0.1, 0.0, (passed,)))
+    answer = replace(plan(problem.grasp, problem.task), between=Between(16, 0.1, 0.0, 1.0, (passed,)))
     assert said in " ".join(" ".join(between_lines(answer)).split())
 
 
@@ -41,7 +42,7 @@ def test_what_leaves_its_straight_line_is_told(load: float, path: float, said: s
     problem = load_problem("pinch-soft")
     one = np.ones(1)
     kept = Usage("limit", "m", ("item",), np.array([[1.0]]), -2 * one, 2 * one, one, np.array([0.5]))
-    answer = replace(plan(problem.grasp, problem.task), between=Between(16, load, path, (kept,)))
+    answer = replace(plan(problem.grasp, problem.task), between=Between(16, load, path, 1.0, (kept,)))
     assert said in " ".join(" ".join(between_lines(answer)).split())
 
 
@@ -52,3 +53,14 @@ def test_the_document_tells_the_bounds_of_the_limits_as_at_the_knots():
     told = ("name", "unit", "lower", "upper")
     assert [[each[key] for key in told] for each in found["limits"]] == [[each[key] for key in told] for each in knots]
     assert all(each["lower"] is not None or each["upper"] is not None for each in found["limits"])
+
+
+def test_a_motion_that_falls_between_the_knots_is_noted(tmp_path: Path) -> None:
+    """Up and down again between two knots: the plan stays where it is, and says so."""
+    file = tmp_path / "up.csv"
+    file.write_text("t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad\n0,0,0,0,0,0,0\n1,0,0,0.002,0,0,0\n2,0,0,0,0,0,0\n")
+    for knots, noted in ((2, True), (8, True), (40, False), (9, False)):  # an odd number of knots has one at the top
+        overrides = ["task.move=[]", f"task.motion='{file}'", "task.between='report'", f"task.knots={knots}"]
+        problem = load_problem("gripper-box", [*overrides, "goal={minimise='effort'}"])
+        notes = plan(problem.grasp, problem.task).notes
+        assert any("between its knots the plan goes straight" in note for note in notes) is noted

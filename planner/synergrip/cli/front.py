@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from synergrip.cli.progress import telling
+from synergrip.cli.progress import counted, telling
 from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
 
 
@@ -37,10 +37,11 @@ def front(
             document = outcome_document(loaded.title, loaded.grasp, best, loaded.notes)
             show(form, lambda: "\n".join(verdict_lines(loaded, best, color())), lambda: document)
             raise typer.Exit(best.exit_code)
-        points, interrupted = [], False
+        points, interrupted = [], best.interrupted
         try:
-            for point in points_of(best, count, solver):
+            for point in points_of(best, count, solver) if not interrupted else ():
                 points.append(point)  # one by one, so that an interrupt keeps the finished ones
+                counted(len(points), count, "points")
         except KeyboardInterrupt:
             interrupted = True
         show(form, lambda: front_text(loaded, points, interrupted), lambda: front_document(points, interrupted))

@@ -17,12 +17,21 @@ LONG = 50_000
 
 def telling(answer: Answerer) -> Answerer:
     """Return the same solver, which says what it is about to solve when that takes long."""
+    from synergrip.conic.decide import ATTEMPTS
 
     def told(question: Question, program: Program, settings: Settings) -> Solution:
         rows, unknowns = program.A.shape
         if rows >= LONG:
             what = f"{question.goal.name}, {program.knots} knots: {unknowns} variables, {rows} rows"
-            print(f"solving  {what} ...", file=sys.stderr, flush=True)
+            attempt = ATTEMPTS.index(settings) + 1 if settings in ATTEMPTS else 1
+            again = f", attempt {attempt} of {len(ATTEMPTS)}" if attempt > 1 else ""
+            print(f"solving  {what}{again} ...", file=sys.stderr, flush=True)
         return answer(question, program, settings)
 
     return told
+
+
+def counted(done: int, of: int, what: str) -> None:
+    """Tell on a terminal how much of a long work is done, on one line that is written over and wiped at the end."""
+    if sys.stderr.isatty():
+        print(f"\r{done} of {of} {what} " if done < of else "\r\x1b[K", end="", file=sys.stderr, flush=True)

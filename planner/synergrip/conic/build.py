@@ -33,22 +33,26 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
     blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost))
-    return program if situation.courses is None else _of_courses(program, situation.courses)
+    if situation.courses is None:
+        return program
+    return _of_courses(program, situation.courses, 1.0 if extra else situation.divisor)
 
 
 def _constant(cost: Objective) -> float:
     return sum(float((part.constant**2).sum()) / 2 for part in cost.squares)
 
 
-def _of_courses(program: Program, courses: Array) -> Program:
-    """Return the program whose unknowns are the coefficients of courses in time (T, f)."""
+def _of_courses(program: Program, courses: Array, divisor: float) -> Program:
+    """Return the program whose unknowns are coefficients of courses in time (T, f), its squares over `divisor`."""
     extra = len(program.q) - program.knots * program.n_v
     N = sparse.block_diag([sparse.kron(courses, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc")
     # the coefficients that make v are the pseudo-inverse of the courses times v
     sizes = np.abs(np.linalg.pinv(courses)) @ program.unknowns(program.box)
     bounds = np.concatenate([sizes.ravel(), program.box[len(program.box) - extra :]])
     P, A = sparse.csc_matrix(N.T @ program.P @ N), sparse.csc_matrix(program.A @ N)
-    return replace(program, P=P, q=frozen(N.T @ program.q), A=A, box=frozen(bounds), courses=courses)
+    P.data /= divisor
+    q, constant = frozen(np.asarray(N.T @ program.q) / divisor), program.constant / divisor
+    return replace(program, P=P, q=q, A=A, box=frozen(bounds), courses=courses, constant=constant)
 
 
 def _rows(situation: Situation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:

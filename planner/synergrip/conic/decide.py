@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal
 from synergrip.conic.program import Program
@@ -31,6 +31,8 @@ class Decision:
     solution: Solution
     certificate: Certificate
     attempts: int
+    seconds: float
+    """In the solver, all attempts together."""
 
     @property
     def optimal(self) -> bool:
@@ -54,17 +56,18 @@ def decide(goal: str, program: Program, solver: Solver) -> Decision:
     The best is the verified one with the smallest violation. When none verifies, neither does the decision; it is
     then, if there is one, the claim that keeps every row and has the smallest gap.
     """
-    best: Decision | None = None
+    best, seconds = None, 0.0
     for attempt, settings in enumerate(ATTEMPTS, start=1):
         solution = solver(program, settings)
-        decision = Decision(goal, program, solution, judge(program, solution), attempt)
+        seconds += solution.seconds
+        decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
         if best is None or _rank(decision) < _rank(best):
             best = decision
         if decision.certificate.sharp:
             return decision
     if best is None:
         raise ValueError("the retry chain is empty")
-    return best
+    return replace(best, seconds=seconds)
 
 
 def _rank(decision: Decision) -> tuple[int, float]:

@@ -37,10 +37,6 @@ class Affine:
         """Return ``y_k + known[k]`` for known (T, m)."""
         return replace(self, constant=frozen(self.constant + known))
 
-    def minus(self, other: Affine) -> Affine:
-        """Return ``y - other`` of the same unknowns."""
-        return Affine(frozen(self.matrix - other.matrix), frozen(self.constant - other.constant))
-
     def at(self, v: Array) -> Array:
         """Return y (T, m) at unknowns v (T, n_v)."""
         return np.asarray(self.constant + v @ self.matrix.T)
@@ -113,6 +109,14 @@ class Situation:
         return frozen(matrix[:, np.any(matrix, axis=0)] / self.units.motion)
 
     @property
+    def divisor(self) -> float:
+        """What sums of squares over the knots are divided by when one unknown speaks of all of them.
+
+        As sums they would drown the limits, as averages the limits them; the root between the two was found by trying.
+        """
+        return 1.0 if self.courses is None else float(np.cbrt(self.knots))
+
+    @property
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
@@ -156,12 +160,17 @@ class Situation:
     @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
-        return self.reference.after(self.response.du_dzr).plus(self.load_change @ self.response.du_dw.T)
+        rigid, sag = self.beta.after(self.spaces.Gamma_ucs), self.load_change @ self.response.du_dw.T
+        return Affine(frozen(self.elastic.matrix + rigid.matrix), frozen(self.elastic.constant + rigid.constant + sag))
 
     @cached_property
     def elastic(self) -> Affine:
-        """What the references move the object beyond the rigid motion Gamma_ucs beta (6) [m, rad]."""
-        return self.reference.after(self.response.du_dzr).minus(self.beta.after(self.spaces.Gamma_ucs))
+        """What the references move the object beyond the rigid motion Gamma_ucs beta (6) [m, rad].
+
+        By (35) that comes from alpha alone; taken from it, no rounding makes it depend on gamma.
+        """
+        of_alpha = self.response.du_dzr @ self.coordinates.inverse[:, : self.coordinates.dimensions[0]]
+        return self.alpha.after(of_alpha)
 
     def in_units_of(self, force: float) -> Situation:
         """Return the same situation, of which nothing is determined, with unknown forces in another unit [N]."""

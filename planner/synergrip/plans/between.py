@@ -29,6 +29,8 @@ class Between:
     """[N] how far the load leaves the straight line between knots (moments over the length)."""
     path_departure: float
     """[m] how far the wanted motion leaves it (rotations times the length)."""
+    path_size: float
+    """[m] how far the object is wanted from where it starts, at most."""
     usages: tuple[Usage, ...]
     """What the plan uses there of every limit that speaks of an instant, friction cones first."""
 
@@ -64,7 +66,8 @@ def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion
     usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
     scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
     loads, paths = (scale.wrench(load), scale.wrench(bend.wrench)), (scale.twist(path), scale.twist(bend.wanted))
-    return Between(bend.samples, _size(*loads), _size(*paths), usages)
+    size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))
+    return Between(bend.samples, _size(*loads), _size(*paths), size, usages)
 
 
 def _size(departure: Array, whole: Array) -> float:

@@ -36,17 +36,22 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
     """Yield `count` points of the Pareto front of slip margin and peak normal force, by growing margin.
 
     The margins are evenly spaced from the one the task asks for to just below the largest, where a plan is left to
-    find. A point that cannot be verified is left out.
+    find. A point that cannot be verified is left out. The goals of the task play no part.
 
     Args:
         best: the plan with the largest margin, from `largest`.
         count: at least 2.
         solver: who answers.
+
+    Raises:
+        KeyboardInterrupt: somebody interrupted; the points before are whole.
     """
     grasp, task, most = best.analysis.grasp, best.task, best.largest_margin or 0.0
     top = most - ROOM * max(most, best.situation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
         point = plan(grasp, replace(task, margin=float(margin), order=("peak_force", "effort")), solver)
+        if isinstance(point, Plan) and point.interrupted:  # half of its goals make no point
+            raise KeyboardInterrupt
         if isinstance(point, Plan):
             yield FrontPoint(float(margin), float(point.motion.forces[:, grasp.normal_rows].max()), point)
 

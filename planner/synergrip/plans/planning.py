@@ -141,7 +141,7 @@ class _Planner:
 
     def _shortfall(self, largest: float | None) -> str:
         if largest is None:
-            return "no internal force that the synergies control keeps all limits at once"
+            return "nothing that the synergies control keeps all limits at once"
         if largest < 0:
             return f"within these limits some contact slips: its friction cone is missed by {-largest:.4g} N or more"
         most, asked = apart(largest, self.task.margin)
@@ -154,4 +154,4 @@ class _Planner:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"
         forces = self.situation.force.constant + free.program.unknowns(free.solution.x) @ self.situation.force.matrix.T
         normal = forces[:, self.analysis.grasp.normal_rows].max()
-        return f"without the limits on forces, torques, efforts and references {normal:.4g} N of normal force would do"
+        return f"for the friction cones alone {normal:.4g} N of normal force would do"

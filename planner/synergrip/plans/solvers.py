@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from synergrip.conic.decide import Decision, decide
 from synergrip.conic.program import Program
+from synergrip.conic.relaxed import proven
 from synergrip.conic.solution import Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
@@ -15,7 +16,7 @@ Answerer = Callable[[Question, Program, Settings], Solution]
 
 
 def _clarabel(question: Question, program: Program, settings: Settings) -> Solution:
-    return clarabel_.solve(program, settings)
+    return proven(clarabel_.solve(program, settings), program, clarabel_.solve, settings)
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:

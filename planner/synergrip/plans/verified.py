@@ -12,7 +12,7 @@ from synergrip.conic.situation import Situation
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.analysis import Analysis
-from synergrip.plans.between import between
+from synergrip.plans.between import Between, between
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
@@ -23,6 +23,8 @@ EXACT = 1e-8
 """Relative tolerance of the identities: equilibrium, internal force, forward maps."""
 FAR = 0.05
 """Displacement, relative to the grasp's length, from which on contacts and Jacobians are no longer where they were."""
+PASSED_OVER = 0.1
+"""Share of the wanted motion that happens between knots, from which on a plan is hardly its plan."""
 LIMIT = 1e-6
 """Relative tolerance of the limits, against the load or the limit itself."""
 
@@ -49,7 +51,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     return Plan(
         task, analysis, situation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*stage.notes, *_ranges_left(task, situation, motion), *_far(analysis, motion)), found,
+        (*stage.notes, *_ranges_left(task, situation, motion), *_far(analysis, motion), *_missed(found)), found,
         stage.interrupted,
     )  # fmt: skip
 
@@ -76,6 +78,16 @@ def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
         yield (
             f"the object moves by up to {1e3 * size:.3g} mm, {size / scale.length:.0%} of the size of the grasp "
             f"({1e3 * scale.length:.3g} mm): the linear model is a first guess there"
+        )
+
+
+def _missed(between: Between | None) -> Iterator[str]:
+    """Yield a note when the knots are so far apart that the plan passes over a good part of the wanted motion."""
+    if between is not None and between.path_departure > PASSED_OVER * between.path_size:
+        size, bend = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))
+        yield (
+            f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to {bend}"
+            ": more knots follow it more closely"
         )
 
 

@@ -22,7 +22,8 @@ def front_text(problem: Problem, points: Sequence[FrontPoint], interrupted: bool
     rows = [
         (f"{point.margin:.4g} N", f"{point.peak:.4g} N", torque) for point, torque in zip(points, torques, strict=True)
     ]
-    lines = [*problem_lines(problem), "", table(header, rows, right=(0, 1, 2))]
+    asked = "front    least peak normal force for each margin, then least effort; the problem's own goals play no part"
+    lines = [*problem_lines(problem), asked, "", table(header, rows, right=(0, 1, 2))]
     return "\n".join(lines + (["interrupted; these points are finished"] if interrupted else []))
 
 

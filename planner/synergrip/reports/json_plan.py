@@ -14,6 +14,7 @@ from synergrip.linalg import Array
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
+from synergrip.plans.units import units_of
 from synergrip.plans.verified import LIMIT
 from synergrip.reports.json_analysis import refusal_document, structure_document
 
@@ -53,6 +54,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
     return {name: array.tolist() for name, array in arrays.items()} | {
         "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
         "largest_margin_N": plan.largest_margin,
+        "force_unit_N": units_of(plan.analysis, plan.task).force,
         "limits": [usage_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
         "checks": [check_document(check) for check in plan.checks],
@@ -123,7 +125,7 @@ def _program(decision: Decision) -> dict[str, Any]:
     return {
         "goal": decision.goal, "unknowns": len(decision.program.q), "rows": len(decision.program.b),
         "cones": sum(block.cones for block in decision.program.blocks), "solver": solution.solver,
-        "status": solution.status, "iterations": solution.iterations, "seconds": solution.seconds,
+        "status": solution.status, "iterations": solution.iterations, "seconds": decision.seconds,
         "attempts": decision.attempts, "certificate": certificate_document(decision.certificate),
     }  # fmt: skip
 

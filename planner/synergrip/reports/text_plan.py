@@ -55,21 +55,22 @@ def _solved(decisions: Sequence[Decision]) -> Iterator[str]:
             ("solve    " if i == 0 else "         ")
             + f"{decision.goal}: {many(len(program.q), 'variable')}, {many(cones, 'cone')}, "
             f"{solution.solver}: {solution.claim} in {many(solution.iterations, 'iteration')}, "
-            f"{1e3 * solution.seconds:.2g} ms{tries}"
+            f"{1e3 * decision.seconds:.2g} ms{tries}"
         )
 
 
 def _checked(plan: Plan) -> str:
-    certificate = plan.decisions[-1].certificate
+    certificates = [decision.certificate for decision in plan.decisions]
+    cones, gap = (max(getattr(each, name) for each in certificates) for name in ("primal_residual", "gap"))
     missing = [decision.goal for decision in plan.decisions if not decision.optimal]
     verified = f"not of {', '.join(missing)}" if missing else "✓"  # then a note says what that means
-    parts = [f"certificate {verified} (cones {certificate.primal_residual:.0e}, gap {certificate.gap:.0e})"]
+    parts = [f"certificate {verified} (cones {cones:.0e}, gap {gap:.0e})"]
     parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks]
     return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
-    k, i = first_largest(-plan.margins)
+    k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = ", the largest there is" if plan.largest_margin is not None else ""
     worst = round(float(plan.margins[k, i]), 9)
@@ -81,7 +82,10 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
         names = plan.analysis.grasp.synergies
         rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
     scale = plan.analysis.response.scale
+    limited = {usage.title for usage in plan.usages}
     for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
+        if name in limited:
+            continue
         sizes = np.linalg.norm(scale.twist(motion), axis=1)
         at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
         rows.append((name, f"{round(1e3 * sizes[at], 6):.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
@@ -147,7 +151,7 @@ def refused_lines(word: str, stage: str, why: str) -> Iterator[str]:
     """Yield the verdict with what the stage means, and the reason."""
     names = {
         "restraint": "the object is not held", "count": "too many motions for the synergies",
-        "direction": "the synergies cannot produce this motion", "magnitude": "the forces do not suffice",
+        "direction": "the synergies cannot produce this motion", "magnitude": "the limits leave no plan",
     }  # fmt: skip
     yield f"{word}  {names.get(stage, stage)} (stage: {stage})"
     yield from wrapped("Why      ", why)

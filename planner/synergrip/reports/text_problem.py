@@ -31,14 +31,25 @@ def problem_lines(problem: Problem) -> Iterator[str]:
 def _task(problem: Problem) -> Iterator[str]:
     task = problem.task
     knots = len(task.times)
-    wanted = {"hold": "hold the object", "motion": "move the object", "modes": "move along Γ_ucs"}
     span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
-    yield wanted.get(task.wanted.kind, "move along Γ_ucs") + span
+    yield _wanted(task) + span
     yield many(knots, "knot")
     load = np.linalg.norm(task.wrench[:, :3], axis=1).max(initial=0.0)
     yield f"load up to {load:.3g} N"
     yield f"slip margin ≥ {task.margin:.4g} N"
     yield ", then ".join(_goal(name, task) for name in task.order)
+
+
+def _wanted(task: Task) -> str:
+    """Return what is wanted of the object, with its size: numbers in the wrong unit are seen there first."""
+    values = task.wanted.values
+    if task.wanted.kind == "hold":
+        return "hold the object"
+    if task.wanted.kind != "motion":
+        return f"move along Γ_ucs by up to {1e3 * np.linalg.norm(values, axis=1).max():.3g} mm"
+    shift, turn = (np.linalg.norm(part, axis=1).max() for part in (values[:, :3], values[:, 3:]))
+    sizes = [f"{1e3 * shift:.3g} mm"] * bool(shift) + [f"{np.degrees(turn):.3g} deg"] * bool(turn)
+    return "move the object" + f" by up to {' and '.join(sizes)}" * bool(sizes)
 
 
 def _goal(name: GoalName, task: Task) -> str:

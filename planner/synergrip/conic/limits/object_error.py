@@ -30,7 +30,7 @@ class ObjectError:
     axes: tuple[AxisName, ...] = AXES
     part: Literal["whole", "rigid"] = "whole"
     key: str = "limits.drift"
-    title: str = "object error"
+    title: str = "object drift"
     watches: ClassVar[Watches] = "motion"
     couples_knots: ClassVar[bool] = False
 

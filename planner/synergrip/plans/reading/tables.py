@@ -61,12 +61,13 @@ def read_table(path: Path, columns: Sequence[str] | str, key: str = "", *, other
 
 def _order(reader: CellReader, header: list[Cell], columns: Sequence[str] | str, others: bool) -> list[int]:
     """Return the position of ``t_s`` and of every wanted column in the header."""
-    names = [cell.text for cell in header]
+    names, open_ended = [cell.text for cell in header], isinstance(columns, str)
     if isinstance(columns, str):
         count = max(sum(name.startswith(columns) for name in names), 1)
         columns = [f"{columns}{index}" for index in range(1, count + 1)]
     wanted = [TIME, *columns]
-    if reader.is_header(header, f"the header {','.join(wanted)}"):
+    expected = f"the header {','.join([*wanted, *(['...'] if open_ended else [])])}"
+    if reader.is_header(header, expected):
         for index, cell in enumerate(header):
             if cell.text not in wanted and not others:
                 missing = [name for name in wanted if name not in names]
@@ -77,7 +78,7 @@ def _order(reader: CellReader, header: list[Cell], columns: Sequence[str] | str,
         if absent:
             listed = ", ".join(f"'{name}'" for name in absent)
             plural = "s" if len(absent) > 1 else ""
-            reader.refuse(f"missing column{plural} {listed}; expected the header {','.join(wanted)}", header[0])
+            reader.refuse(f"missing column{plural} {listed}; expected {expected}", header[0])
     return [] if reader.issues else [names.index(name) for name in wanted]
 
 

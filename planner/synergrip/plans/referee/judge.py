@@ -24,7 +24,7 @@ from synergrip.plans.analysis import Analysis
 from synergrip.plans.goals import goals_of
 from synergrip.plans.question import Question
 from synergrip.plans.referee.formulas import friction, write_goal, write_limit
-from synergrip.plans.referee.model import Cone, Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.plans.referee.model import Cone, Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
 from synergrip.plans.referee.reserve import Courses
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
@@ -134,9 +134,10 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     situation = question.situation
-    model = _left_open(_written(situation, situation.times, situation.wrench, situation.wanted), situation)
+    model = _written(situation, situation.times, situation.wrench, situation.wanted, _references(situation))
     wish, limits = _cones(question, model)
-    posed = pose(model, wish.cost, [*limits, *wish.cones])
+    cost = wish.cost / situation.divisor if wish.scalar is None else wish.cost
+    posed = pose(model, cost, [*limits, *wish.cones])
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
     if claim is Claim.NOTHING:
@@ -151,31 +152,28 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
 
 
-def _written(situation: Situation, times: Array, wrench: Array, wanted: Array) -> Model:
+def _written(
+    situation: Situation, times: Array, wrench: Array, wanted: Array, references: Expression | None = None
+) -> Model:
     """Write the situation down at the knots, or at other instants, where beta is on straight lines between them."""
     whole = situation.whole
     return write_model(
         situation.response, situation.coordinates, times=times, wrench=wrench,
         beta=interpolated(times, situation.times, whole.beta.constant), units=situation.units,
         redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
-        rigid_basis=situation.spaces.Gamma_ucs,
+        rigid_basis=situation.spaces.Gamma_ucs, references=references,
     )  # fmt: skip
 
 
-def _left_open(model: Model, situation: Situation) -> Model:
-    """Confine the references to what earlier goals have left open of them."""
+def _references(situation: Situation) -> Expression | None:
+    """Return the references as far as earlier goals have left them open; None when none has determined anything."""
     import cvxpy as cp
 
     if situation.origin is None:
-        return model
-    matrix, constant = situation.reference.matrix, situation.reference.constant
-    courses = situation.courses
+        return None
+    matrix, constant, courses = situation.reference.matrix, situation.reference.constant, situation.courses
     free = cp.Variable((situation.knots if courses is None else courses.shape[1], situation.n_v))
-    apart = model.dz_r - constant - (free if courses is None else courses @ free) @ matrix.T
-    size = float(np.linalg.norm(matrix, 2))
-    names = tuple(f"reference {i + 1}" for i in range(len(matrix)))
-    # in place of what ties beta and gamma, which the constant part keeps
-    return replace(model, tracking=(Cone("goals before", names, apart / size, equality=True),))
+    return constant + (free if courses is None else courses @ free) @ matrix.T
 
 
 def _cones(question: Question, model: Model) -> tuple[Wish, list[Cone]]:

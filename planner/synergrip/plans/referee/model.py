@@ -109,13 +109,14 @@ class Wish:
 def write_model(
     response: Response, coordinates: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
-    beta_basis: Array, wanted: Array, rigid_basis: Array,
+    beta_basis: Array, wanted: Array, rigid_basis: Array, references: Expression | None = None,
 ) -> Model:  # fmt: skip
-    """Write a task down; the arguments are those of `situate`."""
+    """Write a task down; the arguments are those of `situate`, and the references when they are not wholly free."""
     import cvxpy as cp
 
-    grasp = response.grasp
-    dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
+    grasp, dz_r = response.grasp, references
+    if dz_r is None:
+        dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
     known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
     n_alpha, n_beta, _ = coordinates.dimensions
     _, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
@@ -123,10 +124,10 @@ def write_model(
     tracking = []
     beyond = dz_r @ to_beta.T - beta
     fixed = np.linalg.svd(beta_basis, full_matrices=True)[0][:, beta_basis.shape[1] :]  # where beta may not leave it
-    if fixed.size:
+    if fixed.size and references is None:  # else they are such that beta is as wanted, and gamma as it is to be
         sizes = np.linalg.norm(fixed.T @ to_beta, axis=1)
         tracking.append(_equal("beta", beyond @ (fixed / sizes)))
-    if len(to_gamma) and not redundancy:
+    if len(to_gamma) and not redundancy and references is None:
         tracking.append(_equal("gamma", gamma))
     return Model(
         response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T,

@@ -1,0 +1,54 @@
+"""A sharper proof that a program has no answer: by how much its cones must be widened at least.
+
+A solver stops at a ray as soon as it is one to its tolerance. Where nothing bounds the unknowns, what such a ray
+leaves over may still outweigh what it proves. The multipliers of the relaxed program are a ray as well, and optimised.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy import sparse
+
+from synergrip.conic.box import LARGEST
+from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.decide import Solver
+from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Kind
+from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.linalg import Array, frozen
+
+
+def relaxed(program: Program) -> Program:
+    """Return: the least number t, from -1 on, by which the heads of all cones must grow at once. It has an answer.
+
+    Its last unknown is t, its last row ``1 + t >= 0``; the others are those of the program.
+    """
+    n = len(program.q)
+    heads = sparse.csc_matrix(-_heads(program)[:, None])
+    last = sparse.csc_matrix(([-1.0], ([0], [n])), shape=(1, n + 1))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, heads]), last]))
+    return replace(
+        program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A,
+        b=frozen(np.append(program.b, 1.0)), box=frozen(np.append(program.box, LARGEST)), constant=0.0,
+        blocks=(*program.blocks, Block("relaxation", Kind.NONNEGATIVE, 1, ("least",), 0, 1)),
+    )  # fmt: skip
+
+
+def _heads(program: Program) -> Array:
+    """Return (m,) 1 at the first row of every cone, 0 elsewhere; equalities have none."""
+    heads = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        if block.kind is not Kind.ZERO:
+            heads[rows][:: block.dim] = 1.0
+    return heads
+
+
+def proven(found: Solution, program: Program, solver: Solver, settings: Settings) -> Solution:
+    """Return a claim of infeasibility with a ray that proves it, where its own does not and there is one."""
+    if found.claim is not Claim.INFEASIBLE or judge_infeasible(program, found.z).verified:
+        return found
+    second = solver(relaxed(program), settings)
+    iterations, seconds = found.iterations + second.iterations, found.seconds + second.seconds
+    return replace(found, z=frozen(second.z[: len(program.b)]), iterations=iterations, seconds=seconds)
