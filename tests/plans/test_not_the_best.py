@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from synergrip.conic.certificate import NEARLY
+from synergrip.conic.decide import ATTEMPTS
+from synergrip.conic.goals.least_motion import SOFTER, STIFFEST, LeastMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
@@ -102,3 +104,22 @@ def test_a_later_goal_that_is_nearly_reached_counts_with_a_note() -> None:
     assert isinstance(outcome, Plan)
     assert [decision.goal for decision in outcome.decisions] == ["least travel", "least torque effort"]
     assert "'least torque effort' was not verified; by the solver's own bound" in said(outcome)[0]
+
+
+def test_smoothness_that_does_not_verify_is_looked_at_less_closely() -> None:
+    asked: list[float] = []
+
+    def blunt(question: Question, best: Solution) -> Solution:
+        goal = question.goal
+        assert isinstance(goal, LeastMotion)
+        asked.append(goal.stiffest)
+        return nothing(question, best) if goal.stiffest > SOFTER else best
+
+    outcome, best = planned("['smooth']", {"smoothest references": blunt}), planned("['smooth']", {})
+    assert isinstance(outcome, Plan)
+    assert isinstance(best, Plan)
+    assert asked == [STIFFEST] * len(ATTEMPTS) + [SOFTER]
+    assert not said(outcome)
+    np.testing.assert_allclose(outcome.motion.dz_r, best.motion.dz_r, atol=1e-6)
+    assert LeastMotion("accelerations", exact=True).softer is None
+    assert LeastMotion().softer is None

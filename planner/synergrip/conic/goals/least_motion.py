@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Literal, Self
 
 import numpy as np
 
@@ -12,6 +12,11 @@ from synergrip.conic.goals.goal import Objective, Squares, squares_of
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
+
+STIFFEST, SOFTER = 1e6, 1e4
+"""Largest entry of the Hessian of rates and accelerations; beyond, rounding would drown the bends between many knots.
+A factor before a goal changes no plan, only how closely the solver looks at it: less closely, but to the end, with the
+second, which is for programs that do not verify with the first."""
 
 
 @dataclass(frozen=True)
@@ -28,11 +33,20 @@ class LeastMotion:
     of: Literal["references", "rates", "accelerations"] = "references"
     exact: bool = False
     """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
+    stiffest: float = STIFFEST
+    """What that factor makes of the largest entry of the Hessian, at most."""
 
     @property
     def name(self) -> str:
         """Name in messages."""
         return {"references": "least motion", "rates": "least travel", "accelerations": "smoothest references"}[self.of]
+
+    @property
+    def softer(self) -> Self | None:
+        """The same goal looked at less closely; None when there is no such way."""
+        if self.exact or self.of == "references" or self.stiffest <= SOFTER:
+            return None
+        return replace(self, stiffest=SOFTER)
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
         """Return none."""
@@ -46,12 +60,7 @@ class LeastMotion:
         order = 1 if self.of == "rates" else 2
         if situation.knots <= order:
             return Objective()
-        return Objective((_differences(situation, order, unit, np.inf if self.exact else STIFFEST),))
-
-
-STIFFEST = 1e6
-"""Largest entry of the Hessian of rates and accelerations; beyond, rounding would drown the bends between many knots.
-A factor before a goal changes no plan, only how closely the solver looks at it."""
+        return Objective((_differences(situation, order, unit, np.inf if self.exact else self.stiffest),))
 
 
 def _differences(situation: Situation, order: int, unit: float, stiffest: float) -> Squares:

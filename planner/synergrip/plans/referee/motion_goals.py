@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.goals.centred_joints import CentredJoints
-from synergrip.conic.goals.least_motion import STIFFEST, LeastMotion
+from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.plans.referee.model import Model, Wish
 from synergrip.plans.referee.motion_formulas import times_rows
@@ -38,7 +38,7 @@ def least_motion(model: Model, goal: LeastMotion) -> Wish:
         span = (h[1:] + h[:-1]) / 2
         parts = times_rows(1 / np.sqrt(span), rates[1:] - rates[:-1])
         stiffest = float(((1 / h[1:] + 1 / h[:-1]) ** 2 / span).max())  # the middle weight is the largest, squared
-    factor = len(model.times) if goal.exact else min(float(len(model.times)), STIFFEST / stiffest)
+    factor = len(model.times) if goal.exact else min(float(len(model.times)), goal.stiffest / stiffest)
     return Wish(0.5 * factor * cp.sum_squares(parts))
 
 
