@@ -29,7 +29,7 @@ BETWEEN = 'task.between="report"'
 LIMITS = 'limits={margin="0.5 N", normal_force="20 N", joint_torque="hand", synergy_rate=0.5}'
 CVXPY_KNOTS = 10_000
 """More than that takes the CVXPY model minutes."""
-RUNS = 3
+RUNS = 5
 
 
 def measured(run: Callable[[], object]) -> tuple[float, float]:
