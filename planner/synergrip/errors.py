@@ -140,6 +140,12 @@ class SelfCheckError(SynergripError):
     exit_code = 4
 
 
+def raise_issues(issues: Sequence[Issue]) -> None:
+    """Raise an `InputError` of all issues, if there are any."""
+    if issues:
+        raise InputError(issues)
+
+
 def suggest(word: str, valid: Iterable[str]) -> str:
     """Return ``; did you mean 'x'?`` for the nearest valid word, or an empty string."""
     close = get_close_matches(str(word), list(valid), n=1, cutoff=0.6)

@@ -21,7 +21,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from synergrip.documents import LARGEST_NUMBER
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio
 from synergrip.validation import refusing, shown
 
@@ -115,8 +115,7 @@ def _each(read: Callable[[Any], Any], entries: list[tuple[str, Any]]) -> tuple[A
             results.append(read(entry))
         except InputError as error:
             issues += error.under(key).issues
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return tuple(results)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.positions import KeyPath, dotted
 
 _PART = re.compile(r"""(?:"([^"]+)"|'([^']+)'|([^.\[\]"'\s=]+))((?:\[\d{1,9}\])*)(\.(?=.)|\Z)""")
@@ -71,8 +71,7 @@ def apply_overrides(data: dict[str, Any], texts: Sequence[str]) -> tuple[dict[st
             issues += error.issues
         else:
             applied.append(override)
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return changed, tuple(applied)
 
 

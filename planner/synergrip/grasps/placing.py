@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.ball import REACH, ball_centre
 from synergrip.grasps.contact import Contact, ContactKind, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
@@ -129,8 +129,7 @@ def _contacts(
         spots = same_spots([contact.name for contact, _ in found], [contact.point for contact, _ in found])
         hint = "; move one of them, or leave it out"
         issues = [Issue(message + hint, key=touches[later].key) for later, message in spots]
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return tuple(contact for contact, _ in found), tuple(gap for _, gap in found)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents import parse, read_document
-from synergrip.errors import InputError, Issue, one_of, suggest
+from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
 from synergrip.files import bundled
 from synergrip.hands.bare import bare_hand
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
@@ -26,7 +26,7 @@ from synergrip.hands.synergies import (
     override,
 )
 from synergrip.hands.tree import LinkTree
-from synergrip.hands.units import joint_kinds, judge, misfits, synergy_kinds
+from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
@@ -112,7 +112,7 @@ def _hand(
     compliance = each_of("", rows, lambda _, table: _compliance(tree, table)).values()
     kinds = joint_kinds(joints)
     offsets = [(f"couplings.{follower}.offset", follower, each.offset) for follower, each in file.couplings.items()]
-    judge(misfits(offsets, kinds))
+    raise_issues(misfits(offsets, kinds))
     sets = synergy_sets(file, folder, kinds, couplings)
     postures = each_of("postures", file.postures, lambda _, table: _posture(table, sets, kinds, couplings))
     if judge_postures:
@@ -142,8 +142,7 @@ def _check_names(tree: LinkTree, names: Sequence[str]) -> None:
     if missing and not issues:
         listed = ", ".join(f"'{name}'" for name in missing)
         issues.append(Issue(f"the model also moves {listed}; list every moving joint", key="joint"))
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
 
 
 def _joint(tree: LinkTree, table: JointTable) -> Joint:
@@ -179,7 +178,7 @@ def _posture(
         for name in table.joints:
             if name not in kinds:
                 raise InputError.at(f"joints.{name}", one_of(name, kinds), on_key=True)
-        judge(misfits([(f"joints.{name}", name, value) for name, value in table.joints.items()], kinds))
+        raise_issues(misfits([(f"joints.{name}", name, value) for name, value in table.joints.items()], kinds))
         return frozen(joint_posture(tuple(kinds), table.joints, couplings))
     if table.set is not None and table.set not in sets:
         raise InputError.at("set", one_of(table.set, sets))
@@ -189,11 +188,10 @@ def _posture(
         if name not in chosen.synergies:
             raise InputError.at(f"synergies.{name}", one_of(name, chosen.synergies), on_key=True)
     given = [(f"synergies.{name}", name, value) for name, value in values.items()]
-    judge(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
+    raise_issues(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
     return joint_values(chosen, values)
 
 
 def _within_limits(joints: Sequence[Joint], q: Array) -> None:
     issues = outside_limits(joints, q, "")
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)

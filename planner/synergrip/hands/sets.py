@@ -10,12 +10,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.hand_file import HandFile, SynergyTable
 from synergrip.hands.synergies import ALL, JOINTS, coupling_map, joint_set, joint_vector
 from synergrip.hands.synergy_file import read_synergies
-from synergrip.hands.units import judge, misfits, synergy_kinds
+from synergrip.hands.units import misfits, synergy_kinds
 from synergrip.linalg import frozen
 
 Given = TypeVar("Given")
@@ -30,8 +30,7 @@ def each_of(prefix: str, tables: Mapping[str, Given], make: Callable[[str, Given
             made[name] = make(name, table)
         except InputError as error:
             issues += error.under(f"{prefix}.{name}" if prefix else name).issues
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return made
 
 
@@ -74,7 +73,7 @@ def _set(
             raise InputError.at(f"effort_limits.{each}", one_of(each, made.synergies), on_key=True)
     efforts = [(f"effort_limits.{each}", each, limit) for each, limit in table.effort_limits.items()]
     offsets = [(f"offset.{joint}", joint, value) for joint, value in table.offset.items()]
-    judge([*misfits(offsets, kinds), *misfits(efforts, synergy_kinds(made, kinds.values()), "synergy")])
+    raise_issues([*misfits(offsets, kinds), *misfits(efforts, synergy_kinds(made, kinds.values()), "synergy")])
     limits = frozen([table.effort_limits.get(each, math.inf) for each in made.synergies])
     return replace(made, title=table.title or made.title, effort_limits=limits)
 

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from synergrip.errors import InputError, Issue, one_of, suggest
+from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
-from synergrip.hands.units import SI_UNITS, joint_kinds, judge, misfits, synergy_kinds
+from synergrip.hands.units import SI_UNITS, joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import SHOWN_IN
 
@@ -123,8 +123,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
     else:
         q = _values(hand, synergies, wish, key)
     issues = outside_limits(hand.joints, q, key)
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return frozen(q)
 
 
@@ -135,9 +134,9 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
     chosen, kinds = set_named(hand, synergies, keys, key), joint_kinds(hand.joints)
     given = [(keys[name], name, value) for name, value in wish.items()]
     if chosen is not None:
-        judge(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
+        raise_issues(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
         return joint_values(chosen, wish)
-    judge(misfits(given, kinds))
+    raise_issues(misfits(given, kinds))
     return joint_posture(hand.joint_names, wish, hand.couplings)
 
 

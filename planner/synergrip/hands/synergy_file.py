@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.fields import Name, Number, Table, Version
 from synergrip.files import atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
@@ -150,8 +150,7 @@ def _matrix(file: SynergyFile, joints: Sequence[str], couplings: Mapping[str, Co
     issues = [
         Issue(one_of(name, joints), key=f"joints[{i}]") for i, name in enumerate(file.joints) if name not in joints
     ]
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     given = np.column_stack([np.array(file.S), file.offset if file.offset is not None else np.zeros(len(file.S))])
     values = np.zeros((len(joints), given.shape[1]))
     values[[list(joints).index(name) for name in file.joints]] = given
@@ -163,6 +162,5 @@ def _matrix(file: SynergyFile, joints: Sequence[str], couplings: Mapping[str, Co
         if name in file.joints and np.abs(whole[row] - values[row]).max() > AGREEMENT * np.abs(values).max():
             message = f"the row of '{name}' is not what its coupling to {drivers(couplings[name])} says; leave it out"
             issues.append(Issue(message, key=f"joints[{file.joints.index(name)}]"))
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return frozen(whole[:, :-1]), frozen(whole[:, -1])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import Issue
 from synergrip.fields import Measured
 from synergrip.hands.hand import Joint, SynergySet
 from synergrip.quantities import EXAMPLES
@@ -87,12 +87,6 @@ def list_misfits(
     if len(set(kinds.values())) > 1:
         return [replace(issue, message=f"{issue.message}; some turn, some slide: give a list") for issue in issues]
     return issues
-
-
-def judge(issues: Sequence[Issue]) -> None:
-    """Raise the issues, if there are any."""
-    if issues:
-        raise InputError(issues)
 
 
 def _article(kind: str) -> str:

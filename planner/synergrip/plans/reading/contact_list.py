@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import Issue, raise_issues
 from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
 
 
@@ -71,8 +71,7 @@ def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]
             contacts.append(_complete(shared, source.entry, source.key))
         issues += [issue for issue in found if issue not in issues]
     issues += _same_names(contacts)
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return tuple(contacts)
 
 

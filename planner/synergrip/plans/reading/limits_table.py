@@ -19,9 +19,9 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.grasp import Grasp
-from synergrip.hands.units import judge, list_misfits, torque_unit
+from synergrip.hands.units import list_misfits, torque_unit
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.limits_file import GoalTable
 from synergrip.plans.reading.problem_file import ProblemFile
@@ -71,7 +71,7 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
     given = {key: getattr(table, key) for key in readers}
     limits = tuple(readers[key](value) for key, value in given.items() if value is not None)
     bounded = any(given[name] is not None for name in BOUNDING)
-    judge([*_without_ranges(file.goal, hand), *(() if bounded else _without_bound(file.goal))])
+    raise_issues([*_without_ranges(file.goal, hand), *(() if bounded else _without_bound(file.goal))])
     return limits
 
 
@@ -95,8 +95,7 @@ def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
         for contact, rest in zip(grasp.contacts, left, strict=True)
         if contact.friction and rest <= 0
     ]  # fmt: skip
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     ratios = [np.tan(rest) / contact.friction if contact.friction else 1.0
               for contact, rest in zip(grasp.contacts, left, strict=True)]  # fmt: skip
     return FrictionReserve(frozen(ratios), "limits.margin_angle", "slip margin with angle")
@@ -116,7 +115,7 @@ def _efforts(each: _Bounds, value: Given, hand: HandLimits) -> ActuatorEffort:
 
 def _judge_units(key: str, value: Given, kinds: Mapping[str, str], what: str) -> None:
     if kinds and not isinstance(value, str):
-        judge(list_misfits(key, value, kinds, what))
+        raise_issues(list_misfits(key, value, kinds, what))
 
 
 def _ranges(hand: HandLimits) -> JointRange:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.inertia import inertia
@@ -79,8 +79,7 @@ def _tables(task: TaskTable, folder: Path) -> dict[str, Table]:
                 judge_path(tables[key], task.palm is not None and task.palm.inertia)
         except InputError as error:
             issues += error.issues
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return tables
 
 
@@ -92,8 +91,7 @@ def _pushes(task: TaskTable, start: float, end: float) -> list[Push]:
             found.append(pushed(table, f"task.push[{index}]", start, end))
         except InputError as error:
             issues += error.issues
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return found
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.conic.limits.joint_range import JointRange
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.clearance import collision_notes
 from synergrip.grasps.closing import close, unknown_surface
 from synergrip.grasps.closing_direction import closing_direction
@@ -22,7 +22,7 @@ from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.parted import parted_notes
 from synergrip.hands.synergies import posture
-from synergrip.hands.units import joint_kinds, judge, list_misfits, synergy_kinds, unit_of
+from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
 from synergrip.plans.reading.hand_table import HandTable
@@ -92,8 +92,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
         direction = closing_direction(hand, synergies, table.close) if table.close is not None else None
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     if direction is not None:
         q = close(hand, q, direction, thing, touches)
     placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
@@ -109,7 +108,7 @@ def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Arra
     C_q = hand.C_q
     if table.compliance.joint is not None:
         C_q = _diagonal(table.compliance.joint, hand.joint_names, "hand.compliance.joint", "joints")
-        judge(list_misfits("hand.compliance.joint", table.compliance.joint, joint_kinds(hand.joints)))
+        raise_issues(list_misfits("hand.compliance.joint", table.compliance.joint, joint_kinds(hand.joints)))
     C_z = _diagonal(table.compliance.synergy or 0.0, synergies.synergies, "hand.compliance.synergy", "synergies")
     return synergies, q, C_q, C_z
 
