@@ -27,9 +27,11 @@ class Bend:
         """Factor by which a curve that is a parabola in each interval exceeds its samples there at most."""
         return 1.0 + 8.0 / self.samples**2
 
-    def worst(self, values: Array) -> Array:
-        """Return the largest in each interval (intervals, ...) of values (J, ...)."""
-        return np.asarray(values.reshape(-1, self.samples, *values.shape[1:]).max(axis=1))
+    def needed(self, values: Array) -> Array:
+        """Return for every knot (T, ...) the most that values (J, ...) >= 0 can be in the two intervals beside it."""
+        of_interval = self.allowance * values.reshape(-1, self.samples, *values.shape[1:]).max(axis=1, initial=0.0)
+        end = np.zeros((1, *values.shape[1:]))
+        return np.asarray(np.maximum(np.concatenate([end, of_interval]), np.concatenate([of_interval, end])))
 
     def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
         """Return what wrench and wish (J, 6) depart by from straight lines between their values at knots `times`."""

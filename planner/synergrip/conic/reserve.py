@@ -61,9 +61,6 @@ def _with_reserve(rows: Rows, departure: Array, bend: Bend) -> Rows:
         return rows
     cones = departure.reshape(len(departure), len(rows.items), rows.dim)
     need = np.maximum(-cones[:, :, 0], 0.0) + np.linalg.norm(cones[:, :, 1:], axis=2)
-    of_interval = bend.allowance * bend.worst(need)
-    ends = np.zeros((1, len(rows.items)))
-    of_knot = np.maximum(np.vstack([ends, of_interval]), np.vstack([of_interval, ends]))
     constant = np.array(rows.constant)
-    constant[:, :: rows.dim] -= of_knot
+    constant[:, :: rows.dim] -= bend.needed(need)
     return replace(rows, constant=frozen(constant))

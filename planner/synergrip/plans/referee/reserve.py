@@ -36,7 +36,7 @@ class Courses:
         """
         straight, bent = _values(again(self.straight)), _values(again(self.bent))
         return [
-            replace(cone, head=cone.head - _needed(before, after, self.bend))
+            replace(cone, head=cone.head - self.bend.needed(_lost(before, after)))
             for cone, before, after in zip(cones, straight, bent, strict=True)
         ]
 
@@ -53,11 +53,9 @@ def _values(cones: Sequence[Cone]) -> list[tuple[Array, Array | None]]:
     return values
 
 
-def _needed(before: tuple[Array, Array | None], after: tuple[Array, Array | None], bend: Bend) -> Array:
-    """Return how much lower the head must be at every knot, in the shape of the head."""
+def _lost(before: tuple[Array, Array | None], after: tuple[Array, Array | None]) -> Array:
+    """Return what the head loses and the rest gains at every instant, in the shape of the head."""
     need = np.maximum(before[0] - after[0], 0.0)
     if before[1] is not None and after[1] is not None:
         need = need + np.linalg.norm(after[1] - before[1], axis=1)
-    of_interval = bend.allowance * bend.worst(need)
-    ends = np.zeros((1, *need.shape[1:]))
-    return np.asarray(np.maximum(np.concatenate([ends, of_interval]), np.concatenate([of_interval, ends])))
+    return need
