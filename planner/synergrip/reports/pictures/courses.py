@@ -52,9 +52,8 @@ def _usage(usage: Usage) -> Chart:
     order = np.argsort(-(usage.excess / usage.scale).max(axis=0), kind="stable")
     levels = [bound for side in (usage.lower, usage.upper) if len(bound := np.unique(side)) == 1]
     bounds = tuple(float(factor * level[0]) for level in levels if np.isfinite(level[0]))
-    return Chart(
-        usage.title, unit, tuple(usage.items[i] for i in order), factor * usage.value[:, order], bounds
-    )  # fmt: skip
+    names = tuple(usage.items[i] for i in order)
+    return Chart(usage.title, unit, names, factor * usage.value[:, order], bounds)
 
 
 def _unlimited(plan: Plan) -> Iterator[Chart]:

@@ -18,6 +18,34 @@ SPACE = 0.2  # [inch]
 
 
 @dataclass(frozen=True)
+class Heading:
+    """Title and subtitle of a picture, in lines that fit."""
+
+    lines: tuple[tuple[str, float], ...]
+    """Each with the size of its letters."""
+
+    @classmethod
+    def of(cls, title: str, subtitle: str, width: float) -> Heading:
+        """Return the heading of a picture of `width` [inch]; an empty subtitle takes no room."""
+        room = width - 2 * MARGIN
+        lines = [(line, HEADING) for line in fitted(title, room * 0.9, HEADING)]  # bold letters are wider
+        return cls((*lines, *((line, UNDER) for line in fitted(subtitle, room, UNDER))))
+
+    @property
+    def height(self) -> float:
+        """With the space above it [inch]."""
+        return SPACE + sum(LINE * size for _, size in self.lines)
+
+    def write(self, sheet: Sheet) -> None:
+        """Write it at the top of the sheet."""
+        top = SPACE
+        for line, size in self.lines:
+            top += LINE * size
+            title = size == HEADING
+            sheet.write(MARGIN, top, line, size, INK if title else GREY, bold=title)
+
+
+@dataclass(frozen=True)
 class Page:
     """What stands around the panels."""
 
@@ -36,18 +64,13 @@ class Page:
             OSError: the file cannot be written.
         """
         room = self.columns.width - 2 * MARGIN
-        heading = [(line, HEADING) for line in fitted(self.title, room * 0.9, HEADING)]  # bold letters are wider
-        heading += [(line, UNDER) for line in fitted(self.subtitle, room, UNDER)]
+        heading = Heading.of(self.title, self.subtitle, self.columns.width)
         notes = list(chain.from_iterable(fitted(note, room, NOTE) for note in self.notes))
-        head = SPACE + sum(LINE * size for _, size in heading)
+        head = heading.height
         height = head + SPACE + self.columns.blocks * (self.block + SPACE) + LINE * NOTE * len(notes) + SPACE
 
         def fill(sheet: Sheet) -> None:
-            top = SPACE
-            for line, size in heading:
-                top += LINE * size
-                bold = size == HEADING
-                sheet.write(MARGIN, top, line, size, INK if bold else GREY, bold=bold)
+            heading.write(sheet)
             for index in range(self.columns.count):
                 row, left = self.columns.place(index)
                 draw(sheet, index, left, head + SPACE + row * (self.block + SPACE))

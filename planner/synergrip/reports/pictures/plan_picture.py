@@ -9,9 +9,9 @@ import numpy as np
 
 from synergrip.plans.outcome import Plan
 from synergrip.reports.pictures.courses import Chart, charts
-from synergrip.reports.pictures.layout import MARGIN, fitted
-from synergrip.reports.pictures.page import HEADING, LINE, SPACE, UNDER
-from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, GREY, INK, VERMILION, Sheet, write_picture
+from synergrip.reports.pictures.layout import MARGIN
+from synergrip.reports.pictures.page import SPACE, UNDER, Heading
+from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, INK, VERMILION, Sheet, write_picture
 
 WIDE, HIGH = 4.3, 1.75
 """Of a chart [inch]."""
@@ -36,16 +36,11 @@ def draw_plan(plan: Plan, title: str, path: Path) -> None:
     parts = charts(plan)
     width = 2 * (LEFT + WIDE) + MARGIN
     under = f"smallest slip margin {plan.margins.min():.4g} N over {plan.motion.times[-1]:.4g} s; dashed: where a line "
-    heading = [(line, HEADING) for line in fitted(title, (width - 2 * MARGIN) * 0.9, HEADING)]
-    heading += [(line, UNDER) for line in fitted(f"{under}is wanted, and limits", width - 2 * MARGIN, UNDER)]
-    head = SPACE + sum(LINE * size for _, size in heading)
-    block = ABOVE + HIGH + BELOW
+    heading = Heading.of(title, f"{under}is wanted, and limits", width)
+    head, block = heading.height, ABOVE + HIGH + BELOW
 
     def fill(sheet: Sheet) -> None:
-        top = SPACE
-        for line, size in heading:
-            top += LINE * size
-            sheet.write(MARGIN, top, line, size, INK if size == HEADING else GREY, bold=size == HEADING)
+        heading.write(sheet)
         for index, chart in enumerate(parts):
             row, column = divmod(index, 2)
             left, above = LEFT + column * (LEFT + WIDE), head + row * block + ABOVE

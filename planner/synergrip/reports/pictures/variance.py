@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.linalg import Array
-from synergrip.reports.pictures.layout import MARGIN, fitted
-from synergrip.reports.pictures.page import HEADING, LINE, SPACE
+from synergrip.reports.pictures.layout import MARGIN
+from synergrip.reports.pictures.page import SPACE, Heading
 from synergrip.reports.pictures.sheet import BLUE, INK, SKY, Sheet, write_picture
 
 WIDEST, HEIGHT, EACH, LABELS = 12.0, 3.6, 0.55, 0.75  # [inch]
@@ -30,12 +30,11 @@ def draw_variance(shares: Array, path: Path, title: str) -> None:
     """
     count = len(shares)
     width = float(np.clip(EACH * count + 2 * LABELS, 6.5, WIDEST))
-    heading = fitted(title, (width - 2 * MARGIN) * 0.9, HEADING)
-    top = SPACE + LINE * HEADING * len(heading) + SPACE
+    heading = Heading.of(title, "", width)
+    top = heading.height + SPACE
 
     def draw(sheet: Sheet) -> None:
-        for row, line in enumerate(heading, start=1):
-            sheet.write(MARGIN, SPACE + LINE * HEADING * row, line, HEADING, bold=True)
+        heading.write(sheet)
         axes = sheet.chart(LABELS, top, width - LABELS - MARGIN, HEIGHT)
         numbers, percent = np.arange(1, count + 1), 100 * np.asarray(shares)
         total = np.cumsum(percent)
