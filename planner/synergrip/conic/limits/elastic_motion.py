@@ -9,9 +9,10 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.symmetric import norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.conic.situation import Affine, Situation
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 
@@ -44,9 +45,8 @@ class ElasticMotion:
         spaces, coordinates = situation.spaces, situation.coordinates
         _, beta, _ = coordinates.coordinates(motion.dz_r)
         elastic = motion.du - motion.sag - beta @ spaces.Gamma_ucs.T
-        size = np.linalg.norm(situation.response.scale.twist(elastic), axis=1)[:, None]
-        none, bound = frozen([-np.inf]), frozen([self.limit])
-        return Usage("elastic motion", "m", ("object",), size, none, bound, bound, motion.times)
+        size = np.linalg.norm(situation.response.scale.twist(elastic), axis=1)
+        return norm_usage("elastic motion", "m", "object", size, self.limit, motion.times)
 
     def _scaled(self, situation: Situation) -> Affine:
         return situation.elastic.after(situation.response.scale.motion)

@@ -9,9 +9,10 @@ from typing import ClassVar, Literal, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.symmetric import norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.conic.situation import Affine, Situation
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 AxisName = Literal["x", "y", "z", "rx", "ry", "rz"]
@@ -52,9 +53,8 @@ class ObjectError:
         if self.part == "rigid":
             _, beta, _ = situation.coordinates.coordinates(motion.dz_r)
             reached = beta @ situation.spaces.Gamma_ucs.T
-        size = np.linalg.norm((reached - situation.wanted) @ self._weights(situation).T, axis=1)[:, None]
-        none, bound = frozen([-np.inf]), frozen([self.limit])
-        return Usage(self.title, "m", ("object",), size, none, bound, bound, motion.times)
+        size = np.linalg.norm((reached - situation.wanted) @ self._weights(situation).T, axis=1)
+        return norm_usage(self.title, "m", "object", size, self.limit, motion.times)
 
     def _error(self, situation: Situation) -> Affine:
         whole = situation.displacement if self.part == "whole" else situation.beta.after(situation.spaces.Gamma_ucs)
