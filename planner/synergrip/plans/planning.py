@@ -25,7 +25,7 @@ from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
-from synergrip.plans.stages import SLACKS, Stage, not_the_best, through
+from synergrip.plans.stages import Stage, not_the_best, through
 from synergrip.plans.task import Task
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
@@ -69,25 +69,19 @@ class _Planner:
         first, *others = goals_of(self.task)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
-        if not (best.optimal or best.nearly):
+        if not best.nearly:
             return self._without_optimum(best, first)
         notes = () if best.optimal else (not_the_best(best),)
-        stage, largest = Stage(self.situation, limits, first, (best,), notes), None
-        if isinstance(first, LargestMargin):
-            largest = stage.scalar
-            if largest < self.task.margin - SLACKS[0] * self.situation.force_unit:
-                return self._short_of_margin(best, largest)
-        stage = through(stage, others, unasked_goals(self.task), self.solver)
-        return verified_plan(self.task, self.analysis, stage, largest)
+        stage = Stage(self.situation, limits, first, (best,), notes)
+        if stage.falls_short_of(self.task.margin):
+            return self._short_of_margin(best, stage.scalar)
+        last = through(stage, others, unasked_goals(self.task), self.solver)
+        return verified_plan(self.task, self.analysis, last, stage.largest_margin)
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
         decision = ask(Question(self.situation, limits, goal), self.solver)
         self.decisions.append(decision)
         return decision
-
-    def _scalar(self, decision: Decision) -> float:
-        """Return the goal's scalar of a decision [N]."""
-        return float(decision.solution.x[-1]) * self.situation.force_unit
 
     def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
@@ -96,7 +90,8 @@ class _Planner:
                 raise unbounded()
             return self._no_optimum(decision)
         first = self._ask(self.task.kept, LargestMargin())
-        largest = self._scalar(first) if first.optimal else None
+        widest = Stage(self.situation, self.task.kept, LargestMargin(), (first,))
+        largest = widest.largest_margin if first.optimal else None
         if decision.infeasible:
             return self._infeasible(decision, largest)
         if first.infeasible:

@@ -27,14 +27,14 @@ from synergrip.conic.pyramids import (
 )
 from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
-from synergrip.errors import InputError, Issue, SelfCheckError, one_of
+from synergrip.errors import Issue, SelfCheckError, one_of, raise_issues
 from synergrip.plans.check import judge_references
 from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.question import Question
 from synergrip.plans.references import References
 from synergrip.plans.solvers import SOLVERS, ask
-from synergrip.plans.stages import SLACKS, Stage, through
+from synergrip.plans.stages import Stage, through
 from synergrip.plans.task import EFFORTS
 from synergrip.plans.verified import verified_plan
 
@@ -127,8 +127,7 @@ def requested(facets: int, backend: str = "osqp") -> Request:
     if backend not in qpsolvers_.backends():
         found = one_of(backend, qpsolvers_.backends())
         issues.append(Issue(f"{found}; install the solver for qpsolvers to find it", "--qp-solver"))
-    if issues:
-        raise InputError(issues)
+    raise_issues(issues)
     return Request(facets, backend)
 
 
@@ -161,17 +160,15 @@ def _best(cones: Plan, question: Question, first: Decision, facets: int) -> Plan
     task, clarabel = cones.task, SOLVERS["clarabel"]
     if not first.optimal:
         return None
-    stage, largest = Stage(question.situation, question.limits, question.goal, (first,)), None
-    if isinstance(question.goal, LargestMargin):
-        largest = stage.scalar
-        if largest < task.margin - SLACKS[0] * question.situation.force_unit:
-            return None
+    stage = Stage(question.situation, question.limits, question.goal, (first,))
+    if stage.falls_short_of(task.margin):
+        return None
     goals = [goal_in_pyramids(goal, facets) for goal in goals_of(task)[1:]]
-    stage = through(stage, goals, unasked_goals(task), clarabel)
-    if stage.interrupted:  # half of the goals would compare nothing
+    last = through(stage, goals, unasked_goals(task), clarabel)
+    if last.interrupted:  # half of the goals would compare nothing
         raise KeyboardInterrupt
     try:
-        return verified_plan(task, cones.analysis, stage, largest)
+        return verified_plan(task, cones.analysis, last, stage.largest_margin)
     except SelfCheckError:  # of a comparison: the verdict has its own
         return None
 

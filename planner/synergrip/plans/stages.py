@@ -48,6 +48,16 @@ class Stage:
         """The last goal's scalar [N]."""
         return float(self.decisions[-1].solution.x[-1]) * self.situation.force_unit
 
+    @property
+    def largest_margin(self) -> float | None:
+        """The largest margin [N], when that is the last goal."""
+        return self.scalar if isinstance(self.goal, LargestMargin) else None
+
+    def falls_short_of(self, margin: float) -> bool:
+        """Return whether the last goal is the largest margin and does not reach a margin [N]."""
+        largest = self.largest_margin
+        return largest is not None and largest < margin - SLACKS[0] * self.situation.force_unit
+
 
 def through(stage: Stage, goals: Sequence[Goal], unasked: Sequence[Goal], solver: Answerer) -> Stage:
     """Return the stage after further goals.
