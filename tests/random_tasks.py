@@ -159,3 +159,13 @@ def _largest_margin(grasp: Grasp, task: Task) -> float | None:
     )  # fmt: skip
     decision = ask(Question(situation, task.limits, LargestMargin()), SOLVERS["clarabel"])
     return float(decision.solution.x[-1]) * situation.force_unit if decision.optimal else None
+
+
+def moving_random_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
+    """A random task on a grasp over five uneven knots, its load and its modes changing all the time."""
+    grasp, task = random_task_on_grasp(rng)
+    times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))
+    wrench = np.linspace(task.wrench[0], task.wrench[-1], 5) + 0.1 * rng.normal(size=(5, 6)) * [1, 1, 1, 0, 0, 0]
+    dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
+    wanted = Wanted("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
+    return grasp, replace(task, times=times, wrench=frozen(wrench), wanted=wanted)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from random_tasks import random_task_on_grasp
+from random_tasks import moving_random_task
 
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.program import Program
@@ -14,12 +14,11 @@ from synergrip.conic.solution import Settings, Solution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import Task, Wanted
+from synergrip.plans.task import Task
 
 ORDERS = [
     ("margin", "effort", "travel"),
@@ -39,15 +38,11 @@ WEIGHTS = {"effort": 1.0, "torque": 0.3, "smooth": 1e-3}
 def task_of(seed: int, order: tuple[str, ...]) -> tuple[Grasp, Task]:
     """A random task over five uneven knots, without limits that forbid it."""
     rng = np.random.default_rng(seed)
-    grasp, task = random_task_on_grasp(rng)
-    times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))
-    wrench = np.linspace(task.wrench[0], task.wrench[-1], 5) + 0.1 * rng.normal(size=(5, 6)) * [1, 1, 1, 0, 0, 0]
-    dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
-    wanted = Wanted("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
+    grasp, task = moving_random_task(rng)
     start = rng.uniform(-0.5, 0.5, grasp.n_q)
     ranges = JointRange(frozen(start), frozen(start - rng.uniform(0.5, 1, grasp.n_q)), frozen(start + 0.7))
     return grasp, replace(
-        task, times=times, wrench=frozen(wrench), wanted=wanted, order=order, ranges=ranges, margin=0.0,
+        task, order=order, ranges=ranges, margin=0.0,
         weights=WEIGHTS if "weighted" in order else {},
     )  # type: ignore[arg-type]  # fmt: skip
 

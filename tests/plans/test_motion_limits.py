@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from random_tasks import random_task_on_grasp
+from random_tasks import moving_random_task
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_reserve import FrictionReserve
@@ -26,12 +26,7 @@ from synergrip.plans.task import Task, Wanted
 def moving_task(seed: int) -> tuple[Grasp, Task]:
     """A random task over several knots, with limits on motion and, for two seeds in three, other tracking."""
     rng = np.random.default_rng(seed)
-    grasp, task = random_task_on_grasp(rng)
-    times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))
-    wrench = np.linspace(task.wrench[0], task.wrench[-1], 5) + 0.1 * rng.normal(size=(5, 6)) * [1, 1, 1, 0, 0, 0]
-    dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
-    wanted = Wanted("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
-    task = replace(task, times=times, wrench=frozen(wrench), wanted=wanted)
+    grasp, task = moving_random_task(rng)
     task = replace(task, limits=(*task.limits, *_motion_limits(rng, grasp)))
     if seed % 3 == 0:
         return grasp, task
