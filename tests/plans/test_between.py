@@ -13,6 +13,7 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
+from synergrip.plans.marks import Marks
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
@@ -32,6 +33,10 @@ class Swinging:
 
     def wanted_at(self, times: Array) -> Array:
         return np.zeros((len(times), 0))
+
+    @property
+    def marks(self) -> Marks:
+        return Marks(curved=((float(self.spline.x[0]), float(self.spline.x[-1])),))
 
 
 def swinging(seed: int, goal: str) -> tuple[Grasp, Task]:

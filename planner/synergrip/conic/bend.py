@@ -1,50 +1,130 @@
-"""What happens between the knots: loads and wishes that leave the straight line."""
+"""What happens between the knots: loads and wishes that leave the straight line.
+
+Some instants there are corners: lines of a table, starts, ends, peaks, and both sides of a jump. From one corner to the
+next a load is a straight line, and then nothing else can happen, or a smooth curve, which is looked at here and there.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
 
-from synergrip.linalg import Array, interpolated
+from synergrip.linalg import Array, frozen, interpolated
 
 MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 4_000
-"""Instants looked at in each interval between two knots: fewer in a task of many intervals, which bend less."""
+"""Instants looked at in each piece that is curved: fewer in a task of many pieces, which bend less."""
+
+
+@dataclass(frozen=True)
+class Looks:
+    """Load and wish at some instants."""
+
+    times: Array  # (J,) [s]
+    wrench: Array  # (J, 6) external wrench
+    wanted: Array  # (J, 6) wanted displacement of the object
+
+    def of(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Looks:
+        """Return some of them."""
+        return Looks(*(frozen(values[chosen]) for values in (self.times, self.wrench, self.wanted)))
 
 
 @dataclass(frozen=True)
 class Bend:
-    """Loads and wishes between the knots, at the same number of instants in each interval."""
+    """Loads and wishes at and between the knots."""
 
+    grid: Looks
+    """(G,) The knots and the corners between them, in order; a jump has an instant just before and one just after."""
+    corner: NDArray[np.bool_]  # (G,) which of them are corners
+    pieces: NDArray[np.intp]
+    """(P,) which pieces of the grid are curved: piece i goes from instant i to instant i + 1."""
     samples: int
-    """Instants in each interval."""
-    times: Array  # (J,) [s], one interval after the other
-    wrench: Array  # (J, 6) external wrench
-    wanted: Array  # (J, 6) wanted displacement of the object
+    """Evenly spaced instants looked at in each of these."""
+    curved: Looks  # (P * samples,) there
+
+    @property
+    def exact(self) -> bool:
+        """True when all is straight from one instant of the grid to the next, so that they say everything."""
+        return not len(self.pieces)
+
+    @property
+    def corners(self) -> Looks:
+        """The corners (C,) between the knots."""
+        return self.grid.of(self.corner)
+
+    @property
+    def all(self) -> Looks:
+        """Every instant that is looked at, the knots too, in order."""
+        return self.every().grid
+
+    @property
+    def chords(self) -> Looks:
+        """The instants (P * samples,) in the curved pieces, as if these were straight."""
+        share = np.tile(shares(self.samples), len(self.pieces))[:, None]
+        first = np.repeat(self.pieces, self.samples)
+        wrench, wanted = (
+            values[first] * (1 - share) + values[first + 1] * share for values in (self.grid.wrench, self.grid.wanted)
+        )
+        return Looks(self.curved.times, frozen(wrench), frozen(wanted))
 
     @property
     def allowance(self) -> float:
-        """Factor by which a curve that is a parabola in each interval exceeds its samples there at most."""
+        """Factor by which a curve that is a parabola in each piece exceeds its samples there at most."""
         return 1.0 + 8.0 / self.samples**2
 
     def needed(self, values: Array) -> Array:
-        """Return for every knot (T, ...) the most that values (J, ...) >= 0 can be in the two intervals beside it."""
-        of_interval = self.allowance * values.reshape(-1, self.samples, *values.shape[1:]).max(axis=1, initial=0.0)
+        """Return for every instant of the grid (G, ...) the most that values >= 0 can be in the two pieces beside it.
+
+        Args:
+            values: (P * samples, ...) in the curved pieces; they are 0 in the others and on the grid.
+        """
+        if self.exact:
+            return np.zeros((len(self.corner), *values.shape[1:]))
+        of_piece = np.zeros((len(self.corner) - 1, *values.shape[1:]))
+        sampled = values.reshape(len(self.pieces), self.samples, *values.shape[1:])
+        of_piece[self.pieces] = self.allowance * sampled.max(axis=1, initial=0.0)
         end = np.zeros((1, *values.shape[1:]))
-        return np.asarray(np.maximum(np.concatenate([end, of_interval]), np.concatenate([of_interval, end])))
+        return np.asarray(np.maximum(np.concatenate([end, of_piece]), np.concatenate([of_piece, end])))
+
+    def every(self) -> Bend:
+        """Return the same instants, all of them in the grid: what happens at them is asked, and nothing between."""
+        whole = Looks(*(np.concatenate(pair) for pair in zip(*map(_arrays, (self.grid, self.curved)), strict=True)))
+        order = np.argsort(whole.times, kind="stable")
+        corner = np.concatenate([self.corner, np.ones(len(self.curved.times), dtype=bool)])[order]
+        nothing = np.zeros(0, dtype=np.intp)
+        return Bend(whole.of(order), corner, nothing, 0, whole.of(nothing))
 
     def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
-        """Return what wrench and wish (J, 6) depart by from straight lines between their values at knots `times`."""
+        """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""
+        looks = self.all
         return (
-            self.wrench - interpolated(self.times, times, wrench),
-            self.wanted - interpolated(self.times, times, wanted),
+            looks.wrench - interpolated(looks.times, times, wrench),
+            looks.wanted - interpolated(looks.times, times, wanted),
         )
 
 
-def instants(times: Array) -> tuple[int, Array]:
-    """Return how many instants lie in each interval, and all of them (J,)."""
-    intervals = len(times) - 1
-    samples = int(np.clip(SAMPLES_IN_ALL // intervals, LEAST_SAMPLES, MOST_SAMPLES))
-    shares = np.arange(1, samples + 1) / (samples + 1)
-    inner = times[:-1, None] + np.diff(times)[:, None] * shares
-    return samples, inner.ravel()
+def shares(samples: int) -> Array:
+    """Return where in a piece (samples,) the evenly spaced instants lie, from 0 to 1, its ends left out."""
+    return np.arange(1, samples + 1) / (samples + 1)
+
+
+def samples_for(pieces: int) -> int:
+    """Return how many instants are looked at in each of a number of curved pieces."""
+    return int(np.clip(SAMPLES_IN_ALL // pieces, LEAST_SAMPLES, MOST_SAMPLES)) if pieces else 0
+
+
+def knots_in(times: Array, knots: Array) -> sparse.csr_matrix:
+    """Return the matrix (C, T) that makes values at instants (C,) of those at knots (T,), straight between them."""
+    last = np.clip(np.searchsorted(knots, times, side="right"), 1, len(knots) - 1)
+    share = np.clip((times - knots[last - 1]) / (knots[last] - knots[last - 1]), 0.0, 1.0)
+    rows = np.arange(len(times))
+    entries = np.concatenate([1 - share, share]), (np.tile(rows, 2), np.concatenate([last - 1, last]))
+    found = sparse.csr_matrix(entries, shape=(len(times), len(knots)))
+    found.eliminate_zeros()
+    return found
+
+
+def _arrays(looks: Looks) -> tuple[Array, Array, Array]:
+    return looks.times, looks.wrench, looks.wanted

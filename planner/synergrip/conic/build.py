@@ -15,7 +15,7 @@ from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.conic.situation import Situation
-from synergrip.conic.tiles import Tile, stacked
+from synergrip.conic.tiles import Tile, stacked, without_rounding
 from synergrip.linalg import Array, frozen
 
 
@@ -26,12 +26,12 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
     extra = 0 if cost.epigraph is None else 1
     T, n_v = situation.knots, situation.n_v
     P, linear = _quadratic(cost.squares, T, n_v, extra)
-    A = stacked([Tile(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in rows], T, n_v, extra)
+    A = _matrix(rows, T, n_v, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
-    blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
+    blocks = tuple(_block(part, T) for part in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost))
     if situation.courses is None:
         return program
@@ -55,15 +55,39 @@ def _of_courses(program: Program, courses: Array, divisor: float) -> Program:
     return replace(program, P=P, q=q, A=A, box=frozen(bounds), courses=courses, constant=constant)
 
 
+def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
+    """Return the matrix of rows, those at the knots before those between them."""
+    at = [part for part in rows if part.inside is None]
+    tiles = [Tile(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in at]
+    A = stacked(tiles, knots, n_v, extra)
+    between = [_between(part, part.inside, extra) for part in rows if part.inside is not None]
+    return sparse.csc_matrix(sparse.vstack([A, *between])) if between else A
+
+
+def _between(rows: Rows, shares: sparse.csr_matrix, extra: int) -> sparse.csc_matrix:
+    """Return the matrix of rows at instants (K,) that have `shares` (K, T) of the knots."""
+    body = sparse.kron(shares, sparse.csr_matrix(without_rounding(rows.matrix)))
+    scalar = sparse.csr_matrix(np.tile(rows.epigraph, len(rows.constant))[:, None])
+    return sparse.csc_matrix(sparse.hstack([body, scalar]) if extra else body)
+
+
+def _block(rows: Rows, knots: int) -> Block:
+    count = len(rows.constant)
+    if rows.inside is not None:
+        return Block(rows.limit, rows.kind, rows.dim, rows.items, 0, count, between=True)
+    return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - count, count)
+
+
 def _rows(situation: Situation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:
-    """Return the rows of limits and goal, with the reserve for what happens between the knots when it is asked for."""
+    """Return the rows of limits and goal, first those at the knots, then those between them when that is asked for."""
     if situation.bend is None:
         return [part for limit in limits for part in limit.rows(situation)] + list(goal.rows(situation))
     reserve = Reserve.of(situation, situation.bend)
     rows: list[Rows] = []
     for limit in limits:
         rows += limit.rows(situation) if limit.couples_knots else reserve.kept(limit.rows, situation)
-    return rows + reserve.kept(goal.rows, situation)
+    rows += reserve.kept(goal.rows, situation)
+    return sorted(rows, key=lambda part: part.inside is not None)
 
 
 def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, extra: int) -> tuple[sparse.csc_matrix, Array]:

@@ -29,6 +29,9 @@ class Block:
     items: tuple[str, ...]
     first_knot: int
     knots: int
+    """How many; of instants between the knots, how many of these."""
+    between: bool = False
+    """Whether it speaks of instants between the knots."""
 
     @property
     def cones(self) -> int:
@@ -123,8 +126,7 @@ class Program:
             header: dict[str, Any] = json.loads(str(stored["header"]))
             n, m = len(stored["q"]), len(stored["b"])
             blocks = tuple(
-                Block(b["limit"], Kind(b["kind"]), b["dim"], tuple(b["items"]), b["first_knot"], b["knots"])
-                for b in header["blocks"]
+                Block(**(b | {"kind": Kind(b["kind"]), "items": tuple(b["items"])})) for b in header["blocks"]
             )
             matrices = [
                 sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)

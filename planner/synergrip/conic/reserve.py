@@ -1,8 +1,9 @@
-"""The reserve at the knots that keeps a limit between them.
+"""How a limit is kept between the knots: by rows at the corners there, and by a reserve where the load is curved.
 
-References are linear between knots. Were the load linear too, forces would be, and what holds at two knots would
-hold between them, the cones being convex. What the load departs from its line by, ``dw``, adds ``-G+ dw`` to the
-forces, whatever the plan; so a reserve at the knots that is as large keeps every limit in between.
+References are linear between knots. Where the load is, too, forces are, and what holds at both ends of a straight piece
+holds between them, the cones being convex. So rows at the knots and at the corners between them are all there is to
+ask for. What a curved load departs from its chord by, ``dw``, adds ``-G+ dw`` to the forces, whatever the plan; a
+reserve at both ends of the piece that is as large keeps every limit in between. It asks for more than is needed.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy import sparse
 
-from synergrip.conic.bend import Bend
+from synergrip.conic.bend import Bend, Looks, knots_in
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen, interpolated
@@ -20,47 +22,61 @@ from synergrip.linalg import Array, frozen, interpolated
 
 @dataclass(frozen=True)
 class Reserve:
-    """A situation between its knots: along straight lines, and as loads and wishes depart from them."""
+    """A situation between its knots: at the corners, and in curved pieces along their chords and as they bend."""
 
     bend: Bend
+    shares: sparse.csr_matrix  # (C, T) of the knots in each corner
+    corners: Situation
     straight: Situation
     bent: Situation
 
     @classmethod
     def of(cls, situation: Situation, bend: Bend) -> Reserve:
         """Return what lies between the knots of a situation."""
-        lines = [interpolated(bend.times, situation.times, v) for v in (situation.wrench, situation.wanted)]
-        return cls(bend, _between(situation, bend, *lines), _between(situation, bend, bend.wrench, bend.wanted))
+        corners, chords, curved = (_at(situation, looks) for looks in (bend.corners, bend.chords, bend.curved))
+        return cls(bend, knots_in(corners.times, situation.times), corners, chords, curved)
 
     def kept(self, rows_of: Callable[[Situation], Sequence[Rows]], situation: Situation) -> list[Rows]:
-        """Return rows that keep, at every knot, the reserve that the two intervals beside it need.
+        """Return rows at every knot and at every corner, each with the reserve that the curved pieces beside it need.
 
         Args:
             rows_of: what makes the rows of a limit or goal; none of them may couple knots.
             situation: at the knots.
         """
-        triples = zip(rows_of(situation), rows_of(self.straight), rows_of(self.bent), strict=True)
-        return [_with_reserve(at, after.constant - before.constant, self.bend) for at, before, after in triples]
+        groups = zip(*(rows_of(each) for each in (situation, self.corners, self.straight, self.bent)), strict=True)
+        result = []
+        for at, inside, before, after in groups:
+            if at.kind is Kind.ZERO:
+                result.append(at)
+                continue
+            needed = _heads(at, self.bend.needed(_lost(at, after.constant - before.constant)))
+            result.append(replace(at, constant=frozen(at.constant - needed[~self.bend.corner])))
+            if len(self.corners.times):
+                constant = frozen(inside.constant - needed[self.bend.corner])
+                result.append(replace(inside, constant=constant, inside=self.shares))
+        return result
 
 
-def _between(situation: Situation, bend: Bend, wrench: Array, wanted: Array) -> Situation:
-    """Return the situation at the instants between the knots, under a wrench and with a wish (J, 6) of their own."""
+def _at(situation: Situation, looks: Looks) -> Situation:
+    """Return the situation at instants between the knots, under a wrench and with a wish (J, 6) of their own."""
 
     def moved(part: Affine) -> Affine:
-        return replace(part, constant=frozen(interpolated(bend.times, situation.times, part.constant)))
+        return replace(part, constant=frozen(interpolated(looks.times, situation.times, part.constant)))
 
     return replace(
-        situation, times=bend.times, alpha=moved(situation.alpha), beta=moved(situation.beta),
-        gamma=moved(situation.gamma), wrench=frozen(wrench), wanted=frozen(wanted),
+        situation, times=looks.times, alpha=moved(situation.alpha), beta=moved(situation.beta),
+        gamma=moved(situation.gamma), wrench=looks.wrench, wanted=looks.wanted,
     )  # fmt: skip
 
 
-def _with_reserve(rows: Rows, departure: Array, bend: Bend) -> Rows:
-    """Lower the head of every cone by the worst that the intervals beside each knot need."""
-    if rows.kind is Kind.ZERO:
-        return rows
+def _lost(rows: Rows, departure: Array) -> Array:
+    """Return what the head of every cone (J, items) loses, and the rest of it gains, by a departure (J, rows)."""
     cones = departure.reshape(len(departure), len(rows.items), rows.dim)
-    need = np.maximum(-cones[:, :, 0], 0.0) + np.linalg.norm(cones[:, :, 1:], axis=2)
-    constant = np.array(rows.constant)
-    constant[:, :: rows.dim] -= bend.needed(need)
-    return replace(rows, constant=frozen(constant))
+    return np.asarray(np.maximum(-cones[:, :, 0], 0.0) + np.linalg.norm(cones[:, :, 1:], axis=2))
+
+
+def _heads(rows: Rows, values: Array) -> Array:
+    """Return values of cones (G, items) in the place of their heads, 0 in that of the other rows: (G, rows)."""
+    found = np.zeros((len(values), len(rows.items) * rows.dim))
+    found[:, :: rows.dim] = values
+    return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+from scipy import sparse
 
 from synergrip.conic.situation import Affine
 from synergrip.linalg import Array, frozen
@@ -45,6 +46,9 @@ class Rows:
     """(K, len(items) * dim); K = T, or T - lag for rows that couple a knot to one that is `lag` earlier."""
     epigraph: Array  # (len(items) * dim,) coefficient of the goal's scalar s
     earlier: tuple[Earlier, ...] = ()
+    inside: sparse.csr_matrix | None = None
+    """(K, T) what each knot has of each instant, for rows at instants between the knots; None for rows at the knots.
+    The value is then ``matrix (inside v)_k + ...``."""
 
 
 def nonnegative(limit: str, items: tuple[str, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:

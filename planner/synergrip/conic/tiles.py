@@ -87,11 +87,16 @@ def _parts(tile: Tile, top: int, knots: int) -> list[_Part]:
     height, first = len(tile.matrix), knots - tile.count
     result = []
     for part in (Earlier(0, tile.matrix, np.ones(tile.count)), *sorted(tile.earlier, key=lambda part: part.lag)):
-        size = np.abs(part.matrix)
-        row, column = np.nonzero(size > ROUNDING * size.max(axis=1, keepdims=True, initial=0.0))
+        row, column = np.nonzero(without_rounding(part.matrix))
         value = part.matrix[row, column]
         result.append(_Part(first - part.lag, part.weights, top, height, row, column, value))
     return result
+
+
+def without_rounding(matrix: Array) -> Array:
+    """Return the matrix with 0 where an entry is rounding beside the largest of its row."""
+    size = np.abs(matrix)
+    return np.where(size > ROUNDING * size.max(axis=1, keepdims=True, initial=0.0), matrix, 0.0)
 
 
 def _scalar_column(tile: Tile, top: int) -> tuple[NDArray[np.intp], Array]:

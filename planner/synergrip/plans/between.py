@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.bend import Bend, instants
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.situation import Situation
-from synergrip.linalg import Array, frozen, interpolated
+from synergrip.linalg import Array, interpolated
 from synergrip.plans.analysis import Analysis
+from synergrip.plans.instants import bend_of
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import wished
 from synergrip.statics.motion import Motion, forward
 
 STRAIGHT = 1e-9
@@ -24,7 +23,7 @@ class Between:
     """A plan between its knots, its references linear there and its loads as they are."""
 
     samples: int
-    """Instants looked at in each interval."""
+    """Evenly spaced instants looked at in each piece, between knots and corners, in which load or wish is curved."""
     load_departure: float
     """[N] how far the load leaves the straight line between knots (moments over the length)."""
     path_departure: float
@@ -32,7 +31,15 @@ class Between:
     path_size: float
     """[m] how far the object is wanted from where it starts, at most."""
     usages: tuple[Usage, ...]
-    """What the plan uses there of every limit that speaks of an instant, friction cones first."""
+    """What the plan uses of every limit that speaks of an instant, friction cones first: at all that was looked at, the
+    knots too."""
+    corners: tuple[float, ...] = ()
+    """[s] the corners between the knots that were looked at, each once: lines of tables, starts, ends, peaks, jumps."""
+
+    @property
+    def exact(self) -> bool:
+        """True when nothing is curved: what holds at the knots and at the corners then holds at all times."""
+        return self.samples == 0
 
     @property
     def straight(self) -> bool:
@@ -45,29 +52,21 @@ class Between:
         return max(float((usage.excess / usage.scale).max(initial=-np.inf)) for usage in self.usages)
 
 
-def bend_of(task: Task, analysis: Analysis) -> Bend | None:
-    """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
-    if task.course is None or len(task.times) < 2:
-        return None
-    samples, times = instants(task.times)
-    load = task.course.load_at(times)
-    wrench = frozen(interpolated(times, task.times, task.wrench)) if load is None else load
-    return Bend(samples, frozen(times), wrench, wished(analysis, task, task.course.wanted_at(times)))
-
-
 def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion) -> Between | None:
     """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
     bend = situation.bend or bend_of(task, analysis)
     if bend is None:
         return None
-    dz_r = interpolated(bend.times, task.times, motion.dz_r)
-    there = forward(analysis.response, bend.times, dz_r, bend.wrench)
-    dense = replace(situation, times=bend.times, wrench=bend.wrench, wanted=bend.wanted)
+    looks = bend.all
+    dz_r = interpolated(looks.times, task.times, motion.dz_r)
+    there = forward(analysis.response, looks.times, dz_r, looks.wrench)
+    dense = replace(situation, times=looks.times, wrench=looks.wrench, wanted=looks.wanted)
     usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
     scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
-    loads, paths = (scale.wrench(load), scale.wrench(bend.wrench)), (scale.twist(path), scale.twist(bend.wanted))
+    loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.wanted))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))
-    return Between(bend.samples, _size(*loads), _size(*paths), size, usages)
+    corners = tuple(dict.fromkeys(bend.corners.times.tolist()))
+    return Between(bend.samples, _size(*loads), _size(*paths), size, usages, corners)
 
 
 def _size(departure: Array, whole: Array) -> float:

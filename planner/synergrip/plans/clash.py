@@ -32,15 +32,15 @@ def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
 
     Multipliers of the two sides of one limit cancel: what is left is a proof as well, and a stronger one.
     """
-    sums: dict[str, dict[str, Array]] = {}
+    sums: dict[str, dict[tuple[str, bool], Array]] = {}
     for block, rows in program.slices():
         sizes = np.linalg.norm(y[rows].reshape(block.knots, len(block.items), block.dim), axis=2)
         of_limit = sums.setdefault(block.limit, {})
         for item, size in zip(block.items, sizes.T, strict=True):
             name, _, side = item.partition(" (")
             signed = -size if side in ("lowest)", "falling)") else size
-            of_limit[name] = of_limit.get(name, np.zeros(block.knots)) + signed
-    weights = {key: {name: float(np.abs(net).sum()) for name, net in items.items()} for key, items in sums.items()}
+            of_limit[name, block.between] = of_limit.get((name, block.between), np.zeros(block.knots)) + signed
+    weights = {key: _weights(items) for key, items in sums.items()}
     total = sum(sum(items.values()) for items in weights.values())
     found = []
     for key, items in weights.items():
@@ -50,3 +50,11 @@ def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
             heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
             found.append(Clash(key, share, tuple(heavy)))
     return tuple(sorted(found, key=lambda clash: -clash.share))
+
+
+def _weights(sums: dict[tuple[str, bool], Array]) -> dict[str, float]:
+    """Return what each item carries, at the knots and between them."""
+    found: dict[str, float] = {}
+    for (name, _), net in sums.items():
+        found[name] = found.get(name, 0.0) + float(np.abs(net).sum())
+    return found

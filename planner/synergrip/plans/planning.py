@@ -16,9 +16,9 @@ from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis, analyse
-from synergrip.plans.between import bend_of
 from synergrip.plans.clash import clashes
 from synergrip.plans.goals import goals_of, unasked_goals
+from synergrip.plans.holding import held
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
@@ -46,9 +46,7 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         situation = situated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
-    if task.between == "hold":
-        situation = replace(situation, bend=bend_of(task, analysis))
-    return _Planner(task, analysis, situation, solver).outcome()
+    return held(task, analysis, situation, lambda each: _Planner(task, analysis, each, solver).outcome())
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:

@@ -13,6 +13,7 @@ from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.linalg import Array
+from synergrip.plans.marks import Marks
 
 GoalName = Literal[
     "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
@@ -34,6 +35,10 @@ class Course(Protocol):
 
     def wanted_at(self, times: Array) -> Array:
         """Return the wanted motion (T, m) at any times (T,), with the columns of `Wanted.values`."""
+
+    @property
+    def marks(self) -> Marks:
+        """Where load or wish have corners, where the load jumps, and where one of them is curved."""
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from synergrip.plans.outcome import Plan
 from synergrip.plans.verified import LIMIT
 from synergrip.quantities import SHOWN_IN, apart
 from synergrip.reports.tables import wrapped
+from synergrip.reports.text_problem import many
 
 
 def between_lines(plan: Plan) -> Iterator[str]:
@@ -22,7 +23,12 @@ def _departures(between: Between) -> Iterator[str]:
     if between.straight:
         yield "loads and wishes are straight lines from knot to knot"
         return
-    yield f"{between.samples} instants in each interval"
+    looked = [many(len(between.corners), "corner") + " between the knots"] * bool(between.corners)
+    if between.samples:
+        looked.append(f"{between.samples} instants in each {'curved piece' if looked else 'interval'}")
+    else:
+        looked.append("straight lines from one to the next")
+    yield " and ".join(looked)
     if between.load_departure:
         yield f"the load leaves its straight line by {between.load_departure:.3g} N"
     if between.path_departure:
@@ -32,7 +38,8 @@ def _departures(between: Between) -> Iterator[str]:
 
 def _held(plan: Plan, between: Between) -> str:
     if between.excess <= LIMIT:
-        return "all limits hold there too"
+        exact = between.exact and not between.straight
+        return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
     worst = max(between.usages, key=lambda usage: float((usage.excess / usage.scale).max()))
     k, i = worst.worst()
     value = float(worst.value[k, i])

@@ -72,7 +72,7 @@ def _checked(plan: Plan) -> str:
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
     k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
-    best = ", the largest there is" if plan.largest_margin is not None else ""
+    best = "" if plan.largest_margin is None else ", the largest there is" + _with_reserve(plan) * " with the reserve"
     worst = round(float(plan.margins[k, i]), 9)
     yield f"{word}  smallest slip margin {worst + 0.0:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
@@ -90,6 +90,11 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
         at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
         rows.append((name, f"{round(1e3 * sizes[at], 6):.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
     yield table(("", "worst", "at", "limit"), rows)
+
+
+def _with_reserve(plan: Plan) -> bool:
+    """Return whether the program asked for more than is needed, so that limits hold where a load is curved."""
+    return plan.task.between == "hold" and plan.between is not None and not plan.between.exact
 
 
 def _largest_normal(plan: Plan) -> tuple[str, ...]:

@@ -34,10 +34,20 @@ def _task(problem: Problem) -> Iterator[str]:
     span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
     yield _wanted(task) + span
     yield many(knots, "knot")
-    load = np.linalg.norm(task.wrench[:, :3], axis=1).max(initial=0.0)
-    yield f"load up to {load:.3g} N"
+    yield f"load up to {_load(task):.3g} N"
     yield f"slip margin ≥ {task.margin:.4g} N"
     yield ", then ".join(_goal(name, task) for name in task.order)
+
+
+def _load(task: Task) -> float:
+    """Return the largest force on the object at the knots and at the corners between them [N]."""
+    wrench = task.wrench
+    if task.course is not None:
+        corners = task.course.marks.corners
+        inside = corners[(corners > task.times[0]) & (corners < task.times[-1])]
+        load = task.course.load_at(inside)
+        wrench = wrench if load is None else np.vstack([wrench, load])
+    return float(np.linalg.norm(wrench[:, :3], axis=1).max(initial=0.0))
 
 
 def _wanted(task: Task) -> str:

@@ -10,7 +10,8 @@ from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.palm_motion import Palm
+from synergrip.plans.marks import Marks
+from synergrip.plans.reading.palm_motion import Palm, marks_of
 
 KEY = "task.palm.inertia"
 LOOKS = 65
@@ -32,6 +33,11 @@ class Inertia:
         force = -self.mass * self.palm.acceleration(self.centre, times)
         moment = -(alpha @ self.tensor.T + np.cross(omega, omega @ self.tensor.T))
         return np.hstack([force, moment])
+
+    @property
+    def marks(self) -> Marks:
+        """Those of the motion of the palm."""
+        return marks_of(self.palm)
 
 
 def inertia(thing: Object | None, mass: float, palm: Palm) -> Inertia:

@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.plans.marks import Marks, together
 from synergrip.plans.reading.motion_tables import MoveTable
 from synergrip.plans.reading.profiles import Course
 
@@ -24,6 +25,11 @@ class Moves:
     def at(self, times: Array) -> Array:
         """Return the wanted motion (T, 6) or (T, m) at any times (T,) [s]."""
         return np.asarray(sum(np.outer(course.at(times), whole) for course, whole in self.parts))
+
+    @property
+    def marks(self) -> Marks:
+        """Those of their courses."""
+        return together(course.marks for course, _ in self.parts)
 
 
 def moved(moves: Sequence[MoveTable], start: float, end: float) -> Moves:

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from synergrip.linalg import Array, frozen
+from synergrip.plans.marks import Marks
 from synergrip.plans.reading.motion_tables import PalmTable
 from synergrip.plans.reading.profiles import Course
 
@@ -76,6 +77,16 @@ class Weight:
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B; the centre of mass is there."""
         return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
+
+    @property
+    def marks(self) -> Marks:
+        """Those of the motion of the palm."""
+        return marks_of(self.palm)
+
+
+def marks_of(palm: Palm) -> Marks:
+    """Return the marks of a load by a palm that moves: it is curved from the start of the motion to its end."""
+    return Marks(palm.corners, ((float(palm.corners[0]), float(palm.corners[-1])),))
 
 
 def acceleration_of(point: Array, origin: Array, omega: Array, alpha: Array) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from synergrip.linalg import Array, frozen, interpolated
+from synergrip.plans.marks import Marks, together
 from synergrip.plans.reading.motion_tables import CourseName
 from synergrip.plans.reading.tables import Table
 
@@ -28,6 +29,10 @@ class Profile(Protocol):
 
     def at(self, times: Array) -> Array:
         """Return the values (T, m) at any times (T,) [s]."""
+
+    @property
+    def marks(self) -> Marks:
+        """Where they have corners and jumps, and where they are curved."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +56,13 @@ class Course:
         outside = (share < -ROUNDING) | (share > 1 + ROUNDING)
         return values if derivative == 0 else np.where(outside, 0.0, values)
 
+    @property
+    def marks(self) -> Marks:
+        """Start and end, and the way between them."""
+        if self.end <= self.start:
+            return Marks()
+        return Marks(np.array([self.start, self.end]), () if self.name == "linear" else ((self.start, self.end),))
+
 
 @dataclass(frozen=True, eq=False)
 class Constant:
@@ -63,6 +75,11 @@ class Constant:
         """Return the values (T, m)."""
         return np.tile(self.values, (len(times), 1))
 
+    @property
+    def marks(self) -> Marks:
+        """None."""
+        return Marks()
+
 
 @dataclass(frozen=True, eq=False)
 class Tabled:
@@ -73,6 +90,11 @@ class Tabled:
     def at(self, times: Array) -> Array:
         """Return the values (T, m)."""
         return interpolated(times, self.table.times, self.table.values)
+
+    @property
+    def marks(self) -> Marks:
+        """Every line."""
+        return Marks(self.table.times)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,3 +115,8 @@ class Profiles:
     def wanted_at(self, times: Array) -> Array:
         """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Loads.wanted`."""
         return frozen(self.wanted.at(times))
+
+    @property
+    def marks(self) -> Marks:
+        """Where load or wish have corners, where the load jumps, and where one of them is curved."""
+        return together(part.marks for part in (*self.load, self.wanted))

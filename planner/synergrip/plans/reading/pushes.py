@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.plans.marks import Jump, Marks
 from synergrip.plans.reading.profiles import ROUNDING
 from synergrip.plans.reading.push_table import PushProfile, PushTable
 
@@ -41,6 +42,15 @@ class Push:
             return np.clip(nearest / self.ramp, 0.0, 1.0)
         share = (times - self.start) / (self.end - self.start)
         return np.where(inside, np.maximum(np.sin(np.pi * np.clip(share, 0.0, 1.0)), 0.0), 0.0)
+
+    @property
+    def marks(self) -> Marks:
+        """Its corners; a step jumps at its start and its end, a half sine is curved between them."""
+        corners = np.array([time for _, time in self.corners])
+        if self.profile == "step":
+            off = frozen(-self.wrench)
+            return Marks(corners, jumps=(Jump(self.start, -1, off), Jump(self.end, 1, off)))
+        return Marks(corners, ((self.start, self.end),) if self.profile == "half-sine" else ())
 
     @property
     def corners(self) -> Iterator[tuple[str, float]]:

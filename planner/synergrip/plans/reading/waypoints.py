@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.linalg import Array, frozen
+from synergrip.plans.marks import Marks
 from synergrip.plans.reading.motion_tables import WaypointProfile, WaypointTable
 from synergrip.plans.reading.profiles import COURSES
 
@@ -35,6 +36,11 @@ class Waypoints:
         share = (inside - self.times[segment]) / np.diff(self.times)[segment]
         gone = np.asarray(COURSES[self.profile](share))[:, None]
         return np.asarray(self.poses[segment] * (1 - gone) + self.poses[segment + 1] * gone)
+
+    @property
+    def marks(self) -> Marks:
+        """The waypoints, and the way between them."""
+        return Marks(self.times, () if self.profile == "linear" else ((float(self.times[0]), float(self.times[-1])),))
 
 
 def passing(waypoints: Sequence[WaypointTable], profile: WaypointProfile) -> Waypoints:

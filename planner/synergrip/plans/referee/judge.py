@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
-from synergrip.conic.goals.goal import Goal
-from synergrip.conic.limits.limit import Limit
+from synergrip.conic.bend import Looks
 from synergrip.conic.program import Program
 from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
@@ -24,8 +23,8 @@ from synergrip.plans.analysis import Analysis
 from synergrip.plans.goals import goals_of
 from synergrip.plans.question import Question
 from synergrip.plans.referee.formulas import friction, write_goal, write_limit
-from synergrip.plans.referee.model import Cone, Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
-from synergrip.plans.referee.reserve import Courses
+from synergrip.plans.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.plans.referee.reserve import cones_of
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
@@ -134,15 +133,16 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     situation = question.situation
-    model = _written(situation, situation.times, situation.wrench, situation.wanted, _references(situation))
-    wish, limits = _cones(question, model)
+    knots = Looks(situation.times, situation.wrench, situation.wanted)
+    model = _written(situation, knots, _references(situation))
+    wish, limits, inside = cones_of(question, model, partial(_written, situation))
     cost = wish.cost / situation.divisor if wish.scalar is None else wish.cost
-    posed = pose(model, cost, [*limits, *wish.cones])
+    posed = pose(model, cost, [*limits, *wish.cones, *inside.limits, *inside.wish], inside.same)
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
     if claim is Claim.NOTHING:
         # the goal's scalar has no say in feasibility
-        posed = pose_relaxed(model, limits)
+        posed = pose_relaxed(model, [*limits, *inside.limits])
         posed.run("CLARABEL", _options(settings))
         claim = Claim.INFEASIBLE if posed.solved and posed.value > 0 else Claim.NOTHING
         iterations, seconds = iterations + posed.iterations, seconds + posed.seconds
@@ -152,15 +152,13 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
 
 
-def _written(
-    situation: Situation, times: Array, wrench: Array, wanted: Array, references: Expression | None = None
-) -> Model:
+def _written(situation: Situation, looks: Looks, references: Expression | None) -> Model:
     """Write the situation down at the knots, or at other instants, where beta is on straight lines between them."""
     whole = situation.whole
     return write_model(
-        situation.response, situation.coordinates, times=times, wrench=wrench,
-        beta=interpolated(times, situation.times, whole.beta.constant), units=situation.units,
-        redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
+        situation.response, situation.coordinates, times=looks.times, wrench=looks.wrench,
+        beta=interpolated(looks.times, situation.times, whole.beta.constant), units=situation.units,
+        redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=looks.wanted,
         rigid_basis=situation.spaces.Gamma_ucs, references=references,
     )  # fmt: skip
 
@@ -174,28 +172,6 @@ def _references(situation: Situation) -> Expression | None:
     matrix, constant, courses = situation.reference.matrix, situation.reference.constant, situation.courses
     free = cp.Variable((situation.knots if courses is None else courses.shape[1], situation.n_v))
     return constant + (free if courses is None else courses @ free) @ matrix.T
-
-
-def _cones(question: Question, model: Model) -> tuple[Wish, list[Cone]]:
-    """Write goal and limits down, with the reserve between the knots when it is asked for."""
-    wish = write_goal(model, question.goal)
-    situation, bend = question.situation, question.situation.bend
-    if bend is None:
-        return wish, [cone for limit in question.limits for cone in write_limit(model, limit)]
-    courses = Courses.of(model, bend, partial(_written, situation))
-    cones: list[Cone] = []
-    for limit in question.limits:
-        written = write_limit(model, limit)
-        cones += written if limit.couples_knots else courses.reserved(written, partial(_limit_again, limit))
-    return replace(wish, cones=tuple(courses.reserved(wish.cones, partial(_wish_again, question.goal)))), cones
-
-
-def _wish_again(goal: Goal, there: Model) -> tuple[Cone, ...]:
-    return write_goal(there, goal).cones
-
-
-def _limit_again(limit: Limit, there: Model) -> tuple[Cone, ...]:
-    return write_limit(there, limit)
 
 
 def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:

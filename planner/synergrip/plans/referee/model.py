@@ -187,9 +187,9 @@ class Posed:
         return float(self.problem.value)
 
 
-def pose(model: Model, cost: Expression, cones: Sequence[Cone]) -> Posed:
-    """Return: minimise `cost` over the references that track the wanted motion and keep all `cones`."""
-    return _posed(model, cost, cones, 0.0, [])
+def pose(model: Model, cost: Expression, cones: Sequence[Cone], more: Sequence[Any] = ()) -> Posed:
+    """Return: minimise `cost` over the references that track the wanted motion and keep all `cones` and some `more`."""
+    return _posed(model, cost, cones, 0.0, list(more))
 
 
 def pose_relaxed(model: Model, cones: Sequence[Cone]) -> Posed:

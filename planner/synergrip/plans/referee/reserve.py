@@ -1,44 +1,118 @@
-"""The reserve between the knots, worked out a second time: from the physical formulas at the instants in between."""
+"""Limits between the knots, written down a second time: at the corners, and with the reserve that curves need."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from synergrip.conic.bend import Bend
+from synergrip.conic.bend import Bend, Looks
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.limits.limit import Limit
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.referee.model import Cone, Model
+from synergrip.plans.question import Question
+from synergrip.plans.referee.formulas import write_goal, write_limit
+from synergrip.plans.referee.model import Cone, Expression, Model, Wish
+
+Writer = Callable[[Looks, Expression | None], Model]
+"""Writes a task down at any instants, with given references or any."""
 
 
 @dataclass(frozen=True)
 class Courses:
-    """The same task written down between the knots: along straight lines, and as it really goes."""
+    """The same task written down between the knots: at the corners, and in curved pieces along chords and as it is."""
 
     bend: Bend
-    straight: Model
-    bent: Model
+    corners: Model | None
+    """Its references are those of the knots, on straight lines between them; None when there are no corners."""
+    straight: Model | None
+    """None when nothing is curved."""
+    bent: Model | None
 
     @classmethod
-    def of(cls, model: Model, bend: Bend, write: Callable[[Array, Array, Array], Model]) -> Courses:
-        """Write the task of `model` down with `write`, from instants (J,), wrench and wanted displacement (J, 6)."""
-        lines = [interpolated(bend.times, model.times, values) for values in (model.wrench, model.wanted)]
-        straight, bent = write(bend.times, *lines), write(bend.times, bend.wrench, bend.wanted)
-        return cls(bend, straight, bent)
+    def of(cls, model: Model, bend: Bend, write: Writer) -> Courses:
+        """Write the task of `model` down with `write`: at other instants, with given references or any."""
+        corners = bend.corners
+        inside = write(corners, _shares(corners.times, model.times) @ model.dz_r) if len(corners.times) else None
+        if bend.exact:
+            return cls(bend, inside, None, None)
+        return cls(bend, inside, write(bend.chords, None), write(bend.curved, None))
 
-    def reserved(self, cones: Sequence[Cone], again: Callable[[Model], Sequence[Cone]]) -> list[Cone]:
-        """Return cones whose heads are lower by what the loads beside each knot can take away between the knots.
+    def kept(
+        self, at: Sequence[Cone], inside: Sequence[Cone], again: Callable[[Model], Sequence[Cone]]
+    ) -> tuple[list[Cone], list[Cone]]:
+        """Return cones at the knots and at the corners, lower by what curved loads beside them can take away.
 
         Args:
-            cones: of a limit or goal, at the knots.
+            at: of a limit or goal, at the knots.
+            inside: the same at the corners; empty when there are none.
             again: writes the same limit or goal down for any instants.
         """
-        straight, bent = _values(again(self.straight)), _values(again(self.bent))
-        return [
-            replace(cone, head=cone.head - self.bend.needed(_lost(before, after)))
-            for cone, before, after in zip(cones, straight, bent, strict=True)
-        ]
+        if self.straight is None or self.bent is None:
+            return list(at), list(inside)
+        pairs = zip(_values(again(self.straight)), _values(again(self.bent)), strict=True)
+        needed = [self.bend.needed(_lost(*pair)) for pair in pairs]
+        corner = self.bend.corner
+        return _lower(at, [each[~corner] for each in needed]), _lower(inside, [each[corner] for each in needed])
+
+
+def _lower(cones: Sequence[Cone], by: Sequence[Array]) -> list[Cone]:
+    return [replace(cone, head=cone.head - each) for cone, each in zip(cones, by, strict=False)]
+
+
+def _shares(times: Array, knots: Array) -> Array:
+    """Return what each knot (T,) has of each instant (C,) on straight lines between the knots."""
+    return interpolated(times, knots, np.eye(len(knots)))
+
+
+@dataclass(frozen=True)
+class Inside:
+    """What is asked at the corners between the knots."""
+
+    limits: tuple[Cone, ...] = ()
+    wish: tuple[Cone, ...] = ()
+    same: tuple[Expression, ...] = ()
+    """That the goal's scalar is the same there."""
+
+
+def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, list[Cone], Inside]:
+    """Write goal and limits down at the knots, and between them when that is asked for.
+
+    Args:
+        question: limits and goal over a situation.
+        model: the task at the knots.
+        write: writes the task down at other instants.
+    """
+    wish = write_goal(model, question.goal)
+    bend = question.situation.bend
+    if bend is None:
+        return wish, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
+    courses = Courses.of(model, bend, write)
+    cones: list[Cone] = []
+    inside: list[Cone] = []
+    for limit in question.limits:
+        at = write_limit(model, limit)
+        if limit.couples_knots:
+            cones += at
+            continue
+        there = () if courses.corners is None else write_limit(courses.corners, limit)
+        kept, between = courses.kept(at, there, partial(_limit_again, limit))
+        cones, inside = cones + kept, inside + between
+    other = None if courses.corners is None else write_goal(courses.corners, question.goal)
+    again = partial(_wish_again, question.goal)
+    kept, between = courses.kept(wish.cones, () if other is None else other.cones, again)
+    same = () if other is None or other.scalar is None else (other.scalar == wish.scalar,)
+    return replace(wish, cones=tuple(kept)), cones, Inside(tuple(inside), tuple(between), same)
+
+
+def _wish_again(goal: Goal, there: Model) -> tuple[Cone, ...]:
+    return write_goal(there, goal).cones
+
+
+def _limit_again(limit: Limit, there: Model) -> tuple[Cone, ...]:
+    return write_limit(there, limit)
 
 
 def _values(cones: Sequence[Cone]) -> list[tuple[Array, Array | None]]:

@@ -1,0 +1,40 @@
+"""Limits kept between the knots, and what a plan that keeps them, or the lack of one, then says of the task itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from synergrip.conic.situation import Situation
+from synergrip.plans.analysis import Analysis
+from synergrip.plans.instants import bend_of
+from synergrip.plans.outcome import Infeasible, Outcome, Unknown
+from synergrip.plans.task import Task
+
+
+def held(task: Task, analysis: Analysis, situation: Situation, answer: Callable[[Situation], Outcome]) -> Outcome:
+    """Return the answer to a task, whose limits are also kept between the knots when it says so.
+
+    At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at
+    both ends of a piece keeps them in between; it asks for more than is needed, so that "infeasible" with it proves
+    nothing. Then the limits are asked for without it, at every instant looked at: what is infeasible there, is.
+
+    Args:
+        task: with what is to happen between its knots.
+        analysis: of the grasp.
+        situation: at the knots.
+        answer: plans in a situation.
+    """
+    bend = bend_of(task, analysis) if task.between == "hold" else None
+    outcome = answer(replace(situation, bend=bend))
+    if bend is None or bend.exact or not isinstance(outcome, Infeasible):
+        return outcome
+    without = answer(replace(situation, bend=bend.every()))
+    if isinstance(without, Infeasible | Unknown):
+        return without
+    why = (
+        'no plan keeps the limits with the reserve at the knots that task.between = "hold" takes for a load that is '
+        f"curved between them, and without it, at {bend.samples} instants in each interval, there is one: whether one "
+        "keeps them at all times is not known; more knots make the reserve smaller"
+    )
+    return Unknown(task, analysis, why, (*outcome.decisions, *without.decisions))
