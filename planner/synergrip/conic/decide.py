@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal
+from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 
@@ -45,6 +45,11 @@ class Decision:
         return self.certificate.nearly
 
     @property
+    def unbounded(self) -> bool:
+        """True when it was found and verified that nothing bounds the goal."""
+        return self.certificate.verified and self.certificate.kind == "unbounded"
+
+    @property
     def infeasible(self) -> bool:
         """True when infeasibility was found and verified."""
         return self.certificate.verified and self.certificate.kind == "infeasible"
@@ -61,7 +66,7 @@ def decide(goal: str, program: Program, solver: Solver) -> Decision:
         solution = solver(program, settings)
         seconds += solution.seconds
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
-        if best is None or _rank(decision) < _rank(best):
+        if best is None or rank(decision) < rank(best):
             best = decision
         if decision.certificate.sharp:
             return decision
@@ -70,7 +75,7 @@ def decide(goal: str, program: Program, solver: Solver) -> Decision:
     return replace(best, seconds=seconds)
 
 
-def _rank(decision: Decision) -> tuple[int, float]:
+def rank(decision: Decision) -> tuple[int, float]:
     """Order decisions: verified ones first, by violation; then those that hold, by gap."""
     certificate = decision.certificate
     if certificate.verified:
@@ -81,7 +86,7 @@ def _rank(decision: Decision) -> tuple[int, float]:
 def judge(program: Program, solution: Solution) -> Certificate:
     """Judge a claim. A solver that claims nothing is heard on both counts."""
     if solution.claim is Claim.UNBOUNDED:
-        return Certificate("none", False)
+        return judge_unbounded(program, solution.x)
     if solution.claim is not Claim.INFEASIBLE:
         optimal = judge_optimal(program, solution.x, solution.z)
         if optimal.verified or solution.claim is Claim.OPTIMAL:

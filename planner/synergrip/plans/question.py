@@ -18,7 +18,9 @@ class Question:
     situation: Situation
     limits: tuple[Limit, ...]
     goal: Goal
+    worth: float = 1.0
+    """What sums of squares are divided by, so that their value is near 1; it changes no answer."""
 
     def program(self) -> Program:
         """Return the program of this question."""
-        return build(self.situation, self.limits, self.goal)
+        return build(self.situation, self.limits, self.goal, self.worth)

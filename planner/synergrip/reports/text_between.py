@@ -40,7 +40,7 @@ def _held(plan: Plan, between: Between) -> str:
     if between.excess <= LIMIT:
         exact = between.exact and not between.straight
         return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
-    worst = max(between.usages, key=lambda usage: float((usage.excess / usage.scale).max()))
+    worst = max(between.usages, key=lambda usage: usage.violation)
     k, i = worst.worst()
     value = float(worst.value[k, i])
     bound = float(worst.lower[i] if worst.lower[i] - value >= value - worst.upper[i] else worst.upper[i])

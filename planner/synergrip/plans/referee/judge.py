@@ -136,7 +136,7 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     knots = Looks(situation.times, situation.wrench, situation.wanted)
     model = _written(situation, knots, _references(situation))
     wish, limits, inside = cones_of(question, model, partial(_written, situation))
-    cost = wish.cost / situation.divisor if wish.scalar is None else wish.cost
+    cost = wish.cost / (situation.divisor * question.worth) if wish.scalar is None else wish.cost
     posed = pose(model, cost, [*limits, *wish.cones, *inside.limits, *inside.wish], inside.same)
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
@@ -159,7 +159,7 @@ def _written(situation: Situation, looks: Looks, references: Expression | None) 
         situation.response, situation.coordinates, times=looks.times, wrench=looks.wrench,
         beta=interpolated(looks.times, situation.times, whole.beta.constant), units=situation.units,
         redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=looks.wanted,
-        rigid_basis=situation.spaces.Gamma_ucs, references=references,
+        rigid_basis=situation.spaces.Gamma_ucs, references=references, stated=situation.stated,
     )  # fmt: skip
 
 
