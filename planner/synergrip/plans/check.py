@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,27 +12,41 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis, analyse
+from synergrip.plans.between import Between, between
+from synergrip.plans.claims import Claims, compared
 from synergrip.plans.outcome import Check
 from synergrip.plans.reading.knots import distinct
 from synergrip.plans.references import References
 from synergrip.plans.situated import situated
+from synergrip.plans.sizes import sizes_of
+from synergrip.plans.stated import stated
 from synergrip.plans.task import Task
+from synergrip.plans.tracking import wished
 from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
 from synergrip.statics.motion import Motion, forward
 
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
+SAME_TIME = 1e-9
+"""Relative size of what is rounding and no difference between two times."""
 
 
 @dataclass(frozen=True)
 class Judgement:
     """What becomes of given references in a task."""
 
+    task: Task
+    """At the knots of both."""
     analysis: Analysis
+    situation: Situation
     motion: Motion
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     checks: tuple[Check, ...]
+    between: Between | None = None
+    """The references between the knots of both."""
+    claims: Claims = field(default_factory=Claims)
+    """What the file says of its references; its checks are among `checks`."""
 
     @property
     def verdict(self) -> str:
@@ -46,62 +60,92 @@ class Judgement:
 
 
 def judge_references(grasp: Grasp, task: Task, references: References) -> Judgement:
-    """Judge references against a task at the knots of both, linear in between.
+    """Judge references against a task at the knots of both, linear in between, where the load is as it is.
 
-    Forces are linear in references and loads and the cones are convex, so what holds at the knots of both
-    holds in between.
+    Between the knots of both what happens is looked at as in a plan; limits there count when the task holds them.
 
     Raises:
         InputError: the references do not cover the task.
         Refusal: the grasp does not restrain the object, or the task is impossible by count or direction.
     """
     times = _common_times(task, references)
-    task = _at(task, times)
-    dz_r = interpolated(times, references.times, references.values)
     analysis = analyse(grasp, task.wrench)
-    situation = situated(analysis, task, redundancy=True)
-    motion = forward(analysis.response, times, dz_r, task.wrench)
-    usages = limit_usages(task, situation, motion)
-    reached = analysis.coordinates.coordinates(dz_r)
-    checks = (*identities(analysis, motion, reached), _tracking(task, reached[1], situation), *limit_checks(usages))
-    checks += _claims(references, motion)
-    return Judgement(analysis, motion, frozen(usages[0].value), usages, checks)
+    situated(analysis, task, redundancy=True)  # refuses a task that no references can do
+    judged = _judged(analysis, task, references, times)
+    claims = _claims(judged, task, references)
+    return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
 
 
-def _claims(references: References, motion: Motion) -> tuple[Check, ...]:
-    """Compare the forces, torques and motions that a file claims for its references with ours."""
-    ours = {"lambda": motion.forces, "tau": motion.torques, "du": motion.du}
-    inside = (references.times >= motion.times[0]) & (references.times <= motion.times[-1])
-    times = references.times[inside]
-    found = []
-    for name, claimed in references.claimed.items():
-        if claimed.shape[1] != ours[name].shape[1]:
-            found.append(Check(f"claimed {name}", np.inf, LIMIT))
-            continue
-        expected = interpolated(times, motion.times, ours[name])
-        size = max(float(np.abs(expected).max(initial=0.0)), 1e-12)
-        found.append(Check(f"claimed {name}", float(np.abs(claimed[inside] - expected).max(initial=0.0)) / size, LIMIT))
-    return tuple(found)
+def _claims(judged: Judgement, task: Task, references: References) -> Claims:
+    """Return what becomes of the claims of a file, at its own knots."""
+    if not references.claimed:
+        return Claims()
+    analysis = judged.analysis
+    whole = len(references.times) == len(task.times)  # then it is at the knots of the task, or claims to be
+    chosen = np.ones(len(task.times), dtype=bool) if whole else _inside(references.times, task)
+    own = references.times[chosen]
+    alone = judged if np.array_equal(own, judged.motion.times) else _judged(analysis, task, references, own)
+    verdict = "feasible" if all(check.passed for check in alone.checks) else "infeasible"
+    expected = stated(alone, references.claimed, verdict, task.times)
+    sizes = sizes_of(analysis, alone.motion, alone.usages, alone.between)
+    return compared(references.inside(chosen), expected, sizes, references.unchanged)
 
 
-def _tracking(task: Task, reached: Array, situation: Situation) -> Check:
-    """Judge the rigid motion as far as the wanted motion fixes it."""
-    beyond, free = reached - situation.beta.constant, situation.beta_basis
-    error = float(np.linalg.norm(beyond - beyond @ free @ free.T, axis=1).max(initial=0.0))
-    return Check("rigid motion [m]", error, max(task.tolerance, TRACKED))
+def _judged(analysis: Analysis, task: Task, references: References, times: Array) -> Judgement:
+    """Judge references at some knots and between them; what the file claims is another matter."""
+    there = _at(task, times)
+    situation = situated(analysis, _within_reach(analysis, there), redundancy=True)
+    motion = forward(analysis.response, times, interpolated(times, references.times, references.values), there.wrench)
+    usages = limit_usages(there, situation, motion)
+    reached = analysis.coordinates.coordinates(motion.dz_r)
+    tracking = _tracking(task, times, reached[1], situation)
+    checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
+    found = between(there, analysis, situation, motion)
+    if found is not None and task.between == "hold":
+        checks += (Check("between the knots", max(found.excess, 0.0), LIMIT),)
+    return Judgement(there, analysis, situation, motion, frozen(usages[0].value), usages, checks, found)
+
+
+def _tracking(task: Task, times: Array, reached: Array, situation: Situation) -> Check:
+    """Judge the rigid motion as far as the wanted motion fixes it.
+
+    At the knots of the task it is as wanted. Between them it may go as straight as a plan does, or follow.
+    """
+    wanted = situation.beta.constant
+    straight = interpolated(times, task.times, interpolated(task.times, times, wanted))
+    beyond, free = reached - wanted, situation.beta_basis
+    off = np.linalg.norm(beyond - beyond @ free @ free.T, axis=1) - np.linalg.norm(wanted - straight, axis=1)
+    return Check("rigid motion [m]", max(float(off.max(initial=0.0)), 0.0), max(task.tolerance, TRACKED))
 
 
 def _common_times(task: Task, references: References) -> Array:
     first, last = float(references.times[0]), float(references.times[-1])
     start, end = float(task.times[0]), float(task.times[-1])
-    slack = 1e-9 * max(end, 1.0)
+    slack = SAME_TIME * max(end, 1.0)
     if first > start + slack or last < end - slack:
         raise InputError.at("PLAN", f"the plan covers {first:g} s to {last:g} s, the task {start:g} s to {end:g} s")
     inside = references.times[(references.times >= start) & (references.times <= end)]
     return frozen(distinct(np.concatenate([task.times, inside])))
 
 
+def _inside(times: Array, task: Task) -> Array:
+    """Return which times (T,) of a plan lie in the task."""
+    slack = SAME_TIME * max(float(task.times[-1]), 1.0)
+    return np.asarray((times >= task.times[0] - slack) & (times <= task.times[-1] + slack))
+
+
 def _at(task: Task, times: Array) -> Task:
-    wanted = replace(task.wanted, values=frozen(interpolated(times, task.times, task.wanted.values)))
-    wrench = frozen(interpolated(times, task.times, task.wrench))
-    return replace(task, times=times, wrench=wrench, wanted=wanted)
+    """Return the task at other knots: loads and wishes as they are there."""
+    values, wrench = (interpolated(times, task.times, values) for values in (task.wanted.values, task.wrench))
+    if task.course is not None and not np.array_equal(times, task.times):
+        load = task.course.load_at(times)
+        values, wrench = task.course.wanted_at(times), wrench if load is None else load
+    return replace(task, times=times, wrench=frozen(wrench), wanted=replace(task.wanted, values=frozen(values)))
+
+
+def _within_reach(analysis: Analysis, task: Task) -> Task:
+    """Return the task with a tolerance that refuses no wish: between its own knots it may be whatever it is."""
+    if task.tracking == "compliant":
+        return task
+    wish = analysis.response.scale.twist(wished(analysis, task, task.wanted.values))
+    return replace(task, tolerance=max(task.tolerance, float(np.linalg.norm(wish, axis=1).max(initial=0.0))))

@@ -6,37 +6,54 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from synergrip.cells import CellReader, cells_of
 from synergrip.documents import read_document
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.tables import REFERENCES, read_table
+from synergrip.plans.digest import KEY as DIGEST
+from synergrip.plans.digest import digest, unchanged
+from synergrip.plans.reading.tables import REFERENCES, TIME, read_table
 
 KEY = "PLAN"
-
-
-STORED = ("lambda", "tau", "du")
-"""What a plan of ours also holds, and what a check compares with its own figures."""
+PER_KNOT = (
+    "time_s", "alpha", "beta", "gamma", "lambda", "wrench", "du", "dq", "tau", "sigma", "elastic_motion", "sag",
+)  # fmt: skip
+"""What plan.json holds for each knot."""
 
 
 @dataclass(frozen=True)
 class References:
-    """Synergy references at times, and the consequences that the file claims for them."""
+    """Synergy references at times, and what the file claims besides them."""
 
     times: Array  # (T,) [s]
     values: Array  # (T, n_z) dz_r
-    claimed: Mapping[str, Array]
-    """Of `STORED`, what the file holds: (T, ...) each."""
+    claimed: Mapping[str, Any]
+    """By the keys of plan.json, all that the file holds; "columns" are those of a CSV file."""
+    unchanged: bool | None = None
+    """Whether its numbers are those that were written, by its own digest; None when it has none."""
+
+    def inside(self, chosen: Array) -> dict[str, Any]:
+        """Return the claims about some of the times (T,); without those about all of them, when some are left out."""
+        if np.all(chosen):
+            return dict(self.claimed)
+        found: dict[str, Any] = {}
+        for key, value in self.claimed.items():
+            if key == "columns":
+                found[key] = {name: np.asarray(column)[chosen] for name, column in value.items()}
+            elif key in PER_KNOT and len(value) == len(chosen):
+                found[key] = [each for each, kept in zip(value, chosen, strict=True) if kept]
+        return found
 
 
 def read_references(path: Path, n_z: int) -> References:
-    """Return times (T,) and references dz_r (T, n_z) of a plan, with the forces and motions it claims.
+    """Return times (T,) and references dz_r (T, n_z) of a plan, with all that it claims of them.
 
     Args:
-        path: plan.json, plan.npz, a CSV with ``t_s,zr_1,...`` (further columns are ignored), or a folder with
-            a plan.json in it.
+        path: plan.json, plan.npz, a CSV with ``t_s,zr_1,...`` and any others, or a folder with a plan.json in it.
         n_z: number of synergies of the grasp it is to be judged on.
 
     Raises:
@@ -57,16 +74,32 @@ def read_references(path: Path, n_z: int) -> References:
 
 def _from_csv(path: Path) -> References:
     table = read_table(path, REFERENCES, KEY, others=True)
-    return References(table.times, table.values, {})
+    reader = CellReader.of(path, KEY)
+    number, header = next(reader.rows())
+    names = [cell.text for cell in cells_of(header, number)]
+    others = [name for name in names if name != TIME and not name.startswith(REFERENCES)]
+    columns = read_table(path, others, KEY, others=True).values.T if others else ()
+    return References(table.times, table.values, {"columns": dict(zip(others, columns, strict=True))} if others else {})
 
 
 def _from_json(path: Path) -> References:
     data = read_document(path, "plan", KEY).data
     if "dz_r" not in data or "time_s" not in data:
-        verdict = data.get("verdict")
-        why = f"its verdict is '{verdict}'" if verdict else "dz_r and time_s are missing"
-        raise InputError.at(KEY, f"'{path}' holds no plan: {why}")
-    return _references(path, data)
+        raise InputError.at(KEY, f"'{path}' holds no plan: {_no_plan(data)}")
+    return _references(path, data, unchanged(data))
+
+
+def _no_plan(data: Mapping[str, Any]) -> str:
+    """Return why there are no references in a document."""
+    verdict = data.get("verdict")
+    if not verdict:
+        return "dz_r and time_s are missing"
+    stage = f" (stage: {data['stage']})" if data.get("stage") else ""
+    why = f": {data['why']}" if isinstance(data.get("why"), str) else ""
+    return (
+        f"its verdict is '{verdict}'{stage}{why}. Only references can be checked; whether there are none is for "
+        "`synergrip plan PROBLEM` to prove again"
+    )
 
 
 def _from_npz(path: Path) -> References:
@@ -74,20 +107,29 @@ def _from_npz(path: Path) -> References:
         with np.load(path, allow_pickle=False) as stored:
             if "dz_r" not in stored or "time_s" not in stored:
                 raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
-            return _references(path, dict(stored))
+            arrays = dict(stored)
+            told = str(arrays.pop(DIGEST)) if DIGEST in arrays else None
+            same = None if told is None else digest(arrays, sorted(arrays)) == told
+            return _references(path, _named(arrays), same)
     except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
 
 
-def _references(path: Path, data: Mapping[str, object]) -> References:
+def _named(stored: dict[str, Any]) -> dict[str, Any]:
+    """Return the arrays of a plan.npz by the keys of plan.json."""
+    found = {key: value.tolist() if value.dtype.kind == "U" else value for key, value in stored.items()}
+    if "margin" in found:
+        found["margin"] = {"per_contact_N": found["margin"]}
+    return found
+
+
+def _references(path: Path, data: Mapping[str, Any], same: bool | None) -> References:
     t, z = _numbers(path, data, "time_s", 1), _numbers(path, data, "dz_r", 2)
-    claimed = {name: _numbers(path, data, name, 2) for name in STORED if name in data}
-    for name, array in {"dz_r": z, **claimed}.items():
-        if len(array) != len(t):
-            raise InputError.at(KEY, f"'{path}': {name} has {len(array)} rows for {len(t)} times")
+    if len(z) != len(t):
+        raise InputError.at(KEY, f"'{path}': dz_r has {len(z)} rows for {len(t)} times")
     if not np.all(np.diff(t) > 0):
         raise InputError.at(KEY, f"'{path}': times must increase")
-    return References(t, z, claimed)
+    return References(t, z, {key: value for key, value in data.items() if key not in ("dz_r", DIGEST)}, same)
 
 
 def _numbers(path: Path, data: Mapping[str, object], name: str, dimensions: int) -> Array:

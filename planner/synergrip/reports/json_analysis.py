@@ -7,22 +7,7 @@ from typing import Any
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.analysis import Analysis
-
-
-def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any]:
-    """Return the counts and dimensions; the dimensions are null when the object is not restrained."""
-    counts: dict[str, Any] = {"n_c": grasp.n_c, "n_l": grasp.n_l, "n_q": grasp.n_q, "n_z": grasp.n_z}
-    if analysis is None:
-        unknown = ("dim_E_s", "dim_Gamma_ucs", "dim_Gamma_zr", "singular_values", "ambiguous")
-        return counts | dict.fromkeys(unknown)
-    forces, motions, redundant = analysis.spaces.dimensions
-    decisions = analysis.spaces.decisions
-    return counts | {
-        "dim_E_s": forces, "dim_Gamma_ucs": motions, "dim_Gamma_zr": redundant,
-        "singular_values": {name: decision.singular_values.tolist() for name, decision in decisions.items()},
-        "ambiguous": analysis.spaces.ambiguous,
-        "characteristic_length_m": analysis.response.scale.length,
-    }  # fmt: skip
+from synergrip.plans.told import structure_document
 
 
 def analysis_document(analysis: Analysis) -> dict[str, Any]:

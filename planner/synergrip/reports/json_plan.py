@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
-from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
-from synergrip.plans.between import Between
-from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
+from synergrip.plans.digest import with_digest
+from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
+from synergrip.plans.told import (
+    arrays_of,
+    between_document,
+    check_document,
+    finite,
+    margin_document,
+    structure_document,
+    usage_document,
+)
 from synergrip.plans.units import units_of
-from synergrip.plans.verified import LIMIT
-from synergrip.reports.json_analysis import refusal_document, structure_document
+from synergrip.reports.json_analysis import refusal_document
 
 
 def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -37,7 +42,7 @@ def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence
         "notes": [*(outcome.notes if isinstance(outcome, Plan) else ()), *notes],
     }
     if isinstance(outcome, Plan):
-        return document | _plan(outcome)
+        return with_digest(document | _plan(outcome))
     if isinstance(outcome, Infeasible):
         return document | _infeasible(outcome)
     certificate = {"kind": "none", "verified": False}
@@ -46,11 +51,7 @@ def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence
 
 def _plan(plan: Plan) -> dict[str, Any]:
     motion, last = plan.motion, plan.decisions[-1]
-    arrays = {
-        "dz_r": motion.dz_r, "alpha": plan.alpha, "beta": plan.beta, "gamma": plan.gamma, "lambda": motion.forces,
-        "wrench": motion.wrench, "du": motion.du, "dq": motion.dq, "tau": motion.torques, "sigma": motion.efforts,
-        "elastic_motion": plan.elastic_motion, "sag": motion.sag,
-    }  # fmt: skip
+    arrays = arrays_of(motion, (plan.alpha, plan.beta, plan.gamma), plan.analysis.spaces.Gamma_ucs)
     return {name: array.tolist() for name, array in arrays.items()} | {
         "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
         "largest_margin_N": plan.largest_margin,
@@ -76,47 +77,12 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})
 
 
-def check_document(check: Check) -> dict[str, Any]:
-    """Return a check with its outcome."""
-    return {"name": check.name, "error": check.error, "tolerance": check.tolerance, "passed": check.passed}
-
-
-def margin_document(margins: Array, contacts: list[str], times: Array) -> dict[str, Any]:
-    """Return the worst slip margin, where and when, and all of them (T, n_c)."""
-    k, i = first_largest(-margins)
-    return {
-        "worst_N": float(margins.min()), "contact": contacts[i], "time_s": float(times[k]),
-        "per_contact_N": margins.tolist(),
-    }  # fmt: skip
-
-
-def usage_document(usage: Usage) -> dict[str, Any]:
-    """Return the worst value of a limit, where and when, and its bounds there."""
-    k, i = usage.worst()
-    return {
-        "name": usage.title, "unit": usage.unit, "item": usage.items[i], "time_s": float(usage.times[k]),
-        "value": float(usage.value[k, i]), "lower": _finite(usage.lower[i]), "upper": _finite(usage.upper[i]),
-    }  # fmt: skip
-
-
-def between_document(between: Between | None) -> dict[str, Any] | None:
-    """Return how far load and wanted motion bend between the knots, and the worst value of every limit there."""
-    if between is None:
-        return None
-    return {
-        "samples": between.samples, "load_departure_N": between.load_departure,
-        "path_departure_m": between.path_departure, "holds": bool(between.excess <= LIMIT),
-        "limits": [usage_document(usage) for usage in between.usages],
-        "worst_margin_N": float(between.usages[0].value.min()),
-    }  # fmt: skip
-
-
 def certificate_document(certificate: Certificate) -> dict[str, Any]:
     """Return a certificate without its ray."""
     return {
         "kind": certificate.kind, "verified": certificate.verified,
-        "primal_residual": _finite(certificate.primal_residual), "dual_residual": _finite(certificate.dual_residual),
-        "gap": _finite(certificate.gap),
+        "primal_residual": finite(certificate.primal_residual), "dual_residual": finite(certificate.dual_residual),
+        "gap": finite(certificate.gap),
     }  # fmt: skip
 
 
@@ -128,7 +94,3 @@ def _program(decision: Decision) -> dict[str, Any]:
         "status": solution.status, "iterations": solution.iterations, "seconds": decision.seconds,
         "attempts": decision.attempts, "certificate": certificate_document(decision.certificate),
     }  # fmt: skip
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from synergrip.files import atomic_path
+from synergrip.plans.digest import digest
 from synergrip.plans.outcome import Outcome, Plan
+from synergrip.plans.told import arrays_of, columns_of, table_of
 
 FORMATS = ("json", "npz", "csv")
 
@@ -45,14 +47,8 @@ def to_json(document: dict[str, Any]) -> str:
 
 def plan_csv(plan: Plan) -> str:
     """Return one line per knot: time, references, contact forces, joint torques, object displacement, margins."""
-    grasp = plan.analysis.grasp
-    axes = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
-    header = ["t_s", *(f"zr_{i + 1}" for i in range(grasp.n_z))]
-    header += [f"lambda_{contact}_{c}" + ("_Nm" if c == "m" else "_N") for contact, c in grasp.components]
-    header += [f"tau_{name}" for name in grasp.joints] + [f"du_{axis}" for axis in axes]
-    header += [f"margin_{contact.name}_N" for contact in grasp.contacts]
-    motion = plan.motion
-    table = np.column_stack([motion.times, motion.dz_r, motion.forces, motion.torques, motion.du, plan.margins])
+    header = ["t_s", *(name for names in columns_of(plan.analysis.grasp).values() for name in names)]
+    table = table_of(plan.motion, plan.margins)
     stream = io.StringIO()
     np.savetxt(stream, table, fmt="%.17g", delimiter=",", header=",".join(header), comments="")
     return stream.getvalue()
@@ -60,12 +56,10 @@ def plan_csv(plan: Plan) -> str:
 
 def _write_npz(path: Path, plan: Plan) -> None:
     motion, grasp = plan.motion, plan.analysis.grasp
-    arrays = {
-        "time_s": motion.times, "dz_r": motion.dz_r, "alpha": plan.alpha, "beta": plan.beta, "gamma": plan.gamma,
-        "lambda": motion.forces, "wrench": motion.wrench, "du": motion.du, "dq": motion.dq, "tau": motion.torques,
-        "sigma": motion.efforts, "margin": plan.margins, "elastic_motion": plan.elastic_motion, "sag": motion.sag,
+    arrays = arrays_of(motion, (plan.alpha, plan.beta, plan.gamma), plan.analysis.spaces.Gamma_ucs) | {
+        "time_s": motion.times, "margin": plan.margins,
         "joints": np.array(grasp.joints), "synergies": np.array(grasp.synergies),
         "contacts": np.array([contact.name for contact in grasp.contacts]),
     }  # fmt: skip
     with path.open("wb") as stream:
-        np.savez(stream, allow_pickle=False, **arrays)
+        np.savez(stream, allow_pickle=False, **arrays, digest=np.array(digest(arrays, sorted(arrays))))

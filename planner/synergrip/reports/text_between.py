@@ -15,8 +15,12 @@ from synergrip.reports.text_problem import many
 def between_lines(plan: Plan) -> Iterator[str]:
     """Yield the lines of ``between``; none when nothing is known of it."""
     if plan.between is not None:
-        parts = [*_departures(plan.between), _held(plan, plan.between)]
-        yield from wrapped("between  ", "; ".join(parts))
+        yield from looked_at(plan.between, held=plan.task.between == "hold")
+
+
+def looked_at(between: Between, *, held: bool) -> Iterator[str]:
+    """Yield the lines of ``between``: what was looked at, what load and wish do there, and what of the limits."""
+    yield from wrapped("between  ", "; ".join([*_departures(between), _limits(between, held)]))
 
 
 def _departures(between: Between) -> Iterator[str]:
@@ -36,7 +40,7 @@ def _departures(between: Between) -> Iterator[str]:
         yield f"the wanted motion {leaves} by {1e3 * between.path_departure:.3g} mm"
 
 
-def _held(plan: Plan, between: Between) -> str:
+def _limits(between: Between, held: bool) -> str:
     if between.excess <= LIMIT:
         exact = between.exact and not between.straight
         return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
@@ -46,12 +50,8 @@ def _held(plan: Plan, between: Between) -> str:
     bound = float(worst.lower[i] if worst.lower[i] - value >= value - worst.upper[i] else worst.upper[i])
     factor, unit = SHOWN_IN.get(worst.unit, (1.0, ""))
     reached, limit = (f"{number} {unit}".rstrip() for number in apart(factor * value, factor * bound))
-    advice = (
-        ""
-        if plan.task.between == "hold"
-        else '; task.between = "hold" keeps the limits there, more knots straighten it'
-    )
+    advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
-        f"past its limit of {limit}{advice}"
+        f"past its limit of {limit}" + ("" if held else advice)
     )

@@ -2,27 +2,61 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from synergrip.errors import Refusal
 from synergrip.plans.check import Judgement
+from synergrip.plans.claims import Claims, Difference
 from synergrip.plans.problem import Problem
-from synergrip.reports.json_analysis import structure_document
-from synergrip.reports.json_plan import check_document, margin_document, usage_document
-from synergrip.reports.tables import table
+from synergrip.plans.told import (
+    between_document,
+    check_document,
+    finite,
+    margin_document,
+    structure_document,
+    usage_document,
+)
+from synergrip.quantities import apart
+from synergrip.reports.tables import table, wrapped
+from synergrip.reports.text_between import looked_at
 from synergrip.reports.text_plan import refused_lines, usage_rows, verdict_word
 from synergrip.reports.text_problem import problem_lines
 
 
 def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) -> str:
-    """Return what was judged, every check, and what the plan uses of every limit."""
-    rows = [(c.name, f"{c.error:.2e}", f"{c.tolerance:.0e}", "✓" if c.passed else "FAILS") for c in judgement.checks]
+    """Return what was judged, every check, what the file claims, and what the plan uses of every limit."""
+    own = [check for check in judgement.checks if check not in judgement.claims.checks or not check.passed]
+    rows = [(c.name, f"{c.error:.2e}", f"{c.tolerance:.0e}", "✓" if c.passed else "FAILS") for c in own]
     word = verdict_word(judgement.verdict, color)
     failed = [check.name for check in judgement.checks if not check.passed]
     why = f"this plan breaks: {', '.join(failed)}" if failed else "this plan keeps every limit of the problem"
-    lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), "", f"{word}  {why}"]
+    lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
+    if judgement.between is not None:
+        lines += looked_at(judgement.between, held=judgement.task.between == "hold")
     used = [row for usage in judgement.usages for row in usage_rows(usage)]
-    return "\n".join([*lines, table(("", "worst", "at", "limit"), used)])
+    return "\n".join([*lines, "", f"{word}  {why}", table(("", "worst", "at", "limit"), used)])
+
+
+def _claims(claims: Claims) -> Iterator[str]:
+    """Yield which claims of the file are right, what is wrong, and what was not compared."""
+    if claims.right:
+        yield from wrapped("claims   ", f"as the references have it: {', '.join(claims.right)}")
+    for each in claims.differences:
+        yield from wrapped("claims   ", _difference(each))
+    if claims.skipped:
+        yield from wrapped("claims   ", f"not compared, as no references can tell: {', '.join(claims.skipped)}")
+
+
+def _difference(each: Difference) -> str:
+    says, found = each.says, each.found
+    if isinstance(says, float) and isinstance(found, int | float) and not isinstance(found, bool):
+        says, found = apart(says, float(found))
+    return f"{each.key}: the file says {_word(says)}, it is {_word(found)}"
+
+
+def _word(value: object) -> str:
+    return "null" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def refused_text(problem: Problem, refusal: Refusal, color: bool = False) -> str:
@@ -41,4 +75,15 @@ def judgement_document(judgement: Judgement) -> dict[str, Any]:
         "margin": margin_document(judgement.margins, names, judgement.motion.times),
         "limits": [usage_document(usage) for usage in judgement.usages],
         "checks": [check_document(check) for check in judgement.checks],
+        "between": between_document(judgement.between),
+        "claims": _claims_document(judgement.claims),
     }  # fmt: skip
+
+
+def _claims_document(claims: Claims) -> dict[str, Any]:
+    """Return which keys of the file are right, which are not, with the worst of each, and which were not compared."""
+    wrong = [
+        {"key": each.key, "says": each.says, "found": each.found, "error": finite(each.error)}
+        for each in claims.differences
+    ]
+    return {"right": list(claims.right), "wrong": wrong, "not_compared": list(claims.skipped)}

@@ -1,0 +1,68 @@
+"""A digest of the numbers of a plan's file: whether any of them, however small, is not the one that was written.
+
+What follows from the references is compared by itself (`plans/claims.py`), to the digits that another processor would
+find as well. A digest says nothing about what is right; it sees what lies below these digits, and what cannot be found
+again without planning.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+KEY = "digest"
+UNCERTAIN = ("seconds",)
+"""Keys at any depth that are left out."""
+
+
+def with_digest(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a document with the digest of all that is in it."""
+    keys = sorted(document)
+    return {**document, KEY: {"sha256": digest(document, keys), "of": keys}}
+
+
+def unchanged(document: Mapping[str, Any]) -> bool | None:
+    """Return whether the numbers of a document are those that were written; None when it does not say."""
+    stated = document.get(KEY)
+    if not isinstance(stated, Mapping) or "sha256" not in stated:
+        return None
+    keys = stated.get("of")
+    if not isinstance(keys, list) or not all(isinstance(key, str) and key in document for key in keys):
+        return False
+    return bool(digest(document, keys) == stated["sha256"])
+
+
+def digest(document: Mapping[str, Any], keys: Sequence[str]) -> str:
+    """Return the SHA-256 of the values of some keys, numbers by their 64 bits."""
+    found = hashlib.sha256()
+    for part in _parts({key: document[key] for key in keys}):
+        found.update(part)
+    return found.hexdigest()
+
+
+def _parts(value: Any) -> Iterator[bytes]:
+    if isinstance(value, Mapping):
+        for key in sorted(value):
+            if key not in UNCERTAIN:
+                yield f"{key}:".encode()
+                yield from _parts(value[key])
+    elif isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        yield f"{value.shape}".encode() + value.astype("<f8").tobytes()
+    elif isinstance(value, list | tuple | np.ndarray):
+        yield from _parts_of_list(list(value))
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield np.array(value, dtype="<f8").tobytes()
+    else:
+        yield f"{value};".encode()
+
+
+def _parts_of_list(values: list[Any]) -> Iterator[bytes]:
+    if values and all(isinstance(each, float) for each in values):
+        yield np.array(values, dtype="<f8").tobytes()
+        return
+    for each in values:
+        yield from _parts(each)
+        yield b","

@@ -1,0 +1,106 @@
+"""What a file of a plan should hold, when its references are what they are: by the keys of plan.json."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.reserve import Reserve
+from synergrip.conic.rows import Rows
+from synergrip.conic.situation import Situation
+from synergrip.linalg import Array
+from synergrip.plans.instants import bend_of
+from synergrip.plans.told import (
+    arrays_of,
+    between_document,
+    check_document,
+    columns_of,
+    margin_document,
+    structure_document,
+    usage_document,
+)
+from synergrip.plans.units import units_of
+
+if TYPE_CHECKING:
+    from synergrip.plans.check import Judgement
+
+
+def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: Array) -> dict[str, Any]:
+    """Return what a file should hold, as far as it follows from its references.
+
+    Args:
+        judged: the references at their own knots.
+        claimed: what the file holds; of its checks those that are there are told.
+        verdict: on the references.
+        knots: of the task (T,) [s]; a plan that has as many is one at these.
+    """
+    analysis, motion, task, grasp = judged.analysis, judged.motion, judged.task, judged.analysis.grasp
+    arrays = arrays_of(motion, analysis.coordinates.coordinates(motion.dz_r), analysis.spaces.Gamma_ucs)
+    names = [contact.name for contact in grasp.contacts]
+    code = claimed.get("exit_code")
+    return arrays | {
+        "verdict": verdict,
+        "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
+        "structure": structure_document(grasp, analysis),
+        "contacts": names, "joints": list(grasp.joints), "synergies": list(grasp.synergies),
+        "time_s": knots if len(knots) == len(motion.times) else motion.times,
+        "margin": margin_document(judged.margins, names, motion.times) | {"per_contact_N": judged.margins},
+        "largest_margin_N": _largest_margin(judged) if task.goal == "margin" else None,
+        "force_unit_N": units_of(analysis, task).force,
+        "limits": [usage_document(usage) for usage in judged.usages],
+        "checks": _checks(judged, claimed.get("checks")),
+        "between": between_document(judged.between),
+        "columns": _columns(judged, arrays),
+    }  # fmt: skip
+
+
+INTERRUPTED = 130
+"""Exit code of a plan that holds and was interrupted before all its goals were through."""
+
+
+def _checks(judged: Judgement, claimed: Any) -> list[dict[str, Any]]:
+    """Return the checks that a file names as they come out, without their errors, which are rounding."""
+    ours = {check.name: check_document(check) for check in judged.checks}
+    names = [each.get("name") if isinstance(each, Mapping) else None for each in claimed or ()]
+    found = [ours.get(str(name), {"name": "no such check"}) for name in names]
+    return [{key: value for key, value in each.items() if key != "error"} for each in found]
+
+
+def _columns(judged: Judgement, arrays: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the columns of plan.csv by their names."""
+    every = {**arrays, "margin": judged.margins}
+    return {
+        name: column
+        for key, names in columns_of(judged.analysis.grasp).items()
+        for name, column in zip(names, every[key].T, strict=True)
+    }
+
+
+def _largest_margin(judged: Judgement) -> float:
+    """Return the margin [N] that the references keep, with the reserve when it is asked for: the largest, if it is."""
+    task, analysis = judged.task, judged.analysis
+    bend = bend_of(task, analysis) if task.between == "hold" else None
+    if bend is None:
+        return float(judged.margins.min())
+    situation = judged.situation
+    unknowns = _unknowns(situation, analysis.coordinates.coordinates(judged.motion.dz_r))
+    rows = Reserve.of(situation, bend).kept(LargestMargin().rows, situation)
+    return situation.force_unit * min(_room(part, unknowns) for part in rows if np.any(part.epigraph))
+
+
+def _unknowns(situation: Situation, parts: tuple[Array, Array, Array]) -> Array:
+    """Return v (T, n_v) of alpha, beta and gamma."""
+    each = (situation.alpha, situation.beta, situation.gamma)
+    matrix = np.vstack([part.matrix for part in each])
+    beyond = np.hstack([values - part.constant for values, part in zip(parts, each, strict=True)])
+    return np.asarray(np.linalg.lstsq(matrix, beyond.T, rcond=None)[0].T)
+
+
+def _room(rows: Rows, v: Array) -> float:
+    """Return the least by which cones are kept."""
+    at = v if rows.inside is None else rows.inside @ v
+    cones = (rows.constant + at @ rows.matrix.T).reshape(-1, rows.dim)
+    return float((cones[:, 0] - np.linalg.norm(cones[:, 1:], axis=1)).min())
