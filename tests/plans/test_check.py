@@ -219,6 +219,7 @@ def test_forces_that_a_file_claims_are_compared_with_those_it_would_produce(tmp_
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
     document = outcome_document("", problem.grasp, outcome)
+    del document["digest"]  # which would see it, too
     for name, passes in ((None, True), ("lambda", False), ("tau", False), ("du", False)):
         told = json.loads(json.dumps(document))
         if name:

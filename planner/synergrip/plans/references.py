@@ -86,7 +86,7 @@ def _from_json(path: Path) -> References:
     data = read_document(path, "plan", KEY).data
     if "dz_r" not in data or "time_s" not in data:
         raise InputError.at(KEY, f"'{path}' holds no plan: {_no_plan(data)}")
-    return _references(path, data, unchanged(data))
+    return references_of(path, data, unchanged(data))
 
 
 def _no_plan(data: Mapping[str, Any]) -> str:
@@ -110,7 +110,7 @@ def _from_npz(path: Path) -> References:
             arrays = dict(stored)
             told = str(arrays.pop(DIGEST)) if DIGEST in arrays else None
             same = None if told is None else digest(arrays, sorted(arrays)) == told
-            return _references(path, _named(arrays), same)
+            return references_of(path, _named(arrays), same)
     except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
 
@@ -123,7 +123,17 @@ def _named(stored: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _references(path: Path, data: Mapping[str, Any], same: bool | None) -> References:
+def references_of(path: Path | str, data: Mapping[str, Any], same: bool | None) -> References:
+    """Return the references in the values of a plan, and all that it claims of them.
+
+    Args:
+        path: where they stand, for messages.
+        data: by the keys of plan.json.
+        same: whether the numbers are those that were written; None when nothing is known of it.
+
+    Raises:
+        InputError: times or references are not such, or do not fit each other.
+    """
     t, z = _numbers(path, data, "time_s", 1), _numbers(path, data, "dz_r", 2)
     if len(z) != len(t):
         raise InputError.at(KEY, f"'{path}': dz_r has {len(z)} rows for {len(t)} times")
@@ -132,7 +142,7 @@ def _references(path: Path, data: Mapping[str, Any], same: bool | None) -> Refer
     return References(t, z, {key: value for key, value in data.items() if key not in ("dz_r", DIGEST)}, same)
 
 
-def _numbers(path: Path, data: Mapping[str, object], name: str, dimensions: int) -> Array:
+def _numbers(path: Path | str, data: Mapping[str, object], name: str, dimensions: int) -> Array:
     """Return an array of finite numbers, with at least one row."""
     try:
         array = np.asarray(data[name], dtype=float)
