@@ -13,10 +13,12 @@ from judged_check import accepted, altered, document_of, judged, numbers
 
 from synergrip.errors import InputError
 from synergrip.plans.check import judge_references
+from synergrip.plans.claims import compared
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import Problem, bundled_problems, load_problem
 from synergrip.plans.references import read_references
+from synergrip.plans.sizes import Sizes
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import write_outcome
 
@@ -65,6 +67,14 @@ def test_the_last_time_of_a_plan_is_seen_when_it_is_altered() -> None:
 def test_words_and_forms_are_compared_too(path: Any, value: Any) -> None:
     problem, document = _written("barrett-ball-hold")
     assert not accepted(problem, altered(document, path, value), by_digest=False)
+
+
+@pytest.mark.parametrize(("small", "right"), [(1e-3, False), (1e-6, False), (1e-9, False), (1e-14, True)])
+def test_a_small_entry_beside_a_large_one_is_compared_with_itself(small: float, right: bool) -> None:
+    """Down to what another processor makes of the terms it is a sum of."""
+    claims = compared({"tau": [[1.0, 1.05 * small]]}, {"tau": np.array([[1.0, small]])}, Sizes({"tau": 1.0}))
+    assert claims.checks[0].passed is right
+    assert [each.key for each in claims.differences] == ([] if right else ["tau[0][1]"])
 
 
 def test_what_was_not_compared_is_named(tmp_path: Path) -> None:
