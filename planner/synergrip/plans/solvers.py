@@ -46,7 +46,7 @@ def answerer(name: str) -> Answerer:
     return SOLVERS[name]
 
 
-SMALL, NOTHING = 1e-2, 1e-18
+SMALL, NOTHING = 1e-2, 1e-16
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
 and below which the value is the rounding of 0."""
 AGAIN = 3
@@ -69,8 +69,11 @@ class Answered:
 
     @property
     def value(self) -> float:
-        """Value of the goal, in the program's units."""
-        return self.decision.program.objective(self.decision.solution.x)
+        """Value of the goal, in the program's units; of a sum of squares added up, so that no terms cancel."""
+        cost = self.question.goal.objective(self.question.situation)
+        if cost.epigraph is not None:
+            return self.decision.program.objective(self.decision.solution.x)
+        return cost.squared(self.v) / self.question.worth
 
     @property
     def small(self) -> bool:
@@ -107,7 +110,10 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
 
 def _decided(question: Question, solver: Answerer) -> Answered:
     program = question.program()
-    return Answered(question, decide(question.goal.name, program, lambda *asked: solver(question, *asked)))
+    decision = decide(
+        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation
+    )  # fmt: skip
+    return Answered(question, decision)
 
 
 def _weighed(question: Question) -> Question:
