@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.program import Program
+from synergrip.conic.rows import LOWER_SIDES
 from synergrip.linalg import Array
 
 COUNTS = 0.005
@@ -37,9 +38,8 @@ def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
         sizes = np.linalg.norm(y[rows].reshape(block.knots, len(block.items), block.dim), axis=2)
         of_limit = sums.setdefault(block.limit, {})
         for item, size in zip(block.items, sizes.T, strict=True):
-            name, _, side = item.partition(" (")
-            signed = -size if side in ("lowest)", "falling)") else size
-            of_limit[name] = of_limit.get(name, np.zeros(block.knots)) + signed
+            signed = -size if item.side in LOWER_SIDES else size
+            of_limit[item.name] = of_limit.get(item.name, np.zeros(block.knots)) + signed
     weights = {key: {name: float(np.abs(net).sum()) for name, net in items.items()} for key, items in sums.items()}
     total = sum(sum(items.values()) for items in weights.values())
     found = []

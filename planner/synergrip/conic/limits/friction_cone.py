@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
 from synergrip.statics.motion import Motion
@@ -72,7 +72,7 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         first = np.tile(np.eye(size)[0], len(chosen))
         value = situation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
-        names = tuple(contact.name for contact, _ in chosen)
+        items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
-        result.append(Rows(key, kind, size, names, value.matrix, constant, frozen(epigraph * first)))
+        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first)))
     return result
