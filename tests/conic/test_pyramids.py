@@ -208,7 +208,9 @@ def test_backends_find_the_optimum_that_clarabel_finds_and_its_multipliers(seed:
 def small_program() -> Program:
     """Least ||x||^2 / 2 with x_1 + x_2 + x_3 = 1 and x_1 >= 0.6: x = (0.6, 0.2, 0.2)."""
     A = np.array([[-1.0, 0, 0], [1, 1, 1], [0, -1.0, 0]])
-    blocks = tuple(Block("test", kind, 1, (Item("i"),), 0, 1) for kind in (Kind.NONNEGATIVE, Kind.ZERO, Kind.NONNEGATIVE))
+    blocks = tuple(
+        Block("test", kind, 1, (Item("i"),), 0, 1) for kind in (Kind.NONNEGATIVE, Kind.ZERO, Kind.NONNEGATIVE)
+    )
     return Program(
         sparse.csc_matrix(np.eye(3)), frozen(np.zeros(3)), sparse.csc_matrix(A), frozen([-0.6, 1.0, 5.0]), blocks, 1, 3,
         frozen(np.full(3, 1e6)),
