@@ -201,14 +201,12 @@ class GoalTable(Table):
         }
         single = [self.minimise] if isinstance(self.minimise, str) else []
         joined = list(dict.fromkeys([*([self.maximise] if self.maximise else []), *(self.order or ()), *single]))
-        both = (
-            ""
-            if self.weights or any(_order_issues(joined))
-            else f"; for all of them write only order = {_toml(joined)}"
-        )
+        both = "several goals are written as order = [...]"
+        if not self.weights and not any(_order_issues(joined)):
+            both = f"for all of them write only order = {_toml(joined)}"
         return (
             f"the goal is given already by '{first}': drop '{second}' to keep {kept[first]}, or '{first}' to keep "
-            f"{kept[second]}{both} (--set goal={{...}} replaces the whole table)"
+            f"{kept[second]}; {both} (--set goal={{...}} replaces the whole table)"
         )
 
 

@@ -82,7 +82,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
         try:
-            touches.append(_touch(hand, contact))
+            touches.append(_touch(hand, contact, thing))
         except InputError as error:
             issues += error.issues
     if table.close is not None:
@@ -113,14 +113,14 @@ def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Arra
     return synergies, q, C_q, C_z
 
 
-def _touch(hand: Hand, contact: ContactSpec) -> Touch:
+def _touch(hand: Hand, contact: ContactSpec, thing: Object) -> Touch:
     kind = contact_kind(contact.model)
     stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
     each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
     aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
         contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
-        each, contact.normals, contact.key, aimed,
+        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed,
     )  # fmt: skip
 
 

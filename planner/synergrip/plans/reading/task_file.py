@@ -45,7 +45,10 @@ def _wrench(value: object) -> str | tuple[float, ...]:
         return value
     if isinstance(value, list):
         return listed_by(_COMPONENTS, value, "numbers")
-    raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}")
+    kind = kind_of(value, ("force", "torque"))
+    example = {"force": f"[0, 0, {value!r}, 0, 0, 0]", "torque": f"[0, 0, 0, 0, 0, {value!r}]"}.get(kind or "", "")
+    advice = f"; write for example {example.replace(chr(39), chr(34))}" if example else ""
+    raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}{advice}")
 
 
 def _gravity(value: object) -> tuple[float, ...]:
