@@ -38,6 +38,9 @@ class Touch:
     aimed: bool = True
     """False for a pad without a normal of its own: it pushes toward the object, and its `normal` is 0."""
 
+    normal_at: str = ""
+    """Where the normal of the pad is stated, for advice."""
+
     def alone(self, thing: Object) -> bool:
         """Tell whether nothing but the pad says where it pushes: a bare mass is a load, and may be anywhere."""
         return thing.shape is None and self.normals == "pad"
@@ -158,7 +161,9 @@ def _contact(thing: Object, touch: Touch, motion: PointMotion) -> tuple[Contact,
             message += '; if the mass is beyond the pads, write normals = "pad": then each pushes as the pad says'
         raise InputError.at(touch.key, message)
     spot = frozen(point + touch.pad.radius * to_surface)
-    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, contact_frame(normal)), gap
+    stated = touch.normal_at if touch.alone(thing) and not touch.pad.radius else ""  # a round one would touch elsewhere
+    frame = contact_frame(normal)
+    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, frame, stated), gap
 
 
 def _reached(title: str, touch: Touch, gap: float) -> float:

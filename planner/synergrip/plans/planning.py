@@ -23,6 +23,7 @@ from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
+from synergrip.plans.reversed_normals import with_hint
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answerer, ask
 from synergrip.plans.stages import Stage, not_the_best, through
@@ -48,7 +49,8 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         return _refused(grasp, task, analysis, refusal)
     if task.between == "hold":
         situation = replace(situation, bend=bend_of(task, analysis))
-    return _Planner(task, analysis, situation, solver).outcome()
+    outcome = _Planner(task, analysis, situation, solver).outcome()
+    return with_hint(outcome, lambda other, same: plan(other, same, solver))
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:

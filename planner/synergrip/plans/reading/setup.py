@@ -120,8 +120,15 @@ def _touch(hand: Hand, contact: ContactSpec, thing: Object) -> Touch:
     aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
         contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
-        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed,
+        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed, _normal_at(contact),
     )  # fmt: skip
+
+
+def _normal_at(contact: ContactSpec) -> str:
+    """Return where the normal of a pad or of a place on a link is stated."""
+    if isinstance(contact.at, str):
+        return f"the normal of pad '{contact.at}' in the hand's hand.toml"
+    return f"{contact.key.removesuffix('link')}normal"
 
 
 def _pad(hand: Hand, contact: ContactSpec) -> Pad:

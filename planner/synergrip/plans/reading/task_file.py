@@ -46,8 +46,8 @@ def _wrench(value: object) -> str | tuple[float, ...]:
     if isinstance(value, list):
         return listed_by(_COMPONENTS, value, "numbers")
     kind = kind_of(value, ("force", "torque"))
-    example = {"force": f"[0, 0, {value!r}, 0, 0, 0]", "torque": f"[0, 0, 0, 0, 0, {value!r}]"}.get(kind or "", "")
-    advice = f"; write for example {example.replace(chr(39), chr(34))}" if example else ""
+    example = {"force": f'[0, 0, "{value}", 0, 0, 0]', "torque": f'[0, 0, 0, 0, 0, "{value}"]'}.get(kind or "")
+    advice = f"; write for example {example}" if example else ""
     raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}{advice}")
 
 
