@@ -50,9 +50,9 @@ class Grasp:
             "lambda_0": None if self.lambda_0 is None else judge.array("lambda_0", self.lambda_0, (n_l,)),
             "w_0": judge.array("w_0", self.w_0, (6,)),
         }
-        judge.names("contacts", [contact.name for contact in self.contacts], len(self.contacts), "contact")
-        judge.names("joints", self.joints, n_q, "joint, a column of J")
-        judge.names("synergies", self.synergies, n_z, "synergy, a column of S")
+        judge.names("contacts", [contact.name for contact in self.contacts])
+        judge.names("joints", self.joints)
+        judge.names("synergies", self.synergies)
         raise_issues(judge.issues)
         for name, value in kept.items():
             object.__setattr__(self, name, value)

@@ -47,11 +47,8 @@ class Judge:
             found = None
         return frozen(np.zeros((size, size))) if found is None or found.shape != (size, size) else found
 
-    def names(self, name: str, values: Sequence[object], count: int, of: str) -> None:
-        """Note names that are no names, or stand twice, or are not one for each."""
-        if isinstance(values, str) or len(values) != count:
-            self.refuse(name, f"expected {count} names, one for each {of}, got {shown(values)} of {len(values)}")
-            return
+    def names(self, name: str, values: Sequence[object]) -> None:
+        """Note names that are no names, or stand twice: limits, proofs and tables tell things apart by them."""
         for index, each in enumerate(values):
             if not isinstance(each, str) or not each:
                 self.refuse(f"{name}[{index}]", f"expected a name, got {shown(each)}")
