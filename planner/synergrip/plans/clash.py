@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,10 @@ HEAVY = 0.2
 """Items that carry less than this share of what the heaviest item of their limit carries are not named."""
 
 
+FRICTION = frozenset({"limits.margin", "limits.margin_angle", "limits.safety_factor"})
+"""Limits whose multipliers say that contacts slip."""
+
+
 @dataclass(frozen=True)
 class Clash:
     """One limit's part in a proof of infeasibility."""
@@ -26,6 +31,12 @@ class Clash:
     """Share of the proof's multipliers, all in units of their limits."""
     items: tuple[str, ...]
     """Contacts, joints or synergies, the heaviest first."""
+
+
+def beside_friction(found: Sequence[Clash]) -> str:
+    """Return the limit that carries most of a proof, with its heaviest item; empty when that is friction itself."""
+    chief = max(found, key=lambda clash: clash.share, default=None)
+    return "" if chief is None or chief.key in FRICTION else f"{chief.key} ({chief.items[0]})"
 
 
 def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
