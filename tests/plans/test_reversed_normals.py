@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
+from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 from synergrip.plans.reversed_normals import reversed_normals
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_plan import verdict_lines
+from synergrip.statics import respond
 
 ROWS = {"hard": 3, "soft": 4, "frictionless": 1}
 Grasps = dict[str, Any]
@@ -153,16 +157,25 @@ def test_normals_that_all_point_outward_are_noted(name: str, tmp_path: Path) -> 
     assert isinstance(wrong, Plan)
 
 
-def test_reversed_twice_is_the_grasp_itself_and_once_is_pulling() -> None:
-    problem = load_problem("pinch-soft")
-    grasp = problem.grasp
-    once = reversed_normals(grasp, (1,))
-    twice = reversed_normals(once, (1,))
-    for name in ("G", "J", "C_s"):
-        assert np.array_equal(getattr(twice, name), getattr(grasp, name))
-    pushed = np.eye(1, grasp.n_l, 4)[0]
-    assert np.array_equal(once.G @ pushed, -grasp.G @ pushed)
-    assert np.array_equal(once.J.T @ pushed, -grasp.J.T @ pushed)
+@pytest.mark.parametrize("seed", range(6))
+def test_reversed_normals_are_the_same_grasp_with_other_signs(seed: int) -> None:
+    """Coupled compliances too: the object moves alike, and forces along the reversed normals change sign."""
+    rng = np.random.default_rng(seed)
+    grasp = hand_like_grasp(rng)
+    root = rng.normal(size=(grasp.n_l, grasp.n_l))
+    grasp = replace(grasp, C_s=frozen(grasp.C_s + 1e-5 * root @ root.T), lambda_0=frozen(rng.normal(size=grasp.n_l)))
+    grasp = replace(grasp, w_0=frozen(-grasp.G @ grasp.lambda_0))
+    chosen = tuple(rng.permutation(grasp.n_c)[:2].tolist())
+    other = reversed_normals(grasp, chosen)
+    signs = np.ones(grasp.n_l)
+    signs[[grasp.normal_rows[i] for i in chosen]] = -1
+    one, two = respond(grasp), respond(other)
+    assert two.du_dzr == pytest.approx(one.du_dzr, rel=1e-8, abs=1e-10)
+    assert two.dlambda_dzr == pytest.approx(signs[:, None] * one.dlambda_dzr, rel=1e-7, abs=1e-7)
+    assert two.dlambda_dw == pytest.approx(signs[:, None] * one.dlambda_dw, rel=1e-7, abs=1e-7)
+    assert other.lambda_0 == pytest.approx(signs * grasp.lambda_0)
+    twice = reversed_normals(other, chosen)
+    assert all(np.array_equal(getattr(twice, name), getattr(grasp, name)) for name in ("G", "J", "C_s", "lambda_0"))
 
 
 LINKS = "contact=[{{link='left_tip', name='left', normal={left}}}, {{link='right_tip', name='right', normal={right}}}]"
