@@ -15,7 +15,10 @@ from synergrip.linalg import Array, block_diagonal, frozen
 
 @dataclass(frozen=True)
 class Grasp:
-    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moment about n])."""
+    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moment about n]).
+
+    A number in the place of a compliance stands for that times the identity, as in a grasp file.
+    """
 
     title: str
     contacts: tuple[Contact, ...]

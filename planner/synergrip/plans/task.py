@@ -58,7 +58,7 @@ class Task:
     """A task at T knots."""
 
     times: Array  # (T,) [s]
-    wrench: Array  # (T, 6) external wrench on the object about B, axes of N
+    wrench: Array  # (T, 6), or (6,) for one that stays, external wrench on the object about B, axes of N
     wanted: Wanted
     margin: float
     """Slip margin that every contact keeps [N]."""
