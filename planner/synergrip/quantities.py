@@ -44,6 +44,9 @@ EXAMPLES = {
     "slide compliance": "0.1 mm/N", "acceleration": "9.81 m/s^2",
 }  # fmt: skip
 
+LONGEST = 400
+"""Characters of a number; the pattern takes time that grows with the square of their count."""
+
 _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*\Z")
 
 
@@ -90,7 +93,7 @@ def without_unit(value: object, kind: str) -> str:
     before it.
     """
     text = "" if isinstance(value, bool) or not isinstance(value, int | float | str) else str(value)
-    match = _NUMBER.match(text)
+    match = _NUMBER.match(text) if len(text) <= LONGEST else None
     if match is None or match[2]:
         return f'"{EXAMPLES[kind]}"'
     units = UNITS[kind]
