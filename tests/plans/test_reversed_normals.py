@@ -14,6 +14,9 @@ import pytest
 from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
+from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.grasp import grasp_matrix
+from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
@@ -176,6 +179,36 @@ def test_reversed_normals_are_the_same_grasp_with_other_signs(seed: int) -> None
     assert other.lambda_0 == pytest.approx(signs * grasp.lambda_0)
     twice = reversed_normals(other, chosen)
     assert all(np.array_equal(getattr(twice, name), getattr(grasp, name)) for name in ("G", "J", "C_s", "lambda_0"))
+
+
+@pytest.mark.parametrize("chosen", [(2,), (0, 1), (0, 2, 4)])
+def test_some_of_many_contacts_are_found_by_where_they_point(chosen: tuple[int, ...], tmp_path: Path) -> None:
+    """Six slippery contacts on a ball: of all 63 sets, those that point away from the middle are the one to try."""
+    normals = np.vstack([np.eye(3), -np.eye(3)])
+    contacts = [{"name": f"C{i}", "kind": "hard", "friction": 0.05, "point_m": (-0.03 * n).tolist(),
+                 "normal": n.tolist()} for i, n in enumerate(normals)]  # fmt: skip
+    made = tuple(
+        Contact(c["name"], contact_kind("hard"), 0.05, 0.0, frozen(-0.03 * n), contact_frame(n))
+        for c, n in zip(contacts, normals, strict=True)
+    )
+    S = np.zeros((18, 6))
+    S[3 * np.arange(6), np.arange(6)] = 1
+    G, J = grasp_matrix(made).tolist(), np.eye(18).tolist()
+    data = {"schema": 1, "contacts": contacts, "G": G, "J": J, "S": S.tolist(), "C_s": 1e-4}
+    problem = 'schema = 1\ngrasp = { file = "six.json" }\ntask = { wrench = [0, 0, -0.4, 0, 0, 0] }\n'
+    (tmp_path / "six.toml").write_text(problem + 'limits = { normal_force = ["1 N", "9 N"] }\n')
+
+    def planned(file: Grasps) -> Outcome:
+        (tmp_path / "six.json").write_text(json.dumps(file))
+        read = load_problem(tmp_path / "six.toml")
+        return plan(read.grasp, read.task)
+
+    assert isinstance(planned(data), Plan)
+    outcome = planned(turned(data, chosen))
+    assert isinstance(outcome, Infeasible)
+    (hint,) = outcome.hints
+    assert [i for i in range(6) if f"'C{i}'" in hint] == list(chosen)
+    assert isinstance(planned(follow(turned(data, chosen), hint)), Plan)
 
 
 LINKS = "contact=[{{link='left_tip', name='left', normal={left}}}, {{link='right_tip', name='right', normal={right}}}]"

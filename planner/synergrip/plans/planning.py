@@ -51,7 +51,7 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     if task.between == "hold":
         situation = replace(situation, bend=bend_of(task, analysis))
     outcome = _Planner(task, analysis, situation, solver).outcome()
-    return with_hint(outcome, lambda other, same: plan(other, same, solver))
+    return with_hint(outcome, plan)
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
