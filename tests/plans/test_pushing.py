@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from driven_grasp import driven, touch
 from random_tasks import random_task_on_grasp
 
-from synergrip.grasps.contact import Contact, contact_frame
-from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.contact import Contact
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
@@ -44,20 +44,9 @@ def test_no_plan_lets_a_slippery_contact_pull(solver: str) -> None:
 
 def needle(mu: float) -> tuple[Grasp, Contact]:
     """Two fingers squeeze along x; a third, without friction to speak of, can only push the object down, along -z."""
-    sides = [Contact(name, contact_kind("soft"), 0.5, 0.01, frozen([x, 0.0, 0.0]), contact_frame(np.array([-x, 0, 0])))
-             for name, x in (("left", -0.02), ("right", 0.02))]  # fmt: skip
-    top = Contact("top", contact_kind("hard"), mu, 0.0, frozen([0.0, 0.0, 0.02]), contact_frame(np.array([0, 0, -1.0])))
+    sides = [touch(name, "soft", [x, 0, 0], [-x, 0, 0], 0.5) for name, x in (("left", -0.02), ("right", 0.02))]
+    top = touch("top", "hard", [0, 0, 0.02], [0, 0, -1], mu)
     return driven([*sides, top]), top
-
-
-def driven(contacts: list[Contact]) -> Grasp:
-    """Every contact moved by synergies of its own."""
-    G = grasp_matrix(contacts)
-    n_l = G.shape[1]
-    eye, zero = frozen(np.eye(n_l)), frozen(np.zeros((n_l, n_l)))
-    names = tuple(f"q{i}" for i in range(n_l))
-    return Grasp("needle", tuple(contacts), G, eye, eye, frozen(1e-3 * np.eye(n_l)), zero, zero, None,
-                 frozen(np.zeros(6)), names, names)  # fmt: skip
 
 
 @pytest.mark.parametrize("mu", [1e-9, 1e-6, 1e-3, 0.05])

@@ -69,11 +69,12 @@ class Answered:
 
     @property
     def value(self) -> float:
-        """Value of the goal, in the program's units; of a sum of squares added up, so that no terms cancel."""
+        """Value of the goal, in the program's units; small squares are added up, so that no terms cancel."""
+        value = self.decision.program.objective(self.decision.solution.x)
+        if value > SMALL:
+            return value
         cost = self.question.goal.objective(self.question.situation)
-        if cost.epigraph is not None:
-            return self.decision.program.objective(self.decision.solution.x)
-        return cost.squared(self.v) / self.question.worth
+        return value if cost.epigraph is not None else cost.squared(self.v) / self.question.worth
 
     @property
     def small(self) -> bool:

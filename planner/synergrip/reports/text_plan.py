@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.linalg import Array
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
@@ -21,6 +22,8 @@ from synergrip.reports.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"
+ROUNDING = 1e-9
+"""A motion this small beside the length of the grasp is rounding."""
 
 
 def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
@@ -87,10 +90,16 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
         if name in limited:
             continue
-        sizes = np.linalg.norm(scale.twist(motion), axis=1)
-        at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
-        rows.append((name, f"{round(1e3 * sizes[at], 6):.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
+        rows.append(_largest_motion(name, np.linalg.norm(scale.twist(motion), axis=1), plan))
     yield table(("", "worst", "at", "limit"), rows)
+
+
+def _largest_motion(name: str, sizes: Array, plan: Plan) -> tuple[str, ...]:
+    """Return a row for the largest of motions (T,) [m]; one that is rounding has no time at which it is largest."""
+    if sizes.max(initial=0.0) < ROUNDING * plan.analysis.response.scale.length:
+        return name, "0 mm", "", ""
+    at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
+    return name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""
 
 
 def _largest_normal(plan: Plan) -> tuple[str, ...]:

@@ -14,6 +14,8 @@ from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
+CANCELLED = 1e-9
+"""Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
 SLIPPERY = 0.1
 """Friction below which a cone, to a tolerance e, allows a pull of more than ten times e."""
 
@@ -60,11 +62,14 @@ def slip_margins(situation: Situation, motion: Motion) -> Array:
 def carried(situation: Situation, motion: Motion) -> Array:
     """Return (T, n_c) [N] the largest force component that each contact carries, or what the task asks when more.
 
-    An error of a force is small or large against this, never against a limit that does not bind.
+    An error of a force is small or large against this, never against a limit that does not bind. Forces are sums over
+    the synergies: where these cancel to almost nothing, what is left is their rounding.
     """
-    grasp, sizes = situation.response.grasp, np.abs(motion.forces * situation.response.scale.force)
+    grasp, response = situation.response.grasp, situation.response
+    sizes = np.abs(motion.forces * response.scale.force)
     largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
-    return frozen(np.maximum(largest, situation.load_size))
+    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
+    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * response.scale.largest_force(terms))))
 
 
 def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:
