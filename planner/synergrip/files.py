@@ -42,7 +42,6 @@ def atomic_path(path: Path) -> Iterator[Path]:
         yield temporary
         synced(temporary)
         temporary.replace(path)
-        synced(path.parent)
 
 
 def refuse_other_than_file(path: Path) -> None:

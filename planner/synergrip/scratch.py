@@ -100,8 +100,13 @@ def _made(parent: Path) -> tuple[Path, int | None]:
     while True:
         folder = parent / f".synergrip-{os.urandom(8).hex()}"
         folder.mkdir()
-        with suppress(FileNotFoundError, BlockingIOError):
+        try:
             return folder, _lock(folder)
+        except (FileNotFoundError, BlockingIOError):
+            continue
+        except OSError:
+            folder.rmdir()
+            raise
 
 
 def _lock(folder: Path, until: float = 0.0) -> int | None:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from synergrip.files import refuse_other_than_file
 from synergrip.scratch import alone_in, scratch, sweep, synced
+from synergrip.signals import held_back
 
 
 def replace_together(folder: Path, names: Sequence[str], write: Callable[[Path], object]) -> None:
@@ -33,17 +34,17 @@ def replace_together(folder: Path, names: Sequence[str], write: Callable[[Path],
     """
     folder = Path(os.path.realpath(folder))
     refuse_others(folder, names)
-    for place in (folder, folder.parent):
-        sweep(place)
-    if not folder.exists() and _moved_whole(folder, write):
-        return
-    if _holds_only(folder, names) and _exchanged(folder, names, write):
-        return
-    with scratch(folder) as aside:
-        new = _written(aside, write)
-        with alone_in(folder):
-            _move_one_by_one(new, folder, names, aside)
-        synced(folder)
+    with held_back():
+        for place in (folder, folder.parent):
+            sweep(place)
+        if not folder.exists() and _moved_whole(folder, write):
+            return
+        if _holds_only(folder, names) and _exchanged(folder, names, write):
+            return
+        with scratch(folder) as aside:
+            new = _written(aside, write)
+            with alone_in(folder):
+                _move_one_by_one(new, folder, names, aside)
 
 
 def refuse_others(folder: Path, names: Sequence[str]) -> None:
@@ -78,7 +79,6 @@ def _moved_whole(folder: Path, write: Callable[[Path], object]) -> bool:
             if error.errno != errno.ENOTEMPTY:
                 raise
             return False
-        synced(folder.parent)
     return True
 
 
@@ -94,7 +94,6 @@ def _exchanged(folder: Path, names: Sequence[str], write: Callable[[Path], objec
             for late in new.iterdir():  # came between the last look and the exchange
                 if late.name not in names:
                     late.rename(folder / late.name)
-        synced(folder.parent)
     return True
 
 
