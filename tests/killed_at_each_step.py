@@ -46,7 +46,8 @@ def hook(event: str, arguments: tuple[Any, ...]) -> None:
 
 def _ours(arguments: tuple[Any, ...]) -> bool:
     return any(isinstance(a, str | bytes | Path) and "together-" in os.fsdecode(a) for a in arguments[:2]) or any(
-        isinstance(a, int) and a > 2 for a in arguments[1:]  # beside an open folder, as rmtree works
+        isinstance(a, int) and a > 2
+        for a in arguments[1:]  # beside an open folder, as rmtree works
     )
 
 
@@ -76,45 +77,51 @@ def prepared(root: Path, way: str) -> Path:
     return folder
 
 
-def tried(way: str, step: int, act: Callable[[], None]) -> tuple[str, list[str], bool]:
-    """Return the state after `act` at a step of the writer, what is wrong, and whether there was such a step."""
+def ended(folder: Path, coming: tuple[str, ...], step: int, act: Callable[[], None]) -> int:
+    """Return how a writer that acts at a step ends: 0 had fewer steps, 3 made nothing of it, 5 an error, -9 killed."""
+    child = os.fork()
+    if child:
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    count = itertools.count(1)
+
+    def acting() -> None:
+        if next(count) == step:
+            act()
+
+    at_step.append(acting)
+    try:
+        write(folder, coming, "new")
+    except OSError:
+        os._exit(5)
+    os._exit(0 if next(count) <= step else 3)
+
+
+def faults(folder: Path, way: str, code: int) -> tuple[str, list[str]]:
+    """Return which answer stands, and what is wrong with that after a writer has ended."""
     others, before, coming = WAYS[way]
+    found = answer(folder)
+    whole = {"old": dict.fromkeys(before, "old"), "new": dict.fromkeys(coming, "new")}
+    state = next((word for word, files in whole.items() if files == found), "part")
+    signs = {
+        f"two answers: {found}": len(set(found.values())) > 1,
+        "no file at all": state == "part" and not found and bool(set(before) & set(coming)),
+        f"not whole: {found}, exit {code}": state == "part" and (code == 5 or not others),
+        f"exit {code}, and {state}": (code, state) in ((5, "new"), (3, "old"), (0, "old")),
+        "another file was changed": any((folder / other).read_text() != "old" for other in others),
+        "hidden files after an error": code == 5 and bool(hidden(folder.parent)),
+    }
+    return state, [word for word, found_so in signs.items() if found_so]
+
+
+def tried(way: str, step: int, act: Callable[[], None]) -> tuple[str, list[str], bool]:
+    """Return which answer stands after `act` at a step of the writer, what is wrong, and whether there was the step."""
     with tempfile.TemporaryDirectory(prefix="together-", dir=MEMORY) as name:
-        root, count = Path(name), itertools.count(1)
-        folder = prepared(root, way)
-
-        def acting() -> None:
-            if next(count) == step:
-                act()
-
-        child = os.fork()
-        if not child:
-            at_step.append(acting)
-            try:
-                write(folder, coming, "new")
-            except OSError:
-                os._exit(5)
-            os._exit(0 if next(count) <= step else 3)
-        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-        found = answer(folder)
-        whole = {"old": dict.fromkeys(before, "old"), "new": dict.fromkeys(coming, "new")}
-        state = next((word for word, files in whole.items() if files == found), "part")
-        wrong = []
-        if len(set(found.values())) > 1:
-            wrong.append(f"two answers: {found}")
-        if state == "part" and not found and set(before) & set(coming):
-            wrong.append("no file at all")
-        if state == "part" and (code == 5 or not others):
-            wrong.append(f"not whole: {found}, exit {code}")
-        if (code, state) in ((5, "new"), (3, "old"), (0, "old")) and before != coming:
-            wrong.append(f"exit {code}, and {state}")
-        if any((folder / other).read_text() != "old" for other in others):
-            wrong.append("another file was changed")
-        if code == 5 and hidden(root):
-            wrong.append("hidden files after an error")
+        folder = prepared(Path(name), way)
+        code = ended(folder, WAYS[way][2], step, act)
+        state, wrong = faults(folder, way, code)
         write(folder, NAMES, "next")
-        if answer(folder) != dict.fromkeys(NAMES, "next") or hidden(root):
-            wrong.append(f"the next run leaves {sorted(root.rglob('*'))}")
+        if answer(folder) != dict.fromkeys(NAMES, "next") or hidden(folder.parent):
+            wrong.append(f"the next run leaves {sorted(folder.parent.rglob('*'))}")
         return state, [f"{way}, step {step}: {word}" for word in wrong], code != 0
 
 

@@ -9,6 +9,7 @@ signal waits (`synergrip.signals`), and where finished work is to be kept it is 
 from __future__ import annotations
 
 import _signal as signal  # type: ignore[import-not-found]  # all of it that counts, without its enums: 5 ms sooner
+import _thread
 import atexit
 import os
 import sys
@@ -71,8 +72,8 @@ def standing() -> str:
 
 
 def _raise_again(unraisable: sys.UnraisableHookArgs) -> None:
-    """Let an interrupt that fell into a destructor, where exceptions vanish, be heard after it."""
+    """Let an interrupt that fell into a destructor, where exceptions vanish, be heard after it; so not from here."""
     if issubclass(unraisable.exc_type, KeyboardInterrupt):
-        signal.raise_signal(signal.SIGINT)
+        _thread.start_new_thread(_thread.interrupt_main, ())
     else:
         sys.__unraisablehook__(unraisable)

@@ -27,6 +27,8 @@ from synergrip.cli.running import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from synergrip.plans.outcome import Outcome
     from synergrip.plans.problem import Problem
     from synergrip.plans.solvers import Answerer
@@ -60,6 +62,7 @@ def plan(
     with answering(form):
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
+        from synergrip.plans.planning import plan as make
         from synergrip.plans.problem import load_problem
         from synergrip.plans.solvers import answerer
         from synergrip.reports.json_plan import outcome_document
@@ -81,7 +84,7 @@ def plan(
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
-                outcome = _found(loaded, answers)
+                outcome = _found(make, loaded, answers)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
                 cost = compared(outcome, request, document)
                 with writing("--output", folder):
@@ -96,9 +99,9 @@ def plan(
     raise typer.Exit(outcome.exit_code)
 
 
-def _found(problem: Problem, answers: Answerer) -> Outcome:
+def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
+    """Plan; an interrupt keeps what the goals so far have led to."""
     from synergrip.errors import SynergripError
-    from synergrip.plans.planning import plan as make
     from synergrip.plans.problem import located
 
     try:
