@@ -214,6 +214,23 @@ def test_another_run_that_does_not_let_go_is_named(there: Path, monkeypatch: pyt
     assert content(there) == dict.fromkeys(NAMES, "old")
 
 
+@posix
+def test_the_lock_is_that_of_the_folder_which_is_there_now(there: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another run puts a new folder in its place while this one waits for the lock of the old one."""
+    lock = scratch._lock
+
+    def late(folder: Path, until: float = 0.0) -> int | None:
+        monkeypatch.setattr(scratch, "_lock", lock)
+        handle = lock(folder, until)
+        folder.rename(folder.with_name("before"))
+        folder.mkdir()
+        return handle
+
+    monkeypatch.setattr(scratch, "_lock", late)
+    with scratch.alone_in(there), pytest.raises(BlockingIOError):
+        lock(there)
+
+
 # Signals
 
 

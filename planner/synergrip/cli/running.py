@@ -165,7 +165,7 @@ def _line(error: SynergripError) -> str:
     if isinstance(error, OutputError):
         key = f" {error.key}" if error.key else ""
         return f"error{key}: {error}\n\n{ending.standing()}      exit code {error.exit_code}"
-    return f"error: {error}"
+    return str(error) if isinstance(error, InterruptError) else f"error: {error}"
 
 
 def _plain(error: SynergripError) -> dict[str, Any]:
