@@ -275,6 +275,32 @@ def test_an_interrupt_that_a_library_turns_into_another_error_is_one() -> None:
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted; nothing was written\n")
 
 
+IN_C = """
+import ctypes
+run = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.c_char_p, ctypes.c_int, ctypes.py_object, ctypes.py_object)
+run = run(("PyRun_String", ctypes.pythonapi))
+def planning(*_):
+    run(b"import signal\\nsignal.raise_signal(2)\\n", 257, {"__builtins__": __builtins__}, {})
+import synergrip.plans.planning
+synergrip.plans.planning.plan = planning
+"""
+
+
+def test_an_interrupt_that_passed_through_the_interpreter_in_c_is_no_death_by_the_signal() -> None:
+    """Python started with -m, which heeds that when it ends."""
+    code = AT.format(what=INTERRUPT, event="none", argument="", before=IN_C)
+    Path("started.py").write_text(code, encoding="utf-8")
+    done = subprocess.run([sys.executable, "-m", "started", *PLAN], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted; nothing was written\n")
+
+
+def test_an_interrupt_while_the_command_line_itself_loads_is_one_line() -> None:
+    code = AT.format(what=INTERRUPT, event="import", argument="synergrip.cli", before="")
+    code = code.split("from synergrip.cli")[0] + "import runpy; runpy.run_module('synergrip', run_name='__main__')"
+    done = subprocess.run([sys.executable, "-c", code, "problems"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted; nothing was written\n")
+
+
 def test_who_was_told_to_ignore_interrupts_does(tmp_path: Path) -> None:
     done = interrupted("import", "numpy", PLAN, before="signal.signal(signal.SIGINT, signal.SIG_IGN)")
     assert done.returncode == 0

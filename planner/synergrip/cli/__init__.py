@@ -22,8 +22,10 @@ def main() -> None:
         try:
             try:
                 app()
-            finally:
+            except SystemExit as left:
                 sys.stdout.flush()
+                ending.end(left.code)
+                raise
         except PrintError as error:  # of the help or the version
             print(f"error: {error}      exit code {error.exit_code}", file=sys.stderr)
             sys.exit(error.exit_code)

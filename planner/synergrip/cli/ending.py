@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from types import FrameType
     from typing import NoReturn
 
+INTERRUPTED = 130
 _kept: list[str] = []
 _document: Callable[[str], str] | None = None
 
@@ -45,7 +46,16 @@ def leave(number: int = 0, frame: FrameType | None = None) -> NoReturn:
         os.write(stream, f"{text}\n".encode(errors="replace"))
     except OSError:  # nobody is there to be told
         pass
-    os._exit(130)
+    os._exit(INTERRUPTED)
+
+
+def end(code: object) -> None:
+    """Leave now when the program was interrupted and all is said.
+
+    The interpreter would go on to die of the signal when the interrupt passed through its own code in C.
+    """
+    if code == INTERRUPTED and watching():
+        os._exit(INTERRUPTED)
 
 
 def begin(document: Callable[[str], str] | None) -> None:
