@@ -134,6 +134,17 @@ class InterruptError(SynergripError):
     exit_code = 130
 
 
+class OutputError(SynergripError):
+    """What was found could not be written or printed. What was written before stands."""
+
+    exit_code = 5
+
+    def __init__(self, message: str, key: str = "") -> None:
+        """Say what could not be written, and the option that names it."""
+        super().__init__(message)
+        self.key = key
+
+
 class SelfCheckError(SynergripError):
     """The program's own answer failed the program's own check: a defect of synergrip."""
 

@@ -11,9 +11,9 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of, raise_issues
+from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues
 from synergrip.fields import Name, Number, Table, Version
-from synergrip.files import atomic_path
+from synergrip.files import IMPOSSIBLE, atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.synergies import coupling_map, drivers
 from synergrip.linalg import Array, frozen
@@ -105,7 +105,8 @@ def write_synergy_file(path: Path, file: SynergyFile, key: str = "") -> None:
         key: what names the path, for the error.
 
     Raises:
-        InputError: another name, something else stands there, or it cannot be written.
+        InputError: another name, something else stands there, or no file can have that name.
+        OutputError: it cannot be written.
     """
     if path.suffix != SUFFIX:
         raise InputError.at(key, f"the name of a synergy file ends in {SUFFIX}, got '{path}'")
@@ -118,7 +119,10 @@ def write_synergy_file(path: Path, file: SynergyFile, key: str = "") -> None:
         message = f"'{path}' is there and is no synergy file ({error.issues[0].message}); choose another name"
         raise InputError.at(key, message) from None
     except OSError as error:
-        raise InputError.at(key, f"cannot write '{path}': {error.strerror or error}") from None
+        message = f"cannot write '{path}': {error.strerror or error}"
+        if error.errno in IMPOSSIBLE:
+            raise InputError.at(key, message) from None
+        raise OutputError(message, key) from None
 
 
 def synergy_text(file: SynergyFile) -> str:

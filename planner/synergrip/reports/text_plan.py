@@ -26,10 +26,14 @@ ROUNDING = 1e-9
 """A motion this small beside the length of the grasp is rounding."""
 
 
-def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
-    """Return the answer: what was read, asked, solved, checked; the verdict; what was written."""
+def outcome_text(
+    problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str] | None, color: bool = False
+) -> str:
+    """Return the answer: what was read, asked, solved, checked; the verdict; what was written, None if that failed."""
+    if written is None:
+        return "\n".join(verdict_lines(problem, outcome, color))
     code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
-    wrote = f"wrote {folder}/  " + "  ".join(written) + code
+    wrote = (f"wrote {folder}/  " + "  ".join(written) if written else "wrote nothing") + code
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
 
 
