@@ -17,7 +17,7 @@ FollowerRanges = Literal["keep", "ignore"]
 """What to do with the ranges that a model file states for followers."""
 APART = 1e-6
 """[rad or m] Ends of a range that differ by less say the same."""
-MATERIAL = 0.01
+MATERIAL = 0.02
 """Share of what the coupling asks for that a range may leave out, as a rounded number does."""
 REPAIR = 'correct one of the two, or let the couplings say how far followers go: hand.follower_ranges = "ignore"'
 
