@@ -34,7 +34,7 @@ _PERHAPS = {"", "n", "i", "k", "step", "#", *_NUMBERS} - {"type", "name"}
 
 _BRACKETED = re.compile(r"\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*$")
 _LONG = {"degree": "deg", "degrees": "deg", "°": "deg", "radian": "rad", "radians": "rad"}
-_PLACE = re.compile(r"[/._ ]?position$|[/.]pos$", re.IGNORECASE)
+_PLACE = re.compile(r"[/._ ](position|pos)$", re.IGNORECASE)
 
 
 def beside_joints(text: str) -> str:
@@ -81,7 +81,7 @@ def joint_and_unit(text: str, known: Mapping[str, str] | None) -> tuple[str, str
     last = inner.rsplit("/", 1)[-1]
     if known is not None:
         return next((each for each in (inner, last) if each in known), name), unit
-    return (last if inner != name or name.startswith("/") else name), unit
+    return (last if "/" in name or name.endswith(".position") else name), unit
 
 
 def _bare(text: str, slides: bool) -> tuple[str, str]:

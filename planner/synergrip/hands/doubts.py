@@ -1,54 +1,24 @@
-"""What makes a recording doubtful: numbers in place of names, units that cannot be meant, columns that only count."""
+"""What makes the columns of a recording doubtful: numbers in place of names, columns that only count or stand still."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from synergrip.cells import Cell, CellReader
-from synergrip.hands.column_names import UNITS
+from synergrip.cells import CellReader
 from synergrip.hands.hand import Hand
+from synergrip.hands.meant_units import TURN, Column
 from synergrip.hands.sheet import Sheet, is_number
 from synergrip.linalg import Array
 
 NOTHING = "nothing"
 """What a column is that is empty because each line ends in a delimiter."""
-TURN = 2 * math.pi
-SMALL = 3.2
-"""[deg] Postures that all are within this of 0 are more likely radians, which half a turn bounds."""
-SLACK = 0.1
-"""Share of a range by which records may leave it: calibration is not perfect."""
-FEW, MANY = 0.5, 0.95
-"""Shares of the values that lie in the ranges of their joints, when the unit is wrong, and when it is right."""
+ENDLESS = 1000.0
+"""[deg or rad] What goes that far without turning back is no joint."""
 COUNTING = 4
 """Lines, from which equal steps are no accident."""
 SHOWN = 3
-FEWEST_STEPS = 2
-OTHER = {"rad": "deg", "deg": "rad", "m": "mm", "mm": "m"}
-WORDS = {"rad": "radians", "deg": "degrees", "m": "m", "mm": "mm"}
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column with the values of a joint."""
-
-    joint: str
-    kind: str
-    unit: str
-    """A key of `UNITS`."""
-    stated: bool
-    """Whether its name says the unit."""
-    cell: Cell
-    index: int
-
-    @property
-    def factor(self) -> float:
-        """To rad or m."""
-        return UNITS[self.kind][self.unit]
 
 
 def refuse_numbers(sheet: Sheet, hand: Hand | None) -> None:
@@ -59,7 +29,8 @@ def refuse_numbers(sheet: Sheet, hand: Hand | None) -> None:
         return
     above = [cell.text for cell in sheet.above]
     if len(above) == len(sheet.header) and not any(map(is_number, above)):
-        advice = f"if the comment above ({', '.join(above[:SHOWN])} ...) names them, remove the mark in front of it"
+        listed = ", ".join([*above[:SHOWN], *["..."][: len(above) - SHOWN]])
+        advice = f"if the comment above it names them ({listed}), remove the mark in front"
     else:
         names = [*(n for n in known if n not in (hand.couplings if hand is not None else {})), "index_mcp", "index_pip"]
         advice = f"write their names above the first posture, such as {sheet.delimiter.join(names[:SHOWN])}"
@@ -85,74 +56,8 @@ def left_out_notes(columns: Mapping[str, str]) -> Iterator[str]:
             yield f"left out as {what}: {', '.join(names[:SHOWN])}{more}"
 
 
-def refuse_unit(
-    reader: CellReader, columns: Sequence[Column], rows: Array, lines: Sequence[int], hand: Hand | None
-) -> None:
-    """Note columns whose values leave the ranges of their joints in their unit and keep them in the other one.
-
-    Args:
-        reader: takes the issues.
-        columns: those of joints.
-        rows: (N, n) values as they are written.
-        lines: (N) where they stand.
-        hand: whose ranges they are; nothing is judged without it.
-    """
-    for kind, unit in dict.fromkeys((column.kind, column.unit) for column in columns):
-        group = [i for i, column in enumerate(columns) if (column.kind, column.unit) == (kind, unit)]
-        as_read, as_other = (_inside(columns, rows, group, each, hand) for each in (unit, OTHER[unit]))
-        if not as_read.size or as_read.mean() > FEW or as_other.mean() < MANY:
-            continue
-        ranged = [i for i in group if _range(columns[i], hand) is not None]
-        row, far = _farthest(rows, ranged)
-        column = columns[far]
-        lower, upper = _range(column, hand) or (0.0, 0.0)
-        reader.refuse(
-            f"read in {WORDS[unit]}, {100 * (1 - as_read.mean()):.0f} % of the values leave the ranges of the joints "
-            f"('{column.joint}' is at {rows[row, far]:.4g} {unit} in line {lines[row]}, its range is "
-            f"{lower / column.factor:.4g} to {upper / column.factor:.4g} {unit}); in {WORDS[OTHER[unit]]} they keep "
-            f"them: {_restate(column, OTHER[unit])}",
-            column.cell,
-        )
-
-
-def _farthest(rows: Array, group: Sequence[int]) -> tuple[int, int]:
-    """Return line and column, among those of `group`, of the value that is farthest from 0."""
-    row, place = divmod(int(np.argmax(np.abs(rows[:, group]))), len(group))
-    return row, group[place]
-
-
-def _restate(column: Column, unit: str) -> str:
-    """Return how to say that the values of a column are in `unit`."""
-    named = f"name the column{'s' if not column.stated else ''} {column.joint}_{unit}"
-    if column.stated or column.kind == "slide":
-        return named
-    return f"say --degrees, or {named}" if unit == "deg" else f"leave out --degrees, or {named}"
-
-
-def _range(column: Column, hand: Hand | None) -> tuple[float, float] | None:
-    """Return the range of a joint [rad or m], widened by some slack; None when it has none."""
-    joint = next((each for each in hand.joints if each.name == column.joint), None) if hand is not None else None
-    if joint is None or not math.isfinite(joint.upper - joint.lower):
-        return None
-    return joint.lower, joint.upper
-
-
-def _inside(
-    columns: Sequence[Column], rows: Array, group: Sequence[int], unit: str, hand: Hand | None
-) -> NDArray[np.bool_]:
-    """Return which values keep to the range of their joint when they are read in `unit`."""
-    found = []
-    for i in group:
-        if (ends := _range(columns[i], hand)) is not None:
-            values, slack = rows[:, i] * UNITS[columns[i].kind][unit], SLACK * (ends[1] - ends[0])
-            found.append((values >= ends[0] - slack) & (values <= ends[1] + slack))
-    return np.array(found, dtype=bool)
-
-
-def doubts(columns: Sequence[Column], rows: Array, lines: Sequence[int], hand: Hand | None) -> Iterator[str]:
-    """Yield notes on units and columns that may not be what they are taken for; arguments as of `refuse_unit`."""
-    yield from _too_large(columns, rows, lines)
-    yield from _too_small(columns, rows)
+def doubts(columns: Sequence[Column], rows: Array, hand: Hand | None) -> Iterator[str]:
+    """Yield notes on columns that may be no joints, or stand still; arguments as of `refuse_unit`."""
     if hand is None:
         yield from _counters(columns, rows)
     still = [column.joint for i, column in enumerate(columns) if np.ptp(rows[:, i]) == 0]
@@ -161,38 +66,33 @@ def doubts(columns: Sequence[Column], rows: Array, lines: Sequence[int], hand: H
         yield f"the same in all postures: {', '.join(map(repr, still[:SHOWN]))}{more}"
 
 
-def _too_large(columns: Sequence[Column], rows: Array, lines: Sequence[int]) -> Iterator[str]:
-    turning = [i for i, column in enumerate(columns) if column.unit == "rad"]
-    if turning and np.abs(rows[:, turning]).max() > TURN:
-        row, which = _farthest(rows, turning)
-        column = columns[which]
-        where = f"'{column.joint}' in line {lines[row]}"
-        way = f"name the column {column.joint}_deg" if column.stated else "say --degrees"
-        yield (
-            f"values up to {abs(rows[row, which]):.4g} rad ({where}) are more than a turn; if they are degrees, {way}"
-        )
-
-
-def _too_small(columns: Sequence[Column], rows: Array) -> Iterator[str]:
-    turning = [i for i, column in enumerate(columns) if column.unit == "deg"]
-    if turning and 0 < np.abs(rows[:, turning]).max() <= SMALL:
-        named = [columns[i].joint for i in turning if columns[i].stated]
-        way = f"name the columns {named[0]}_rad and so on" if named else "leave out --degrees"
-        yield (
-            f"all values in degrees are within {np.abs(rows[:, turning]).max():.4g} deg of 0, which hardly moves a "
-            f"hand; if they are radians, {way}"
-        )
-
-
 def _counters(columns: Sequence[Column], rows: Array) -> Iterator[str]:
     for i, column in enumerate(columns):
         steps = np.diff(rows[:, i])
         even = len(rows) >= COUNTING and np.ptp(steps) <= 1e-6 * np.abs(steps).min()
-        one_way = np.all(steps > 0) or np.all(steps < 0)
-        whole = len(rows) > FEWEST_STEPS and np.all(steps == 1)
-        if one_way and (even or whole or np.ptp(rows[:, i]) * column.factor > TURN):
-            how = "by equal steps " if even or whole else ""
+        even = even or np.all(steps == 1)
+        if _one_way(rows[:, i]) and (even or np.ptp(rows[:, i]) * column.factor > TURN):
             yield (
-                f"'{column.joint}' goes {how}from {rows[0, i]:g} to {rows[-1, i]:g} without turning back: if it tells "
-                "the time or counts, take it out or call it t_s"
+                f"{_course(column, rows[:, i])}{' by equal steps' if even else ''}: if it tells the time or counts, "
+                "take it out or call it t_s"
+            )
+
+
+def _one_way(values: Array) -> bool:
+    """Tell whether three or more values rise, or fall, from each to the next."""
+    steps = np.diff(values)
+    return len(steps) > 1 and bool(np.all(steps > 0) or np.all(steps < 0))
+
+
+def _course(column: Column, values: Array) -> str:
+    return f"'{column.joint}' goes from {values[0]:.10g} to {values[-1]:.10g} without turning back"
+
+
+def refuse_endless(reader: CellReader, columns: Sequence[Column], rows: Array, hand: Hand | None) -> None:
+    """Note columns that go on and on; arguments as of `refuse_unit`. Of a hand's own joints nobody doubts that."""
+    for i, column in enumerate(columns if hand is None else ()):
+        if _one_way(rows[:, i]) and np.abs(rows[:, i]).max() > ENDLESS:
+            course = _course(column, rows[:, i])
+            reader.refuse(
+                f"{course}, as a time or a counter does and no joint; take it out or call it t_s", column.cell
             )

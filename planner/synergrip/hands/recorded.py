@@ -11,8 +11,9 @@ import numpy as np
 from synergrip.cells import Cell, CellReader
 from synergrip.errors import one_of
 from synergrip.hands.column_names import UNITS, beside_joints, joint_and_unit, may_count
-from synergrip.hands.doubts import NOTHING, Column, counts, doubts, left_out_notes, refuse_numbers, refuse_unit
+from synergrip.hands.doubts import NOTHING, counts, doubts, left_out_notes, refuse_endless, refuse_numbers
 from synergrip.hands.hand import Hand
+from synergrip.hands.meant_units import Column, refuse_unit, unit_notes
 from synergrip.hands.sheet import Sheet, is_number
 from synergrip.hands.synergies import coupling_map, drivers
 from synergrip.hands.units import joint_kinds
@@ -73,25 +74,30 @@ def read_postures(path: Path, hand: Hand | None = None, *, degrees: bool = False
             whose unit must be another one; with line and column.
     """
     sheet = Sheet.of(path, HEADER)
-    reader = sheet.reader
     refuse_numbers(sheet, hand)
-    reader.raise_issues()
+    sheet.reader.raise_issues()
     beside = {index: what for index, cell in enumerate(sheet.header) if (what := _beside(sheet, index, cell, hand))}
     columns = _columns(sheet, beside, hand, degrees)
-    reader.raise_issues()
+    sheet.reader.raise_issues()
+    rows, lines = _rows(sheet, columns, beside), tuple(number for number, _ in sheet.rows)
+    refuse_unit(sheet.reader, columns, rows, lines, hand)
+    refuse_endless(sheet.reader, columns, rows, hand)
+    sheet.reader.raise_issues()
+    left = {sheet.header[i].text or f"column {i + 1}": what for i, what in beside.items() if what != NOTHING}
+    notes = (*left_out_notes(left), *unit_notes(columns, rows, lines), *doubts(columns, rows, hand))
+    return replace(_recorded(path, columns, rows, lines, hand), left_out=tuple(left), notes=notes)
+
+
+def _rows(sheet: Sheet, columns: Sequence[Column], beside: Mapping[int, str]) -> Array:
+    """Return the (N, n) values of the columns as they are written."""
     if len(sheet.rows) < FEWEST:
         message = f"expected at least {FEWEST} postures below the header, got {len(sheet.rows)}"
-        reader.refuse(message, sheet.header[0])
-    reader.raise_issues()
+        sheet.reader.refuse(message, sheet.header[0])
+    sheet.reader.raise_issues()
     times = [index for index, what in beside.items() if what == "time"]
     rows = sheet.numbers([column.index for column in columns], times)
-    reader.raise_issues()
-    recorded = _recorded(path, columns, np.array(rows), tuple(number for number, _ in sheet.rows), hand)
-    refuse_unit(reader, columns, np.array(rows), recorded.lines, hand)
-    reader.raise_issues()
-    named = {sheet.header[index].text: what for index, what in beside.items() if what != NOTHING}
-    notes = (*left_out_notes(named), *doubts(columns, np.array(rows), recorded.lines, hand))
-    return replace(recorded, left_out=tuple(named), notes=notes)
+    sheet.reader.raise_issues()
+    return np.array(rows)
 
 
 def _beside(sheet: Sheet, index: int, cell: Cell, hand: Hand | None) -> str:
@@ -101,11 +107,11 @@ def _beside(sheet: Sheet, index: int, cell: Cell, hand: Hand | None) -> str:
         return ""
     if what := beside_joints(cell.text):
         return what
-    texts = list(sheet.column(index)) if may_count(cell.text) and (cell.text or index in (0, last)) else []
+    if sheet.rows and not any(sheet.column(index)):
+        return "empty" if cell.text or index < last else NOTHING  # which each line has that ends in a delimiter
+    texts = list(sheet.column(index)) if may_count(cell.text) and (cell.text or index == 0) else []
     if len(texts) >= FEWEST and counts(texts):
         return "a counter"
-    if not cell.text and texts and index == last and not any(texts):
-        return NOTHING  # each line ends in a delimiter
     return "a label" if not cell.text and index == 0 and texts and not any(map(is_number, texts)) else ""
 
 

@@ -6,6 +6,7 @@ Cells are parted by commas, semicolons, tabs or blanks; numbers may have a decim
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -15,6 +16,7 @@ from synergrip.cells import Cell, CellReader
 from synergrip.documents import LARGEST_NUMBER
 
 BLANKS = " "
+PARTED_BY = {",": "commas", ";": "semicolons", "\t": "tabs", BLANKS: "blanks"}
 COMMENTS = ("#", "//", "%")
 MOST_COLUMNS = 2000
 """More are no recording of a hand."""
@@ -54,6 +56,8 @@ class Sheet:
             InputError: no such file, one that is no text, empty, or with too many columns.
         """
         reader = CellReader.of(path)
+        if len(reader.lines) == 1:
+            reader.lines = reader.lines[0].split("\r")  # ends of lines of old
         lines = list(_lines(reader.lines))
         told = _SEPARATOR.fullmatch(lines[0][1]) if lines else None
         lines = lines[1:] if told else lines
@@ -62,6 +66,9 @@ class Sheet:
         header = tuple(_cells(first, number, delimiter))
         if not lines:
             reader.refuse(f"the file is empty; expected {expected}", Cell("", 1, 1))
+        elif len(header) == 1 and (most := _usual(lines[1:])) > 1:
+            advice = "take out what stands above the line with the names of the joints"
+            reader.refuse(f"a header of one cell, where most lines have {most}; {advice}", header[0])
         elif len(header) > MOST_COLUMNS:
             reader.refuse(f"{len(header)} columns; a recording of a hand has at most {MOST_COLUMNS}", header[0])
         reader.raise_issues()
@@ -90,11 +97,8 @@ class Sheet:
     def _row(self, line: str, number: int, wanted: Sequence[int], others: Sequence[int]) -> list[float]:
         parts = _parts(line, self.delimiter)
         if len(parts) == len(self.header) and all(_is_time(parts[index]) for index in others):
-            try:
-                values = [_value(parts[index]) for index in wanted]
-            except ValueError:
-                values = []
-            if values and all(abs(value) <= LARGEST_NUMBER for value in values):
+            values = _values([parts[index] for index in wanted]) if line.isascii() and "_" not in line else []
+            if values and all(abs(value) <= LARGEST_NUMBER for value in values):  # neither infinite nor nan
                 return values
         cells = list(_cells(line, number, self.delimiter))
         if not self._fits(cells):
@@ -110,6 +114,8 @@ class Sheet:
         if len(cells) != count:
             decimals = self.delimiter == "," and len(cells) == 2 * count
             hint = "; numbers with decimal commas need cells parted by semicolons" if decimals else ""
+            if len(cells) == 1:
+                hint = f"; the header has its cells parted by {PARTED_BY.get(self.delimiter, self.delimiter)}"
             self.reader.refuse(f"expected {count} cells as in the header, got {len(cells)}{hint}", cells[0])
         elif texts == [cell.text for cell in self.header]:
             self.reader.refuse("the header once more; take this line out", cells[0])
@@ -151,6 +157,14 @@ def _is_time(text: str) -> bool:
     return not text or is_number(text) or _INSTANT.search(text) is not None
 
 
+def _values(texts: Sequence[str]) -> list[float]:
+    """Return what Python takes the texts for; nothing when it takes one of them for no number."""
+    try:
+        return [float(text.replace(",", ".")) for text in texts]
+    except ValueError:
+        return []
+
+
 def _value(text: str) -> float:
     if not is_number(text):
         raise ValueError
@@ -175,7 +189,19 @@ def _delimiter(header: str, rows: Sequence[str]) -> str:
     blanks = len(_parts(header, BLANKS))
     if not found and blanks > 1 and any(len(_parts(row, BLANKS)) == blanks for row in rows):
         return BLANKS
+    if not found and all(map(is_number, map(str.strip, rows))):
+        return ";"  # a single joint, perhaps with decimal commas
     return found[0] if found else ","
+
+
+def _usual(lines: Sequence[tuple[int, str]]) -> int:
+    """Return how many cells most lines have, whatever parts them; 1 when they do not agree."""
+    looked = [line for _, line in lines[:LOOKED_AT] if not is_number(line.strip())]
+    for mark in PARTED_BY:
+        counted = Counter(len(_parts(line, mark)) for line in looked).most_common(1)
+        if counted and counted[0][0] > 1 and 2 * counted[0][1] > len(looked):
+            return counted[0][0]
+    return 1
 
 
 def _parts(line: str, delimiter: str) -> list[str]:
