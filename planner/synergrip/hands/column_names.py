@@ -10,14 +10,16 @@ UNITS = {"hinge": {"deg": math.pi / 180, "rad": 1.0}, "slide": {"mm": 1e-3, "m":
 """Unit of a column -> factor to SI, for each kind of joint."""
 
 _TIMES = {
-    "time", "times", "timestamp", "timestamps", "stamp", "stamps", "sec", "secs", "seconds", "msec", "msecs",
+    "sec", "secs", "seconds", "msec", "msecs",
     "millis", "milliseconds", "usec", "usecs", "micros", "microseconds", "nsec", "nsecs", "nanos", "nanosec",
     "nanosecs", "nanoseconds", "elapsed", "date", "datetime", "clock", "epoch", "utc", "uhrzeit", "zeit", "datum",
     "temps", "tiempo", "tempo", "hour", "hours", "minute", "minutes", "day", "month", "year",
 }  # fmt: skip
 _LEADING_TIMES = {"time", "timestamp", "stamp", "elapsed", "date", "datetime"}
+_ENDINGS = ("time", "times", "stamp", "stamps", "timecode")
+_SHORT_TIMES = [["t"], ["ts"], ["s"], ["ms"], ["us"], ["ns"]]
 _COUNTS = {"seq", "sequence", "frame", "frames", "sample", "samples", "row", "line", "counter", "tick", "ticks",
-           "packet", "iteration"}  # fmt: skip
+           "packet", "iteration", "count", "cnt"}  # fmt: skip
 _NUMBERS = {"id", "ids", "no", "nr", "num", "number", "index", "idx", "count", "type", "name"}
 _LABELS = {
     "subject", "subj", "participant", "trial", "trials", "session", "repetition", "rerepetition", "rep", "run", "label",
@@ -43,7 +45,7 @@ def beside_joints(text: str) -> str:
     plain = [word for word in words if word not in _TIME_UNITS] or words
     if not plain:
         return ""
-    if plain in (["t"], ["ts"]) or plain[-1] in _TIMES or plain[0] in _LEADING_TIMES:
+    if plain in _SHORT_TIMES or plain[0] in _LEADING_TIMES or plain[-1] in _TIMES or plain[-1].endswith(_ENDINGS):
         return "time"
     if plain[-2:] == ["frame", "id"]:
         return "a label"
