@@ -31,7 +31,7 @@ _OTHER_QUANTITIES = {
     "acceleration", "accelerations", "acc", "accel", "voltage", "temperature", "pwm", "force", "forces",
 }  # fmt: skip
 _TIME_UNITS = {"s", "ms", "us", "ns", "min", "h"}
-_PERHAPS = {"", "n", "i", "k", "step", "#", *_NUMBERS} - {"type", "name"}
+_PERHAPS = {"", "n", "i", "k", "step", *_NUMBERS} - {"type", "name"}
 """Names of columns that are no joints when they count: "index" is a finger, too."""
 
 _BRACKETED = re.compile(r"\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*$")

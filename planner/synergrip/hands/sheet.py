@@ -180,14 +180,15 @@ def _lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
 
 def _delimiter(header: str, rows: Sequence[str]) -> str:
     """Return what parts the cells: what stands in the header equally often as in most of the rows."""
+    if len(blank := _parts(header, BLANKS)) > 1 and all("," in part and is_number(part) for part in blank):
+        return BLANKS  # decimal commas, which part nothing
     bare = re.sub(r'"[^"]*"', "", header)
     found = [mark for mark in (";", "\t", ",") if mark in bare]
     for mark in found:
         fitting = [len(_parts(row, mark)) == len(_parts(header, mark)) for row in rows]
         if sum(fitting) * 2 > len(rows):
             return mark
-    blanks = len(_parts(header, BLANKS))
-    if not found and blanks > 1 and any(len(_parts(row, BLANKS)) == blanks for row in rows):
+    if not found and len(blank) > 1 and any(len(_parts(row, BLANKS)) == len(blank) for row in rows):
         return BLANKS
     if not found and all(map(is_number, map(str.strip, rows))):
         return ";"  # a single joint, perhaps with decimal commas
