@@ -8,6 +8,8 @@ import pytest
 from linkage_gripper import HAND_TOML, problem, urdf
 
 from synergrip import InputError, load_problem, plan
+from synergrip.files import bundled
+from synergrip.hands.folder import load_hand
 
 BODY = '<body name="{0}" pos="{1} {2} 0"><joint name="{0}" axis="{3}" range="-60 70"/></body>'
 LINK = """<joint name="{0}" type="{4}"><parent link="palm"/><child link="{0}"/><origin xyz="{1} {2} 0"/>
@@ -81,6 +83,17 @@ def test_what_the_refusal_says_lets_the_hand_close(tmp_path, kind, names, follow
     assert loaded.notes == ()
     assert np.abs(loaded.held.gaps).max() < 1e-6
     assert plan(loaded.grasp, loaded.task).verdict == "feasible"
+
+
+def test_the_example_of_the_readme(tmp_path):
+    readme = (bundled("models") / "README.md").read_text(encoding="utf-8")
+    (text,) = [block for block in re.findall(r"```toml\n(.*?)```", readme, re.DOTALL) if "differential" in block]
+    (tmp_path / "hand.toml").write_text(text, encoding="utf-8")
+    urdf = model("urdf", ["first", "second"], "first").replace("first", "left").replace("second", "right")
+    (tmp_path / "gripper.urdf").write_text(urdf, encoding="utf-8")
+    assert load_hand(tmp_path / "gripper.urdf").couplings["right"].rigid
+    coupling = load_hand("hand.toml", relative_to=tmp_path).couplings["right"]
+    assert (coupling.ratios, coupling.rigid) == ({"left": 1.0}, False)
 
 
 def test_rigid_true_in_a_hand_toml_is_named_there(tmp_path):
