@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from synergrip.errors import InputError
@@ -40,7 +42,17 @@ def mjcf_couplings(file: Mjcf) -> dict[str, Coupling]:
         root = file.source.lines[0]
         raise error.located(lambda issue: issue if issue.file else root.refused(issue.message).issues[0]) from None
     pulling = bool(np.any(np.count_nonzero(file.pulls, axis=1) > 1))  # a tendon lets joints part under contact
-    return couplings([file.joints[joint] for joint in file.q], relations, _order(file, ties), rigid=not pulling)
+    found = couplings([file.joints[joint] for joint in file.q], relations, _order(file, ties), rigid=not pulling)
+    return {name: replace(each, place=_place(file, ties, rows, name)) for name, each in found.items()}
+
+
+def _place(file: Mjcf, ties: list[Equality], rows: list[tuple[Array, float]], follower: str) -> str:
+    """Return file and line of the equality or the tendon that a joint follows by, first one of which it is joint1."""
+    column = [file.joints[joint] for joint in file.q].index(follower)
+    held = [tie for tie, (row, _) in zip(ties, rows, strict=True) if row[column]]
+    first = [tie for tie in held if tie.kind == "joint" and tie.ends[0] == column]
+    pulled = [file.source.place("fixed", file.model.tendon(i).name) for i in np.flatnonzero(file.tendons[:, column])]
+    return next((element.place for element in [*(tie.element for tie in [*first, *held]), *pulled]), "")
 
 
 def _no_loop(file: Mjcf, equality: Equality) -> None:

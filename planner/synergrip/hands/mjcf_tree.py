@@ -109,7 +109,7 @@ def _joint(file: Mjcf, joint: int, parent: str, child: str, xyz: Array, rotation
         lower, upper = -math.inf, math.inf
     return TreeJoint(
         name, kind, parent, child, *_written(xyz, rotation), tuple(axis.tolist()), tuple(anchor.tolist()),
-        lower, upper, _torque_limit(file, joint),
+        lower, upper, _torque_limit(file, joint), _place(file, joint).place,
     )  # fmt: skip
 
 

@@ -19,9 +19,10 @@ from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turne
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.follower_ranges import contradictions
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.parted import parted_notes
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies import posture, ranges_of_followers
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
@@ -49,8 +50,12 @@ class Held:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is doubtful about it, though it is no error."""
-        parted = tuple(parted_notes(self.hand, self.q))
-        return (*parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
+        ranges = contradictions(ranges_of_followers(self.hand))
+        return (
+            *ranges,
+            *parted_notes(self.hand, self.q),
+            *collision_notes(self.hand, self.q, self.thing, self.touches),
+        )
 
     @property
     def limits(self) -> HandLimits:
@@ -77,7 +82,13 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     table = file.hand
     if table is None:
         raise InputError.at("hand", "missing table [hand]")
-    hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, key="hand.model")
+    hand = load_hand(
+        table.model,
+        relative_to=folder,
+        coupling=table.coupling,
+        follower_ranges=table.follower_ranges,
+        key="hand.model",
+    )
     thing = _object(file.object)
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
