@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from synergrip.errors import InputError
-from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
+from synergrip.hands.hand import Coupling, Drives, Hand, Joint, SynergySet
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.synergies import JOINTS, coupling_map, drivers, joint_posture, joint_set
 from synergrip.hands.tree import LinkTree
@@ -22,9 +22,10 @@ ZERO = "zero"
 def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> Hand:
     """Return the hand that the links of a file make.
 
-    Its joints are in the order of the file and rigid (C_q = 0), and it has no pads. Its set "free" has one synergy for
-    each joint that follows no other one, with the followers: q = E q_free + e, so that S = E; its effort limits are the
-    torque limits of those joints. A hand without couplings has the set "joints" only.
+    Its joints are in the order of the file and as rigid as its springs have it (C_q), and it has no pads. Its set
+    "free" has one synergy for each joint that follows no other one, with the followers: q = E q_free + e, so that
+    S = E; its effort limits are the torque limits of those joints. Joints that no motor of the file drives have none.
+    A hand without couplings and such joints has the set "joints" only, and so has one that no motor drives at all.
 
     Args:
         name: what the hand is to be called.
@@ -43,35 +44,52 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
     for joint in names:
         if any(mark in joint for mark in ',"\n\r\t'):
             raise InputError.at("", f"joint {joint!r}: a name may not hold commas, quotes or control characters")
+    idle = tree.drives.idle if tree.drives else ()
     sets = {JOINTS: joint_set(names)}
-    if couplings:
-        sets = {FREE: _free(joints, couplings), **sets}
+    if (couplings or idle) and any(name not in couplings and name not in idle for name in names):
+        sets = {FREE: _free(joints, couplings, tree.drives), **sets}
+    elif not idle:
+        _some_free(names, couplings)
     return Hand(
         name=name,
         title=tree.title or name,
         joints=joints,
-        C_q=frozen(np.zeros((len(joints), len(joints)))),
+        C_q=tree.drives.compliance if tree.drives else frozen(np.zeros((len(joints), len(joints)))),
         pads={},
         synergy_sets=sets,
-        postures={ZERO: _zero(joints, couplings)},
+        postures={ZERO: _zero(joints, couplings, tree.drives)},
         kinematics=kinematics(tree, names),
         couplings=dict(couplings),
         parents=tree.parents,
+        drives=tree.drives,
+        still=tree.still,
     )
 
 
-def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling]) -> SynergySet:
+def _some_free(names: Sequence[str], couplings: Mapping[str, Coupling]) -> None:
+    if not any(name not in couplings for name in names):
+        raise InputError.at("", "every joint follows another one or is locked; nothing is left to move")
+
+
+def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling], drives: Drives | None) -> SynergySet:
     names = [joint.name for joint in joints]
     E, e = coupling_map(names, couplings)
-    free = [index for index, name in enumerate(names) if name not in couplings]
-    if not free:
-        raise InputError.at("", "every joint follows another one or is locked; nothing is left to move")
+    idle, resting = (drives.idle, drives.sprung) if drives else ((), {})
+    free = [index for index, name in enumerate(names) if name not in couplings and name not in idle]
     S = E[:, free]
     if not (np.all(np.isfinite(S)) and np.all(np.isfinite(e))) or split(S).decision.rank < len(free):
         raise InputError.at("", "the couplings multiply to ratios that no hand has; check their numbers")
-    title = f"each joint that follows no other one; {_followers(couplings)}"
+    title = "; ".join(
+        filter(None, ["each joint that follows no other one", _followers(couplings), _idle(names, drives)])
+    )
     limits = frozen([joints[index].torque_limit for index in free])  # the actuator of a driver moves its followers too
-    return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), e, limits)
+    offset = E @ [resting.get(name, 0.0) for name in names] + e
+    return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), frozen(offset), limits)
+
+
+def _idle(names: Sequence[str], drives: Drives | None) -> str:
+    left = [f"'{name}'" for name in names if drives and name in drives.idle]
+    return f"no motor is known to drive {', '.join(left)}" if left else ""
 
 
 def _followers(couplings: Mapping[str, Coupling]) -> str:
@@ -80,8 +98,11 @@ def _followers(couplings: Mapping[str, Coupling]) -> str:
     return ", ".join(told)
 
 
-def _zero(joints: Sequence[Joint], couplings: Mapping[str, Coupling]) -> Array:
-    """Return the posture in which each free joint is at 0, or as near as its range and those of its followers allow."""
+def _zero(joints: Sequence[Joint], couplings: Mapping[str, Coupling], drives: Drives | None) -> Array:
+    """Return the posture in which each free joint is at 0, or as near as its range and those of its followers allow.
+
+    Joints that only springs hold are where these hold them, or as near as that.
+    """
     names = [joint.name for joint in joints]
     E, e = coupling_map(names, couplings)
     values = {}
@@ -92,7 +113,8 @@ def _zero(joints: Sequence[Joint], couplings: Mapping[str, Coupling]) -> Array:
             lower, upper = max(low for low, _ in ends), min(high for _, high in ends)
             if lower > upper:  # no value suits all followers; the joint itself comes first
                 lower, upper = joint.lower, joint.upper
-            values[joint.name] = float(np.clip(0.0, lower, upper))
+            wanted = drives.sprung.get(joint.name, 0.0) if drives else 0.0
+            values[joint.name] = float(np.clip(wanted, lower, upper))
     return joint_posture(names, values, couplings)
 
 

@@ -1,0 +1,165 @@
+"""What the actuators and springs of an MJCF file do: what settles where, and which joints nothing drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.hands.hand import Drives
+from synergrip.hands.mjcf import Mjcf
+from synergrip.hands.mjcf_arms import Arms
+from synergrip.hands.mjcf_readable import NEAR, departures, together
+from synergrip.hands.relations import Relations, couplings
+from synergrip.hands.settling import STILL, Settled, Springs, settle
+from synergrip.linalg import Array, frozen
+
+ROUNDING = 1e-6
+"""A coupling that changes less is constant."""
+
+
+@dataclass(frozen=True, eq=False)
+class Driven:
+    """What the actuators of a file do."""
+
+    relations: Relations
+    """Those that make followers: equalities, pulls, springs."""
+    drives: Drives
+
+
+def pulls_of(file: Mjcf, tendons: Array) -> Array:
+    """Return (n_a, n_q) the joint torque per force of each actuator, with the arms (n_t, n_q) of the tendons."""
+    pulls = np.zeros((len(file.actuators), len(file.q)))
+    for pull, actuator in zip(pulls, file.actuators, strict=True):
+        if actuator.tendon is not None:
+            pull[:] = actuator.gear * tendons[actuator.tendon]
+        elif actuator.joint is not None:
+            pull[actuator.joint] = actuator.gear
+    return pulls
+
+
+def undriven(file: Mjcf) -> Drives | None:
+    """Return what is to be noted of a file without actuators, whose joints count as driven."""
+    if not file.springs:
+        return None
+    names = ", ".join(spring.name for spring in file.springs)
+    note = f"the file has no actuators: every joint counts as driven, and its springs are not read ({names})"
+    return Drives(frozen(np.zeros((len(file.q), len(file.q)))), notes=(note,))
+
+
+def driven(file: Mjcf, relations: Relations, arms: Arms, order: Sequence[int]) -> Driven:
+    """Return what follows what, and what is left of a file with actuators.
+
+    Joints whose couplings through spatial tendons change with the posture by more than `NEAR` are left out, with all
+    that is tied to them.
+
+    Raises:
+        InputError: a pulled tendon over hinges and slides that no spring sets against each other, pulls that nearly
+            repeat each other.
+    """
+    pulls, springs = pulls_of(file, arms.mean), _springs(file, arms.mean, arms.offset)
+    names = [file.joints[joint] for joint in file.q]
+    found = settle(relations, pulls, springs, file.q_0)
+    followers = couplings(names, found.relations or relations, order)
+    drivers = [j for j, name in enumerate(names) if name not in followers and not found.idle[j]]
+    kinds = [file.kinds[joint] for joint in file.q]
+    postures = [(pulls_of(file, each), _springs(file, each, arms.offset)) for each in arms.each]
+    changes = departures(found, drivers, kinds, relations, file.q_0, postures)
+    every = np.vstack([pulls, relations.A, springs.F])
+    lost = together(every, np.flatnonzero(changes > NEAR).tolist())
+    if lost:
+        kept = ~np.any(springs.F[:, lost] != 0, axis=1)
+        pulls = pulls[~np.any(pulls[:, lost] != 0, axis=1)]
+        found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
+    for pull in pulls:
+        _one_kind(file, pull, found)
+    notes = (*_unread(file), *_near(file, arms, np.delete(changes, lost).max(initial=0.0), lost))
+    return Driven(found.relations or relations, _drives(file, found, arms, lost, notes))
+
+
+def _springs(file: Mjcf, tendons: Array, offset: Array) -> Springs:
+    """Return the springs that are read, with the arms (n_t, n_q) of the tendons."""
+    read = [spring for spring in file.springs if not spring.unread]
+    F, g = np.zeros((len(read), len(file.q))), np.zeros(len(read))
+    for number, spring in enumerate(read):
+        if spring.tendon is not None:
+            F[number], g[number] = tendons[spring.tendon], spring.rest - offset[spring.tendon]
+        else:
+            F[number, spring.joint], g[number] = 1.0, spring.rest
+    roots = np.sqrt([spring.stiffness for spring in read])
+    return Springs(F * roots[:, None], g * roots)
+
+
+def _one_kind(file: Mjcf, pull: Array, found: Settled) -> None:
+    """Refuse a tendon that shares one pull among joints by nothing but their alike yield, which has two units."""
+    loose = np.linalg.norm(found.loose, axis=1) > STILL
+    joints = [joint for joint, arm, each in zip(file.q, pull, loose, strict=True) if arm and each]
+    if len({file.kinds[joint] for joint in joints}) > 1:
+        names = ", ".join(f"'{file.joints[joint]}'" for joint in joints)
+        raise file.source.lines[0].refused(
+            f"one actuator pulls at hinges and slides ({names}); say with an <equality> how they move together"
+        )
+
+
+def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: tuple[str, ...]) -> Drives:
+    moving = np.linalg.norm(found.loose, axis=1) > STILL
+    sprung, loose = dict[str, float](), dict[str, str]()
+    for column, joint in enumerate(file.q):
+        name = file.joints[joint]
+        if not found.idle[column]:
+            continue
+        if column in lost:
+            loose[name] = _lost(file, arms, column)
+        elif moving[column]:
+            loose[name] = _nothing(file)
+        else:
+            sprung[name] = float(found.rest[column])
+    return Drives(frozen(found.compliance), sprung, loose, notes)
+
+
+def _nothing(file: Mjcf) -> str:
+    left_out = ", ".join(f"'{name}'" for name in file.source.actuators_left_out)
+    at_sites = f" (actuators that act at a site are not read: {left_out})" if left_out else ""
+    return f"no actuator of the file drives it{at_sites}, and no spring holds it"
+
+
+def _lost(file: Mjcf, arms: Arms, column: int) -> str:
+    """Return why it is not known how a joint moves: the spatial tendons that pull at it, with their arms."""
+    told = []
+    for actuator in file.actuators:
+        tendon = actuator.tendon
+        if tendon is not None and arms.mean[tendon, column]:
+            told.append(
+                f"'{actuator.name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms "
+                f"change too much over the ranges of the joints ({', '.join(_spans(file, arms, tendon))})"
+            )
+    return " and ".join(told) or "tied to joints that spatial tendons pull, whose moment arms change too much"
+
+
+def _spans(file: Mjcf, arms: Arms, tendon: int) -> Iterator[str]:
+    """Yield the range of the arm of a tendon at each of its joints."""
+    for column in np.flatnonzero(arms.mean[tendon]).tolist():
+        least, most = arms.span(tendon, column)
+        scale, unit = (1e3, " mm") if file.kinds[file.q[column]] == "hinge" else (1.0, "")
+        yield f"{file.joints[file.q[column]]} {scale * least:.3g} to {scale * most:.3g}{unit}"
+
+
+def _unread(file: Mjcf) -> Iterator[str]:
+    for spring in file.springs:
+        if spring.unread:
+            yield f"the spring of {spring.name} is not read: {spring.unread}"
+
+
+def _near(file: Mjcf, arms: Arms, change: float, lost: Sequence[int]) -> Iterator[str]:
+    """Yield a note on spatial tendons that were taken as constant."""
+    used = {*(each.tendon for each in file.actuators), *(each.tendon for each in file.springs)}
+    named = [file.tendon_names[t] for t in file.spatial if t in used and not np.any(arms.mean[t, list(lost)])]
+    if change > ROUNDING and named:
+        plural = "s" * (len(named) > 1)
+        names = ", ".join(f"'{name}'" for name in named)
+        yield (
+            f"spatial tendon{plural} {names}: mean moment arms are used; over the ranges of the joints, what "
+            f"{'they couple' if plural else 'it couples'} changes by up to {100 * change:.2g} % "
+            f"(up to {100 * NEAR:g} % is taken as constant)"
+        )
