@@ -114,8 +114,13 @@ def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: 
         elif moving[column]:
             loose[name] = _nothing(file)
         else:
-            sprung[name] = float(found.rest[column])
+            sprung[name] = _within(file, joint, float(found.rest[column]))
     return Drives(frozen(found.compliance), sprung, loose, notes)
+
+
+def _within(file: Mjcf, joint: int, rest: float) -> float:
+    """Return where a joint rests: a spring may press it to the end of its range."""
+    return float(np.clip(rest, *file.model.jnt_range[joint])) if file.model.jnt_limited[joint] else rest
 
 
 def _nothing(file: Mjcf) -> str:

@@ -109,7 +109,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
         hand: the hand.
         synergies: the chosen set; its names are looked up first.
         wish: the name of a posture of the hand, or values [rad or m] by synergy or joint name. Names left
-            out are 0; a joint that follows another one follows unless it is named.
+            out are 0, or where springs alone hold them; a joint that follows another one follows unless it is named.
         key: where it stands, for the error.
 
     Raises:
@@ -137,7 +137,14 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
         raise_issues(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
         return joint_values(chosen, wish)
     raise_issues(misfits(given, kinds))
-    return joint_posture(hand.joint_names, wish, hand.couplings)
+    return joint_posture(hand.joint_names, {**_resting(hand), **wish}, hand.couplings)
+
+
+def _resting(hand: Hand) -> dict[str, float]:
+    """Return where springs hold the joints that nothing else moves."""
+    return {
+        name: rest for name, rest in (hand.drives.sprung if hand.drives else {}).items() if name not in hand.couplings
+    }
 
 
 def names_known(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:

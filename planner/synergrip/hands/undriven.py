@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from synergrip.errors import InputError
+from synergrip.hands.arm import palm_of
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies import JOINTS
 from synergrip.hands.units import SI_UNITS
@@ -56,7 +57,7 @@ def judge_undriven(
     elif each_yields:
         open_ones = []
     if open_ones:
-        raise InputError.at(key, _message(hand, open_ones))
+        raise InputError.at(key, _message(hand, open_ones, palm_of(hand, touching)))
 
 
 def with_springs(hand: Hand, C_q: Array) -> Array:
@@ -65,18 +66,29 @@ def with_springs(hand: Hand, C_q: Array) -> Array:
     return frozen(np.where(own[:, None] | own, np.where(own[:, None] & own, hand.C_q, 0.0), C_q))
 
 
-def undriven_notes(hand: Hand, synergies: SynergySet, q: Array) -> Iterator[str]:
-    """Yield what was taken for something else in the model file, and what becomes of joints that no motor drives."""
+def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> Iterator[str]:
+    """Yield what was taken for something else in the model file, and what becomes of joints that no motor drives.
+
+    Args:
+        hand: the hand.
+        synergies: the chosen set.
+        q: (n_q,) joint values [rad or m].
+        C_q: (n_q, n_q) the joint compliance that is used.
+    """
     drives = hand.drives
     if drives is None:
         return
     yield from drives.notes
+    other = np.any(~np.isclose(C_q, hand.C_q, rtol=1e-9, atol=0.0) & (hand.C_q != 0), axis=1)
+    if other.any():
+        names = [name for name, each in zip(hand.joint_names, other, strict=True) if each]
+        yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
     moved = [name for name in drives.idle if name in _moved(hand, synergies)]
     if moved:
         yield f"the synergies move {_listed(moved)}, which no motor of the model file is known to drive"
     sprung = [name for name in drives.sprung if name not in moved]
     if sprung:
-        yield f"no motor of the model file drives {_listed(sprung)}: no synergy moves them, springs hold them (C_q)"
+        yield f"no motor of the model file drives {_listed(sprung)}: no synergy moves them, springs hold them"
     loose = [name for name in drives.loose if name not in moved]
     if loose:
         yield f"no motor of the model file is known to drive {_listed(loose)}: no synergy moves them"
@@ -97,19 +109,20 @@ def _value(hand: Hand, q: Array, name: str) -> float:
     return float(q[hand.joint_names.index(name)])
 
 
-def _message(hand: Hand, names: Sequence[str]) -> str:
+def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]) -> str:
     reasons = dict[str, list[str]]()
     for name in names:
         reason = hand.drives.loose.get(name, "only its spring holds it") if hand.drives else ""
         reasons.setdefault(reason, []).append(name)
     told = "; ".join(f"{_listed(each)}: {reason}" for reason, each in list(reasons.items())[:MOST_REASONS])
     more = "; and so on" if len(reasons) > MOST_REASONS else ""
+    arm = f'; hand.palm = "{palm[0]}" leaves out what is above that link' if {*names} & {*palm[1]} else ""
     return (
         f"the model file does not say how {_listed(names)} move{'s' if len(names) == 1 else ''} ({told}{more}). Say it "
         'here: the synergies in a file with these joints (hand.synergies = "mine.toml"); or names of joints that '
         f'motors drive each by itself (["{names[0]}"]); or, where nothing drives them, how far each joint yields, as a '
-        "list in hand.compliance.joint (0 for a locked one). Or in the model file: a motor, a stiffness, or a <fixed> "
-        "tendon in place of a <spatial> one, with its moment arms as coef"
+        f"list in hand.compliance.joint (0 for a locked one){arm}. Or in the model file: a motor, a stiffness, or a "
+        "<fixed> tendon in place of a <spatial> one, with its moment arms as coef"
     )
 
 

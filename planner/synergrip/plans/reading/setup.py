@@ -42,6 +42,8 @@ class Held:
     synergies: SynergySet
     q: Array
     """(n_q,) joint values [rad or m]."""
+    C_q: Array
+    """(n_q, n_q) joint compliance."""
     thing: Object
     """The object, where it is."""
     touches: tuple[Touch, ...]
@@ -53,9 +55,10 @@ class Held:
     def notes(self) -> tuple[str, ...]:
         """What is doubtful about it, though it is no error."""
         touching = [touch.pad.link for touch in self.touches]
-        read = (*undriven_notes(self.hand, self.synergies, self.q), *arm_notes(self.hand, self.synergies, touching))
-        parted = tuple(parted_notes(self.hand, self.q))
-        return (*read, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
+        read = undriven_notes(self.hand, self.synergies, self.q, self.C_q)
+        arm = arm_notes(self.hand, self.synergies, touching)
+        parted = parted_notes(self.hand, self.q)
+        return (*read, *arm, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
 
     @property
     def limits(self) -> HandLimits:
@@ -103,7 +106,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     if direction is not None:
         q = close(hand, q, direction, thing, touches)
     placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
-    return placed.grasp, Held(hand, synergies, q, placed.thing, tuple(touches), placed.gaps)
+    return placed.grasp, Held(hand, synergies, q, C_q, placed.thing, tuple(touches), placed.gaps)
 
 
 def _judge_drives(hand: Hand, synergies: SynergySet, table: HandTable, touching: Sequence[str]) -> None:
