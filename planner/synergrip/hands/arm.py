@@ -23,8 +23,8 @@ def arm_notes(hand: Hand, synergies: SynergySet, touching: Collection[str]) -> I
     if arm:
         carry = "carries" if len(arm) == 1 else "carry"
         yield (
-            f"the synergies move {', '.join(map(repr, arm))}, which {carry} all contacts: the arm moves the object; when "
-            f'only the hand is to move it, write hand.palm = "{palm}"'
+            f"the synergies move {', '.join(map(repr, arm))}, which {carry} all contacts: the arm moves the object; "
+            f'when only the hand is to move it, write hand.palm = "{palm}"'
         )
 
 

@@ -18,6 +18,8 @@ STROKE = 0.1
 """The same of a slide [m]."""
 ANYWHERE, ALONG = 192, 9
 """Postures: so many with all joints anywhere in their ranges, and so many along the range of each joint that counts."""
+MOST_ALONG = 540
+"""So many along ranges in all, with at least 3 for each joint."""
 TOUCHED = 1e-9
 """A tendon with a smaller arm passes a joint by [m or 1]."""
 
@@ -47,7 +49,8 @@ def arms_of(file: Mjcf, relations: Relations) -> Arms:
     anywhere = np.random.default_rng(0).uniform(lower, upper, (ANYWHERE, len(lower)))
     arms, _ = file.routed(_kept(relations, anywhere, lower, upper))
     passed = np.flatnonzero(np.abs(arms[:, list(file.spatial)]).max(axis=(0, 1)) > TOUCHED)
-    along = [line for joint in passed.tolist() for line in _along(file, joint, lower, upper)]
+    count = max(3, min(ALONG, MOST_ALONG // max(len(passed), 1)))
+    along = [line for joint in passed.tolist() for line in _along(file, joint, lower, upper, count)]
     postures = _kept(relations, np.vstack([anywhere, *along]), lower, upper)
     each, lengths = file.routed(postures)
     mean = file.tendons.copy()
@@ -64,9 +67,9 @@ def _ranges(file: Mjcf) -> tuple[Array, Array]:
     return np.minimum(*ends), np.maximum(*ends)
 
 
-def _along(file: Mjcf, joint: int, lower: Array, upper: Array) -> Iterator[Array]:
+def _along(file: Mjcf, joint: int, lower: Array, upper: Array, count: int) -> Iterator[Array]:
     """Yield postures (n_q,) along the range of a joint, the others in the drawing."""
-    for value in np.linspace(lower[joint], upper[joint], ALONG):
+    for value in np.linspace(lower[joint], upper[joint], count):
         posture = np.clip(file.q_0, lower, upper)
         posture[joint] = value
         yield posture

@@ -11,7 +11,7 @@ from synergrip.hands.hand import Drives
 from synergrip.hands.mjcf import Mjcf
 from synergrip.hands.mjcf_arms import Arms
 from synergrip.hands.mjcf_readable import NEAR, departures, together
-from synergrip.hands.relations import Relations, couplings
+from synergrip.hands.relations import Relations
 from synergrip.hands.settling import STILL, Settled, Springs, settle
 from synergrip.linalg import Array, frozen
 
@@ -59,19 +59,13 @@ def driven(file: Mjcf, relations: Relations, arms: Arms, order: Sequence[int]) -
             repeat each other.
     """
     pulls, springs = pulls_of(file, arms.mean), _springs(file, arms.mean, arms.offset)
-    names = [file.joints[joint] for joint in file.q]
-    found = settle(relations, pulls, springs, file.q_0)
-    followers = couplings(names, found.relations or relations, order)
-    drivers = [j for j, name in enumerate(names) if name not in followers and not found.idle[j]]
     kinds = [file.kinds[joint] for joint in file.q]
     postures = [(pulls_of(file, each), _springs(file, each, arms.offset)) for each in arms.each]
-    changes = departures(found, drivers, kinds, relations, file.q_0, postures)
-    every = np.vstack([pulls, relations.A, springs.F])
-    lost = together(every, np.flatnonzero(changes > NEAR).tolist())
-    if lost:
-        kept = ~np.any(springs.F[:, lost] != 0, axis=1)
-        pulls = pulls[~np.any(pulls[:, lost] != 0, axis=1)]
-        found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
+    changes = departures(kinds, order, relations, file.q_0, (pulls, springs), postures)
+    lost = together(np.vstack([pulls, relations.A, springs.F]), np.flatnonzero(changes > NEAR).tolist())
+    kept = ~np.any(springs.F[:, lost] != 0, axis=1)
+    pulls = pulls[~np.any(pulls[:, lost] != 0, axis=1)]
+    found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
     for pull in pulls:
         _one_kind(file, pull, found)
     notes = (*_unread(file), *_near(file, arms, np.delete(changes, lost).max(initial=0.0), lost))
