@@ -5,7 +5,7 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.hands.relations import Relations, couplings
-from synergrip.hands.settling import Springs, ratios, settle
+from synergrip.hands.settling import Springs, settle
 from synergrip.hands.synergies import coupling_map
 
 NAMES = list("abcdefg")
@@ -21,6 +21,11 @@ def springs(n, **stiffness):
 
 
 NO_SPRINGS = springs(3)
+
+
+def ratios(found, drivers):
+    """Return how the joints move when one of the drivers moves by 1 and the other ones rest."""
+    return found.driven @ np.linalg.inv(found.driven[drivers])
 
 
 def random_hand(seed, n=7):
@@ -72,9 +77,7 @@ def test_followers_stand_where_the_balance_is(seed):
 
 def test_one_motor_on_a_tendon_bends_the_softer_joint_more():
     arms, compliance = np.array([2.0, 3.0]), np.array([0.5, 4.0])
-    found = settle(
-        Relations(np.zeros((0, 2)), np.zeros(0)), arms[None], springs(2, a=1 / 0.5, b=1 / 4.0), np.zeros(2)
-    )
+    found = settle(Relations(np.zeros((0, 2)), np.zeros(0)), arms[None], springs(2, a=1 / 0.5, b=1 / 4.0), np.zeros(2))
     along = compliance * arms
     np.testing.assert_allclose(ratios(found, [0])[:, 0], along / along[0])
     expected = np.diag(compliance) - np.outer(along, along) / (arms @ along)

@@ -12,7 +12,7 @@ from synergrip.hands.hand import Coupling, Drives
 from synergrip.hands.mjcf import Equality, Mjcf
 from synergrip.hands.mjcf_arms import Arms, arms_of
 from synergrip.hands.mjcf_drives import driven, pulls_of, undriven
-from synergrip.hands.mjcf_readable import NEAR
+from synergrip.hands.mjcf_readable import NEAR, change_of
 from synergrip.hands.relations import AGREEMENT, Relations, couplings
 from synergrip.hands.settling import STILL
 from synergrip.linalg import Array, split
@@ -58,7 +58,7 @@ def mjcf_couplings(file: Mjcf) -> Moves:
             raise ties[int(np.argmax(apart))].element.refused("this equality contradicts the other ones")
         if not (file.actuators or file.source.actuators_left_out):
             return Moves(couplings(names, relations, order, rigid=True), undriven(file), pulls)
-        found = driven(file, relations, arms, order)
+        found = driven(file, relations, arms)
     except InputError as error:
         root = file.source.lines[0]
         raise error.located(lambda issue: issue if issue.file else root.refused(issue.message).issues[0]) from None
@@ -119,8 +119,7 @@ def _row(file: Mjcf, equality: Equality, tendons: Array) -> tuple[Array, float]:
 def _steady(file: Mjcf, equality: Equality, arms: Arms) -> None:
     """Refuse an equality of a spatial tendon whose moment arms change over the ranges of the joints."""
     for tendon in {*equality.ends} & {*file.spatial}:
-        largest = np.abs(arms.mean[tendon]).max(initial=0.0)
-        if np.abs(arms.each[:, tendon] - arms.mean[tendon]).max() > NEAR * largest:
+        if change_of(arms, [file.kinds[joint] for joint in file.q], tendon) > NEAR:
             raise equality.element.refused(
                 f"the equality holds the spatial tendon '{file.tendon_names[tendon]}', which is not linear in the "
                 f"joints (its moment arms change by more than {100 * NEAR:g} % over their ranges); leave it out and "

@@ -10,13 +10,13 @@ import numpy as np
 from synergrip.hands.hand import Drives
 from synergrip.hands.mjcf import Mjcf
 from synergrip.hands.mjcf_arms import Arms
-from synergrip.hands.mjcf_readable import NEAR, departures, together
+from synergrip.hands.mjcf_readable import NEAR, Readable, readable
 from synergrip.hands.relations import Relations
-from synergrip.hands.settling import STILL, Settled, Springs, settle
+from synergrip.hands.settling import Settled, Springs, moves, settle
 from synergrip.linalg import Array, frozen
 
 ROUNDING = 1e-6
-"""A coupling that changes less is constant."""
+"""Moment arms that change less are constant."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,27 +48,34 @@ def undriven(file: Mjcf) -> Drives | None:
     return Drives(frozen(np.zeros((len(file.q), len(file.q)))), notes=(note,))
 
 
-def driven(file: Mjcf, relations: Relations, arms: Arms, order: Sequence[int]) -> Driven:
+def driven(file: Mjcf, relations: Relations, arms: Arms) -> Driven:
     """Return what follows what, and what is left of a file with actuators.
 
-    Joints whose couplings through spatial tendons change with the posture by more than `NEAR` are left out, with all
-    that is tied to them.
+    Joints that spatial tendons move in a way that changes with the posture are left out, with all that is tied to them
+    (`readable`).
+
+    Args:
+        file: the file.
+        relations: A q = b by its equalities.
+        arms: the moment arms of its tendons.
 
     Raises:
         InputError: a pulled tendon over hinges and slides that no spring sets against each other, pulls that nearly
             repeat each other.
     """
     pulls, springs = pulls_of(file, arms.mean), _springs(file, arms.mean, arms.offset)
+    found = settle(relations, pulls, springs, file.q_0)
+    rows = np.vstack([pulls, relations.A, springs.F])
+    each = np.array([pulls_of(file, there) for there in arms.each]).reshape(-1, *pulls.shape)
     kinds = [file.kinds[joint] for joint in file.q]
-    postures = [(pulls_of(file, each), _springs(file, each, arms.offset)) for each in arms.each]
-    changes = departures(kinds, order, relations, file.q_0, (pulls, springs), postures)
-    lost = together(np.vstack([pulls, relations.A, springs.F]), np.flatnonzero(changes > NEAR).tolist())
+    seen = readable(found, relations, arms, _used(file), kinds, rows, each)
+    lost = list(seen.lost)
     kept = ~np.any(springs.F[:, lost] != 0, axis=1)
     pulls = pulls[~np.any(pulls[:, lost] != 0, axis=1)]
     found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
     for pull in pulls:
         _one_kind(file, pull, found)
-    notes = (*_unread(file), *_near(file, arms, np.delete(changes, lost).max(initial=0.0), lost))
+    notes = (*_unread(file), *_near(file, seen))
     return Driven(found.relations or relations, _drives(file, found, arms, lost, notes))
 
 
@@ -87,8 +94,7 @@ def _springs(file: Mjcf, tendons: Array, offset: Array) -> Springs:
 
 def _one_kind(file: Mjcf, pull: Array, found: Settled) -> None:
     """Refuse a tendon that shares one pull among joints by nothing but their alike yield, which has two units."""
-    loose = np.linalg.norm(found.loose, axis=1) > STILL
-    joints = [joint for joint, arm, each in zip(file.q, pull, loose, strict=True) if arm and each]
+    joints = [joint for joint, arm, each in zip(file.q, pull, moves(found.loose), strict=True) if arm and each]
     if len({file.kinds[joint] for joint in joints}) > 1:
         names = ", ".join(f"'{file.joints[joint]}'" for joint in joints)
         raise file.source.lines[0].refused(
@@ -97,7 +103,7 @@ def _one_kind(file: Mjcf, pull: Array, found: Settled) -> None:
 
 
 def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: tuple[str, ...]) -> Drives:
-    moving = np.linalg.norm(found.loose, axis=1) > STILL
+    moving = moves(found.loose)
     sprung, loose = dict[str, float](), dict[str, str]()
     for column, joint in enumerate(file.q):
         name = file.joints[joint]
@@ -150,15 +156,19 @@ def _unread(file: Mjcf) -> Iterator[str]:
             yield f"the spring of {spring.name} is not read: {spring.unread}"
 
 
-def _near(file: Mjcf, arms: Arms, change: float, lost: Sequence[int]) -> Iterator[str]:
-    """Yield a note on spatial tendons that were taken as constant."""
-    used = {*(each.tendon for each in file.actuators), *(each.tendon for each in file.springs)}
-    named = [file.tendon_names[t] for t in file.spatial if t in used and not np.any(arms.mean[t, list(lost)])]
-    if change > ROUNDING and named:
-        plural = "s" * (len(named) > 1)
-        names = ", ".join(f"'{name}'" for name in named)
+def _used(file: Mjcf) -> list[int]:
+    """Return the spatial tendons that an actuator pulls or that hold a spring."""
+    springs = [spring.tendon for spring in file.springs if not spring.unread]
+    return [tendon for tendon in file.spatial if tendon in (*(each.tendon for each in file.actuators), *springs)]
+
+
+def _near(file: Mjcf, seen: Readable) -> Iterator[str]:
+    """Yield a note on spatial tendons that were taken as constant, though they are not quite."""
+    told = {tendon: change for tendon, change in seen.change if change > ROUNDING}
+    if told:
+        names = ", ".join(f"'{file.tendon_names[tendon]}'" for tendon in told)
         yield (
-            f"spatial tendon{plural} {names}: mean moment arms are used; over the ranges of the joints, what "
-            f"{'they couple' if plural else 'it couples'} changes by up to {100 * change:.2g} % "
-            f"(up to {100 * NEAR:g} % is taken as constant)"
+            f"the moment arms of the spatial tendon{'s' * (len(told) > 1)} {names} change by up to "
+            f"{100 * max(told.values()):.2g} % over the ranges of the joints; their means are used (up to "
+            f"{100 * NEAR:g} % counts as constant)"
         )

@@ -3,97 +3,86 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from synergrip.errors import InputError
-from synergrip.hands.relations import Relations, couplings
-from synergrip.hands.settling import Springs, ratios, settle
-from synergrip.linalg import Array
-
-Pull = tuple[Array, Springs]
-"""Joint torque per force of each actuator (n_a, n_q), and the springs, in one posture."""
+from synergrip.hands.mjcf_arms import Arms
+from synergrip.hands.relations import Relations
+from synergrip.hands.settling import Settled, moves
+from synergrip.linalg import Array, split
 
 NEAR = 0.05
-"""A coupling may change over the ranges of the joints by this share of the largest motion that its driver causes."""
-MOST_TIED = 60
-"""Joints that tendons tie to each other; more are no finger, and not looked into."""
-MOST_LOOKED = 2e5
-"""Postures times the square of the number of joints, which limits the time."""
+"""Moment arms are constant when they stay this close to their mean, relative to the largest of the tendon."""
+HOLD = 0.1
+"""Motors keep hold of joints while this much is left of what they do to them with the mean moment arms."""
 
 
-def departures(
-    kinds: Sequence[str], order: Sequence[int], relations: Relations, q_0: Array, mean: Pull, postures: Sequence[Pull]
-) -> Array:
-    """Return (n_q,) how far what drives a joint moves it otherwise in some posture than with mean moment arms.
+@dataclass(frozen=True)
+class Readable:
+    """What is to be made of the spatial tendons of a file."""
 
-    Changes are relative to the largest motion of a joint of that kind by the same driver. They are infinite where the
-    actuators lose hold of a driver. Of joints that are tied to each other, the first posture beyond `NEAR` is the last
-    one that is looked at.
+    lost: tuple[int, ...]
+    """Columns of q of which it is not known how they move."""
+    change: Sequence[tuple[int, float]]
+    """Tendons that count as constant, and how far their moment arms change."""
+
+
+def change_of(arms: Arms, kinds: Sequence[str], tendon: int) -> float:
+    """Return how far a moment arm of a tendon is from its mean, relative to the largest at a joint of that kind."""
+    most = 0.0
+    for kind in set(kinds):
+        joints = [joint for joint, each in enumerate(kinds) if each == kind]
+        mean, seen = arms.mean[tendon, joints], arms.each[:, tendon, joints]
+        apart, size = np.abs(seen - mean).max(initial=0.0), np.abs(mean).max(initial=0.0)
+        most = max(most, apart / size if size > 0 else 0.0)
+    return float(most)
+
+
+def readable(
+    found: Settled, relations: Relations, arms: Arms, tendons: Sequence[int], kinds: Sequence[str], rows: Array,
+    pulls: Array,
+) -> Readable:  # fmt: skip
+    """Return which joints spatial tendons move in a way that changes with the posture, and the tendons that do not.
+
+    Joints that motors hold whatever the moment arms are, as many motors as joints do, are driven each by itself. What
+    motors leave to springs depends on the arms: these must be constant.
 
     Args:
-        kinds: "hinge" or "slide", by column of q.
-        order: columns, those first that are to be followers.
+        found: how the joints move with the mean moment arms.
         relations: A q = b.
-        q_0: (n_q,) the drawing.
-        mean: pulls and springs with the mean moment arms.
-        postures: the same in each posture.
+        arms: of all tendons.
+        tendons: the spatial ones with a motor or a spring.
+        kinds: "hinge" or "slide", by column of q.
+        rows: (m, n_q) what ties joints to each other: pulls, relations, springs.
+        pulls: (n_p, n_a, n_q) of the actuators in each posture.
     """
-    changes = np.zeros(len(kinds))
-    left = set(np.flatnonzero(_changing(mean, postures)).tolist())
-    rows = np.vstack([relations.A, *(part for pulls, springs in (mean, *postures[:1]) for part in (pulls, springs.F))])
-    while left:
-        tied = together(rows, [min(left)])
-        left -= set(tied)
-        if len(tied) > MOST_TIED:
-            changes[tied] = np.inf
-            continue
-        step = max(1, round(len(postures) * len(tied) ** 2 / MOST_LOOKED))
-        part = Relations(relations.A[:, tied], relations.b)
-        fewer = [_columns(pull, tied) for pull in postures[::step]]
-        rank = [order.index(joint) for joint in tied]
-        changes[tied] = _departures(
-            [kinds[joint] for joint in tied], np.argsort(rank).tolist(), part, q_0[tied], _columns(mean, tied), fewer
-        )
-    return changes
+    yields = moves(found.yielding)
+    passed = {tendon: np.flatnonzero(arms.mean[tendon]).tolist() for tendon in tendons}
+    lost, change = set[int](), list[tuple[int, float]]()
+    for tendon in tendons:
+        tied = together(rows, passed[tendon])
+        if not yields[tied].any():
+            if not _held(relations.A[:, tied], pulls[:, :, tied]):
+                lost.update(tied)
+        elif (here := change_of(arms, kinds, tendon)) > NEAR:
+            lost.update(tied)
+        else:
+            change.append((tendon, here))
+    kept = [
+        (tendon, here) for tendon, here in change if not lost.intersection(np.flatnonzero(arms.mean[tendon]).tolist())
+    ]
+    return Readable(tuple(sorted(lost)), kept)
 
 
-def _changing(mean: Pull, postures: Sequence[Pull]) -> NDArray[np.bool_]:
-    """Return (n_q,) whether the arm of any actuator or spring at the joint changes with the posture."""
-    changing = np.zeros(mean[0].shape[1], dtype=bool)
-    for pulls, springs in postures:
-        for here, usual in ((pulls, mean[0]), (springs.F, mean[1].F)):
-            changing |= np.any(np.abs(here - usual) > 1e-9 * np.abs(usual).max(initial=0.0), axis=0)
-    return changing
-
-
-def _columns(pull: Pull, joints: Sequence[int]) -> Pull:
-    pulls, springs = pull
-    return pulls[:, joints], Springs(springs.F[:, joints], springs.g)
-
-
-def _departures(
-    kinds: Sequence[str], order: Sequence[int], relations: Relations, q_0: Array, mean: Pull, postures: Sequence[Pull]
-) -> Array:
-    found = settle(relations, *mean, q_0)
-    followers = couplings([str(joint) for joint in range(len(kinds))], found.relations or relations, order)
-    drivers = [joint for joint in range(len(kinds)) if str(joint) not in followers and not found.idle[joint]]
-    usual = ratios(found, drivers)
-    alike = np.array([[one == other for other in kinds] for one in kinds])
-    size = np.array([np.abs(usual[row]).max(axis=0, initial=0.0) for row in alike])  # (n_q, d)
-    worst = np.zeros(len(kinds))
-    for pull in postures:
-        if worst.max() > NEAR:
-            break
-        try:
-            there = ratios(settle(relations, *pull, q_0), drivers)
-        except InputError:  # pulls that nearly repeat each other in this posture only
-            there = np.full_like(usual, np.inf)
-        change = np.abs(there - usual)
-        share = np.divide(change, size, out=np.where(change > 0, np.inf, 0.0), where=size > 0)
-        worst = np.maximum(worst, share.max(axis=1, initial=0.0))
-    return worst
+def _held(A: Array, pulls: Array) -> bool:
+    """Tell whether actuators (n_p, n_a, n) hold what relations A leave free, in every posture as in the mean."""
+    free = split(A).null_space
+    acting = pulls[:, np.any(pulls != 0, axis=(0, 2))]
+    if free.shape[1] == 0 or len(pulls) == 0:
+        return True
+    least = np.linalg.svd(np.concatenate([acting, acting.mean(axis=0, keepdims=True)]) @ free, compute_uv=False)[:, -1]
+    return bool(acting.shape[1] >= free.shape[1] and least.min() >= HOLD * least[-1])
 
 
 def together(rows: Array, joints: Sequence[int]) -> list[int]:

@@ -18,6 +18,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.hands.relations import Relations, clear_cut
 from synergrip.linalg import Array, split
@@ -46,6 +47,8 @@ class Settled:
     """(n_q, f) orthonormal: what the relations allow."""
     driven: Array
     """(n_q, d) what the actuators do."""
+    yielding: Array
+    """(n_q, m) orthonormal: what neither an actuator nor a relation holds, N."""
     loose: Array
     """(n_q, o) orthonormal: what nothing holds, neither an actuator nor a relation nor a spring."""
     compliance: Array
@@ -56,8 +59,7 @@ class Settled:
     @property
     def idle(self) -> tuple[bool, ...]:
         """Whether the joint could move, and no actuator moves it."""
-        moves = np.linalg.norm(self.free, axis=1) > STILL
-        return tuple((moves & ~np.array(self.reached, dtype=bool)).tolist())
+        return tuple((moves(self.free) & ~np.array(self.reached, dtype=bool)).tolist())
 
     @property
     def relations(self) -> Relations | None:
@@ -69,6 +71,11 @@ class Settled:
             return None
         A = split(moving.T).null_space.T
         return Relations(A, A @ self.rest)
+
+
+def moves(motions: Array) -> NDArray[np.bool_]:
+    """Return (n_q,) which joints move in some of the `motions` (n_q, m)."""
+    return np.asarray(np.linalg.norm(motions, axis=1) > STILL)
 
 
 def settle(relations: Relations, pulls: Array, springs: Springs, q_0: Array) -> Settled:
@@ -92,21 +99,10 @@ def settle(relations: Relations, pulls: Array, springs: Springs, q_0: Array) -> 
     held = split(springs.F[stiff > 0] / stiff[stiff > 0, None] @ N, reference=1.0)
     firm = N @ held.row_space
     Y = firm @ np.linalg.pinv(springs.F @ firm, rcond=1e-13)
+    Y[~moves(N)] = 0.0  # not by rounding either
     p = relations.nearest(q_0)
     driven = W - Y @ (springs.F @ W)
-    pushed = np.linalg.norm(free @ free.T @ unit.T, axis=1) > STILL
-    reached = pushed | (np.linalg.norm(driven, axis=1) > STILL)
+    reached = moves(free @ free.T @ unit.T) | moves(driven)
     return Settled(
-        p - Y @ (springs.F @ p - springs.g), free, driven, N @ held.null_space, Y @ Y.T, tuple(reached.tolist())
+        p - Y @ (springs.F @ p - springs.g), free, driven, N, N @ held.null_space, Y @ Y.T, tuple(reached.tolist())
     )
-
-
-def ratios(settled: Settled, drivers: list[int]) -> Array:
-    """Return (n_q, d) how the joints move when one of the `drivers` moves by 1 and the other ones rest.
-
-    Every entry is infinite when the actuators do not move the drivers independently.
-    """
-    own = settled.driven[drivers]
-    if own.shape[0] != own.shape[1] or split(own).decision.rank < len(drivers):
-        return np.full((len(settled.driven), len(drivers)), np.inf)
-    return np.asarray(settled.driven @ np.linalg.inv(own))

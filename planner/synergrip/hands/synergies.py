@@ -167,13 +167,20 @@ def set_named(hand: Hand, synergies: SynergySet, names: Mapping[str, str], key: 
     known = names_known(hand, synergies)
     for name, at in names.items():
         if name not in known:
-            raise InputError.at(at, f"synergy or joint {one_of(name, known)}", on_key=at != key)
+            raise InputError.at(
+                at, stands_still(hand, name) or f"synergy or joint {one_of(name, known)}", on_key=at != key
+            )
     for each in _sets(hand, synergies):
         if each.name != JOINTS and all(name in each.synergies for name in names):
             return each
     if not all(name in hand.joint_names for name in names):
         raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
     return None
+
+
+def stands_still(hand: Hand, name: str) -> str:
+    """Return why a link or joint is no part of the hand though its file has it; empty for another name."""
+    return f"'{name}' stands still: the palm '{hand.links[0]}' does not carry it" if name in hand.still else ""
 
 
 def _sets(hand: Hand, synergies: SynergySet) -> tuple[SynergySet, ...]:

@@ -23,7 +23,7 @@ from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.parted import parted_notes
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies import posture, stands_still
 from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
@@ -145,11 +145,9 @@ def _pad(hand: Hand, contact: ContactSpec) -> Pad:
     if isinstance(contact.at, str):
         return hand.pad(contact.at, contact.key)
     place = contact.at
-    if place.link in hand.still:
-        raise InputError.at(
-            contact.key, f"link '{place.link}' stands still: the palm '{hand.links[0]}' (hand.palm) does not carry it; "
-            f"contacts are on {', '.join(map(repr, hand.links))}, or choose a palm that carries them all"
-        )  # fmt: skip
+    if still := stands_still(hand, place.link):
+        carried = ", ".join(map(repr, hand.links))
+        raise InputError.at(contact.key, f"link {still}; it carries {carried}; choose a palm that carries all contacts")
     if place.link not in hand.links:
         raise InputError.at(contact.key, f"link {one_of(place.link, hand.links)}")
     normal = frozen(place.normal or np.zeros(3))
