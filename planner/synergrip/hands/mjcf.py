@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.hands.mjcf_source import Source, kinematic_source
 from synergrip.hands.mjcf_springs import Spring, joint_springs, tendon_springs
 from synergrip.hands.xml_elements import Element
 from synergrip.linalg import Array, frozen
 
+_SPRINGDAMPER = re.compile(r' springdamper="[^"]*"')
 _LINE = re.compile(r"\bline (\d+)")
 _FRAME = re.compile(r"^(XML )?Error: |^Schema violation: |\s*Element( name)? '.*$", re.DOTALL)
 
@@ -123,7 +125,7 @@ def compiled(root: Element) -> Mjcf:
         tuple(_equality(model, number, q, element) for number, element in _active(model, source)),
         _coefficients(model, q), spatial,
         tuple(_actuator(model, number, q) for number in range(model.nu)),
-        (*joint_springs(model, source.text, q, joints), *tendon_springs(model)),
+        (*joint_springs(model, q, joints, _tuned(model, source.text)), *tendon_springs(model)),
     )  # fmt: skip
 
 
@@ -196,3 +198,13 @@ def _actuator(model: Any, number: int, q: tuple[int, ...]) -> Actuator:
         float(model.actuator_gear[number, 0]),
         float(np.abs(model.actuator_forcerange[number]).max()) if limited else math.inf,
     )
+
+
+def _tuned(model: Any, text: str) -> NDArray[np.bool_]:
+    """Return (n_j,) whether the stiffness is made from a springdamper: it is another one without."""
+    import mujoco
+
+    without = _SPRINGDAMPER.sub("", text)
+    if without == text:
+        return np.zeros(model.njnt, dtype=bool)
+    return np.asarray(mujoco.MjModel.from_xml_string(without).jnt_stiffness != model.jnt_stiffness)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-_SPRINGDAMPER = re.compile(r' springdamper="[^"]*"')
 
 
 @dataclass(frozen=True)
@@ -29,25 +26,14 @@ class Spring:
     """Why it is none that is linear about one rest; empty for one that is read."""
 
 
-def joint_springs(model: Any, text: str, q: tuple[int, ...], names: tuple[str, ...]) -> Iterator[Spring]:
-    """Yield the springs in the joints `q` of a model that MuJoCo made of `text`."""
-    tuned = _tuned(model, text)
+def joint_springs(model: Any, q: tuple[int, ...], names: tuple[str, ...], tuned: NDArray[np.bool_]) -> Iterator[Spring]:
+    """Yield the springs in the joints `q` of a model; those that are `tuned` have a stiffness made of inertias."""
     for column, joint in enumerate(q):
         stiffness, rest = model.jnt_stiffness[joint], model.qpos_spring[model.jnt_qposadr[joint]]
         unread = "springdamper needs inertias, which are not read here; write stiffness" if tuned[joint] else ""
         unread = unread or _bent(model, "jnt", joint)
         if stiffness > 0 or unread:
             yield Spring(f"joint '{names[joint]}'", column, None, float(stiffness), float(rest), unread)
-
-
-def _tuned(model: Any, text: str) -> NDArray[np.bool_]:
-    """Return (n_j,) whether the stiffness is made from a springdamper: it is another one without."""
-    import mujoco
-
-    without = _SPRINGDAMPER.sub("", text)
-    if without == text:
-        return np.zeros(model.njnt, dtype=bool)
-    return np.asarray(mujoco.MjModel.from_xml_string(without).jnt_stiffness != model.jnt_stiffness)
 
 
 def tendon_springs(model: Any) -> Iterator[Spring]:
