@@ -20,6 +20,8 @@ ANYWHERE, ALONG = 192, 9
 """Postures: so many with all joints anywhere in their ranges, and so many along the range of each joint that counts."""
 MOST_ALONG = 540
 """So many along ranges in all, with at least 3 for each joint."""
+MOST_ARMS = 5_000_000
+"""Numbers to keep, which limits the postures of a file with many tendons."""
 TOUCHED = 1e-9
 """A tendon with a smaller arm passes a joint by [m or 1]."""
 
@@ -47,11 +49,12 @@ def arms_of(file: Mjcf, relations: Relations) -> Arms:
         return Arms(file.tendons, np.zeros((0, *file.tendons.shape)), np.zeros(len(file.tendons)))
     lower, upper = _ranges(file)
     anywhere = np.random.default_rng(0).uniform(lower, upper, (ANYWHERE, len(lower)))
-    arms, _ = file.routed(_kept(relations, anywhere, lower, upper))
+    arms, _ = file.routed(_kept(relations, anywhere, lower, upper)[:: 1 + ANYWHERE * file.tendons.size // MOST_ARMS])
     passed = np.flatnonzero(np.abs(arms[:, list(file.spatial)]).max(axis=(0, 1)) > TOUCHED)
     count = max(3, min(ALONG, MOST_ALONG // max(len(passed), 1)))
     along = [line for joint in passed.tolist() for line in _along(file, joint, lower, upper, count)]
     postures = _kept(relations, np.vstack([anywhere, *along]), lower, upper)
+    postures = postures[:: 1 + len(postures) * file.tendons.size // MOST_ARMS]
     each, lengths = file.routed(postures)
     mean = file.tendons.copy()
     mean[list(file.spatial)] = each[:, list(file.spatial)].mean(axis=0)

@@ -17,6 +17,8 @@ from synergrip.linalg import Array, frozen
 
 ROUNDING = 1e-6
 """Moment arms that change less are constant."""
+MOST_SPANS, MOST_TENDONS = 6, 2
+"""Joints of a tendon, and tendons of a joint, that are named in a reason."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,11 +137,15 @@ def _lost(file: Mjcf, arms: Arms, column: int) -> str:
     for actuator in file.actuators:
         tendon = actuator.tendon
         if tendon is not None and arms.mean[tendon, column]:
+            spans = [*_spans(file, arms, tendon)]
+            others = ", and so on" if len(spans) > MOST_SPANS else ""
             told.append(
                 f"'{actuator.name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms "
-                f"change too much over the ranges of the joints ({', '.join(_spans(file, arms, tendon))})"
+                f"change too much over the ranges of the joints ({', '.join(spans[:MOST_SPANS])}{others})"
             )
-    return " and ".join(told) or "tied to joints that spatial tendons pull, whose moment arms change too much"
+    more = f", and {len(told) - MOST_TENDONS} more such tendons" if len(told) > MOST_TENDONS else ""
+    reason = " and ".join(told[:MOST_TENDONS]) + more
+    return reason or "tied to joints that spatial tendons pull, whose moment arms change too much"
 
 
 def _spans(file: Mjcf, arms: Arms, tendon: int) -> Iterator[str]:

@@ -16,6 +16,8 @@ NEAR = 0.05
 """Moment arms are constant when they stay this close to their mean, relative to the largest of the tendon."""
 HOLD = 0.1
 """Motors keep hold of joints while this much is left of what they do to them with the mean moment arms."""
+MOST_HELD = 60
+"""Joints that tendons tie to each other; more are no finger, and not looked into."""
 
 
 @dataclass(frozen=True)
@@ -59,36 +61,40 @@ def readable(
     """
     yields = moves(found.yielding)
     passed = {tendon: np.flatnonzero(arms.mean[tendon]).tolist() for tendon in tendons}
-    lost, change = set[int](), list[tuple[int, float]]()
-    for tendon in tendons:
-        tied = together(rows, passed[tendon])
+    lost, change, left = set[int](), list[tuple[int, float]](), list(tendons)
+    while left:
+        tied = together(rows, passed[left[0]])
+        here = [tendon for tendon in left if set(passed[tendon]) & set(tied)] or left[:1]
+        left = [tendon for tendon in left if tendon not in here]
         if not yields[tied].any():
             if not _held(relations.A[:, tied], pulls[:, :, tied]):
                 lost.update(tied)
-        elif (here := change_of(arms, kinds, tendon)) > NEAR:
+            continue
+        changes = [(tendon, change_of(arms, kinds, tendon)) for tendon in here]
+        if max(most for _, most in changes) > NEAR:
             lost.update(tied)
         else:
-            change.append((tendon, here))
-    kept = [
-        (tendon, here) for tendon, here in change if not lost.intersection(np.flatnonzero(arms.mean[tendon]).tolist())
-    ]
-    return Readable(tuple(sorted(lost)), kept)
+            change += changes
+    return Readable(tuple(sorted(lost)), change)
 
 
 def _held(A: Array, pulls: Array) -> bool:
     """Tell whether actuators (n_p, n_a, n) hold what relations A leave free, in every posture as in the mean."""
     free = split(A).null_space
-    acting = pulls[:, np.any(pulls != 0, axis=(0, 2))]
     if free.shape[1] == 0 or len(pulls) == 0:
         return True
-    least = np.linalg.svd(np.concatenate([acting, acting.mean(axis=0, keepdims=True)]) @ free, compute_uv=False)[:, -1]
-    return bool(acting.shape[1] >= free.shape[1] and least.min() >= HOLD * least[-1])
+    if free.shape[1] > MOST_HELD:
+        return False
+    acting = pulls[:, np.any(pulls != 0, axis=(0, 2))] @ free
+    acting = np.concatenate([acting, acting.mean(axis=0, keepdims=True)])
+    least = np.linalg.eigvalsh(acting.transpose(0, 2, 1) @ acting)[:, 0]  # squares of the smallest singular values
+    return bool(least[-1] > 0 and least.min() >= HOLD**2 * least[-1])
 
 
 def together(rows: Array, joints: Sequence[int]) -> list[int]:
     """Return the columns that `rows` tie to one of the `joints`, directly or through others, and these themselves."""
     ties = [set(np.flatnonzero(row).tolist()) for row in rows]
     found = set(joints)
-    for _ in ties:
-        found = found.union(*(tie for tie in ties if tie & found))
+    while (more := found.union(*(tie for tie in ties if tie & found))) != found:
+        found = more
     return sorted(found)
