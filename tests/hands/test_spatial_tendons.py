@@ -156,7 +156,7 @@ def test_joints_that_only_springs_hold_are_no_synergies_and_yield_as_these_do(tm
     free = hand.synergy_sets["free"]
     assert list(hand.synergy_sets) == ["free", "joints"]
     assert free.synergies == ("a",)
-    assert "no motor is known to drive 'b', 's'" in free.title
+    assert "no actuator is known to drive 'b', 's'" in free.title
     np.testing.assert_allclose(free.offset, [0, 0.1, 0])
     np.testing.assert_allclose(hand.C_q, np.diag([0, 4, 1 / 400]), atol=1e-15)
     assert hand.drives.sprung == pytest.approx({"b": 0.1, "s": 0})
@@ -189,9 +189,9 @@ def test_what_drives_a_joint(tmp_path, actuator, idle):
     assert hand.drives.idle == idle
     assert select_names(hand) == tuple(name for name in "ab" if name not in idle)
     if "site" in actuator:
-        assert "(actuators that act at a site are not read: 'push')" in hand.drives.loose["b"]
+        assert "actuators that act at a site are not read: 'push'" in hand.drives.loose["b"]
     elif idle:
-        assert hand.drives.loose["b"] == "no actuator of the file drives it, and no spring holds it"
+        assert hand.drives.loose["b"] == "no spring holds it either"
 
 
 def select_names(hand):

@@ -89,7 +89,7 @@ def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling], drives: Dr
 
 def _idle(names: Sequence[str], drives: Drives | None) -> str:
     left = [f"'{name}'" for name in names if drives and name in drives.idle]
-    return f"no motor is known to drive {', '.join(left)}" if left else ""
+    return f"no actuator is known to drive {', '.join(left)}" if left else ""
 
 
 def _followers(couplings: Mapping[str, Coupling]) -> str:

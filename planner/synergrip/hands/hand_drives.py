@@ -30,8 +30,8 @@ def _notes(drives: Drives, couplings: Mapping[str, Coupling], file: HandFile) ->
     idle = [name for name in drives.idle if name not in couplings]
     if idle and not file.synergies:
         yield (
-            f"no motor of {file.model} is known to drive {_listed(idle)}, and hand.toml has no [synergies]: in the set "
-            "'joints' each of them moves by itself"
+            f"no actuator of {file.model} is known to drive {_listed(idle)}, and hand.toml has no [synergies]: in the "
+            "set 'joints' each of them moves by itself"
         )
     rigid = [table.name for table in file.joint if table.name in drives.sprung and table.compliance is None]
     if rigid:

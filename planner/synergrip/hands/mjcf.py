@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -71,7 +72,7 @@ class Mjcf:
     actuators: tuple[Actuator, ...]
     springs: tuple[Spring, ...]
 
-    @property
+    @cached_property
     def tendon_names(self) -> tuple[str, ...]:
         """Names of the tendons; a number for one without."""
         return tuple(self.model.tendon(number).name or str(number + 1) for number in range(self.model.ntendon))

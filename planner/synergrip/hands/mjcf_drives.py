@@ -127,33 +127,35 @@ def _within(file: Mjcf, joint: int, rest: float) -> float:
 
 def _nothing(file: Mjcf) -> str:
     left_out = ", ".join(f"'{name}'" for name in file.source.actuators_left_out)
-    at_sites = f" (actuators that act at a site are not read: {left_out})" if left_out else ""
-    return f"no actuator of the file drives it{at_sites}, and no spring holds it"
+    at_sites = f"; actuators that act at a site are not read: {left_out}" if left_out else ""
+    return f"no spring holds it either{at_sites}"
 
 
 def _lost(file: Mjcf, arms: Arms, column: int) -> str:
     """Return why it is not known how a joint moves: the spatial tendons that pull at it, with their arms."""
-    told = []
-    for actuator in file.actuators:
-        tendon = actuator.tendon
-        if tendon is not None and arms.mean[tendon, column]:
-            spans = [*_spans(file, arms, tendon)]
-            others = ", and so on" if len(spans) > MOST_SPANS else ""
-            told.append(
-                f"'{actuator.name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms "
-                f"change too much over the ranges of the joints ({', '.join(spans[:MOST_SPANS])}{others})"
-            )
-    more = f", and {len(told) - MOST_TENDONS} more such tendons" if len(told) > MOST_TENDONS else ""
-    reason = " and ".join(told[:MOST_TENDONS]) + more
+    pulling = [
+        (actuator.name, actuator.tendon)
+        for actuator in file.actuators
+        if actuator.tendon in file.spatial and arms.mean[actuator.tendon, column]
+    ]
+    told = [
+        f"'{name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms change too much "
+        f"over the ranges of the joints ({_spans(file, arms, tendon)})"
+        for name, tendon in pulling[:MOST_TENDONS]
+    ]
+    more = f", and {len(pulling) - MOST_TENDONS} more such tendons" if len(pulling) > MOST_TENDONS else ""
+    reason = " and ".join(told) + more
     return reason or "tied to joints that spatial tendons pull, whose moment arms change too much"
 
 
-def _spans(file: Mjcf, arms: Arms, tendon: int) -> Iterator[str]:
-    """Yield the range of the arm of a tendon at each of its joints."""
-    for column in np.flatnonzero(arms.mean[tendon]).tolist():
+def _spans(file: Mjcf, arms: Arms, tendon: int) -> str:
+    """Return the ranges of the arm of a tendon at its joints."""
+    told, columns = list[str](), np.flatnonzero(arms.mean[tendon]).tolist()
+    for column in columns[:MOST_SPANS]:
         least, most = arms.span(tendon, column)
         scale, unit = (1e3, " mm") if file.kinds[file.q[column]] == "hinge" else (1.0, "")
-        yield f"{file.joints[file.q[column]]} {scale * least:.3g} to {scale * most:.3g}{unit}"
+        told.append(f"{file.joints[file.q[column]]} {scale * least:.3g} to {scale * most:.3g}{unit}")
+    return ", ".join(told) + (", and so on" if len(columns) > MOST_SPANS else "")
 
 
 def _unread(file: Mjcf) -> Iterator[str]:

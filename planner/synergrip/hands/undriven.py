@@ -85,13 +85,13 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
         yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
     moved = [name for name in drives.idle if name in _moved(hand, synergies)]
     if moved:
-        yield f"the synergies move {_listed(moved)}, which no motor of the model file is known to drive"
+        yield f"the synergies move {_listed(moved)}, which no actuator of the model file is known to drive"
     sprung = [name for name in drives.sprung if name not in moved]
     if sprung:
-        yield f"no motor of the model file drives {_listed(sprung)}: no synergy moves them, springs hold them"
+        yield f"no actuator of the model file drives {_listed(sprung)}: no synergy moves them, springs hold them"
     loose = [name for name in drives.loose if name not in moved]
     if loose:
-        yield f"no motor of the model file is known to drive {_listed(loose)}: no synergy moves them"
+        yield f"no actuator of the model file is known to drive {_listed(loose)}: no synergy moves them"
     away = [name for name in sprung if abs(_value(hand, q, name) - drives.sprung[name]) > AWAY]
     for name in away:
         factor, unit = SHOWN_IN[SI_UNITS[hand.joints[hand.joint_names.index(name)].kind]]
@@ -116,13 +116,13 @@ def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]
         reasons.setdefault(reason, []).append(name)
     told = "; ".join(f"{_listed(each)}: {reason}" for reason, each in list(reasons.items())[:MOST_REASONS])
     more = "; and so on" if len(reasons) > MOST_REASONS else ""
-    arm = f'; hand.palm = "{palm[0]}" leaves out what is above that link' if {*names} & {*palm[1]} else ""
+    arm = f'; or hand.palm = "{palm[0]}", to leave out what is above that link' if {*names} & {*palm[1]} else ""
     return (
-        f"the model file does not say how {_listed(names)} move{'s' if len(names) == 1 else ''} ({told}{more}). Say it "
-        'here: the synergies in a file with these joints (hand.synergies = "mine.toml"); or names of joints that '
-        f'motors drive each by itself (["{names[0]}"]); or, where nothing drives them, how far each joint yields, as a '
-        f"list in hand.compliance.joint (0 for a locked one){arm}. Or in the model file: a motor, a stiffness, or a "
-        "<fixed> tendon in place of a <spatial> one, with its moment arms as coef"
+        f"no actuator of the model file is known to drive {_listed(names)} ({told}{more}). Write how they move: "
+        'hand.synergies = "mine.toml", a synergy file with these joints; or names of joints that actuators drive each '
+        f'by itself, as in hand.synergies = ["{names[0]}"]; or, where nothing drives them, how far each joint yields: '
+        f"a list in hand.compliance.joint, 0 for a locked one{arm}. Or change the model file: an actuator, a "
+        "stiffness, a <fixed> tendon in place of a <spatial> one, with its moment arms as coef"
     )
 
 
