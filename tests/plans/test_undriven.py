@@ -101,6 +101,12 @@ def test_a_tip_that_nothing_holds_is_refused_with_what_to_write(tmp_path):
     assert "spare" not in message  # it carries no contact
 
 
+def test_the_refusal_names_what_was_not_read(tmp_path):
+    message = refused(tmp_path, left='springdamper="0.1 1"', actuators=f'{MOTORS}<motor name="far" site="l0"/>')
+    assert "actuators that act at a site are not read, nor what they drive: 'far'" in message
+    assert "the spring of joint 'l tip' is not read: springdamper needs inertias" in message
+
+
 def test_each_thing_that_the_refusal_advises_is_taken(tmp_path):
     message = refused(tmp_path)
     (tmp_path / "mine.toml").write_text(

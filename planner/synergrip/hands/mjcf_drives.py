@@ -114,7 +114,7 @@ def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: 
         if column in lost:
             loose[name] = _lost(file, arms, column)
         elif moving[column]:
-            loose[name] = _nothing(file)
+            loose[name] = "no spring holds it either"
         else:
             sprung[name] = _within(file, joint, float(found.rest[column]))
     return Drives(frozen(found.compliance), sprung, loose, notes)
@@ -123,12 +123,6 @@ def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: 
 def _within(file: Mjcf, joint: int, rest: float) -> float:
     """Return where a joint rests: a spring may press it to the end of its range."""
     return float(np.clip(rest, *file.model.jnt_range[joint])) if file.model.jnt_limited[joint] else rest
-
-
-def _nothing(file: Mjcf) -> str:
-    left_out = ", ".join(f"'{name}'" for name in file.source.actuators_left_out)
-    at_sites = f"; actuators that act at a site are not read: {left_out}" if left_out else ""
-    return f"no spring holds it either{at_sites}"
 
 
 def _lost(file: Mjcf, arms: Arms, column: int) -> str:
@@ -159,6 +153,9 @@ def _spans(file: Mjcf, arms: Arms, tendon: int) -> str:
 
 
 def _unread(file: Mjcf) -> Iterator[str]:
+    if file.source.actuators_left_out:
+        names = ", ".join(f"'{name}'" for name in file.source.actuators_left_out)
+        yield f"actuators that act at a site are not read, nor what they drive: {names}"
     for spring in file.springs:
         if spring.unread:
             yield f"the spring of {spring.name} is not read: {spring.unread}"

@@ -79,7 +79,8 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
     if drives is None:
         return
     yield from drives.notes
-    other = np.any(~np.isclose(C_q, hand.C_q, rtol=1e-9, atol=0.0) & (hand.C_q != 0), axis=1)
+    springs = drives.compliance
+    other = np.any(~np.isclose(C_q, springs, rtol=1e-9, atol=0.0) & (springs != 0), axis=1)
     if other.any():
         names = [name for name, each in zip(hand.joint_names, other, strict=True) if each]
         yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
@@ -116,6 +117,7 @@ def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]
         reasons.setdefault(reason, []).append(name)
     told = "; ".join(f"{_listed(each)}: {reason}" for reason, each in list(reasons.items())[:MOST_REASONS])
     more = "; and so on" if len(reasons) > MOST_REASONS else ""
+    more = "; ".join([more, *(hand.drives.notes if hand.drives else ())])
     arm = f'; or hand.palm = "{palm[0]}", to leave out what is above that link' if {*names} & {*palm[1]} else ""
     return (
         f"no actuator of the model file is known to drive {_listed(names)} ({told}{more}). Write how they move: "
