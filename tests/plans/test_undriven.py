@@ -177,8 +177,10 @@ def test_a_spring_that_the_posture_bends_is_noted(tmp_path):
     assert np.degrees(held.held.q[1]) == pytest.approx(4)
     assert not any("spring rests" in note for note in held.notes)
     bent = 'hand.posture={ l = "-10 deg", r = "-10 deg", "r tip" = "3 deg" }'
-    held = problem(tmp_path, left=SPRING, right=SPRING, changes=[bent])
-    assert "joint 'r tip' is at 3 deg, and its spring rests at 0 deg: the force" in held.notes[2]
+    held = problem(tmp_path, left=SPRING + ' springref="4"', right=SPRING, changes=[bent])
+    assert np.degrees(held.held.q[[1, 3]]) == pytest.approx([4, 3])
+    (note,) = [each for each in held.notes if "its spring rests" in each]
+    assert "joint 'r tip' is at 3 deg, and its spring rests at 0 deg: the force" in note
 
 
 LINKS = "".join(f'<link name="{name}"/>' for name in ("base", "lift", "turn", "palm", "left", "right"))

@@ -142,9 +142,8 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
 
 def _resting(hand: Hand) -> dict[str, float]:
     """Return where springs hold the joints that nothing else moves."""
-    return {
-        name: rest for name, rest in (hand.drives.sprung if hand.drives else {}).items() if name not in hand.couplings
-    }
+    sprung = hand.drives.sprung if hand.drives else {}
+    return {name: rest for name, rest in sprung.items() if name not in hand.couplings}
 
 
 def names_known(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
