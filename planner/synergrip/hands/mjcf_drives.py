@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.hands.hand import Drives
 from synergrip.hands.mjcf import Mjcf
 from synergrip.hands.mjcf_arms import Arms
-from synergrip.hands.mjcf_readable import NEAR, Readable, readable
+from synergrip.hands.mjcf_readable import NEAR, Readable, change_of, readable
 from synergrip.hands.relations import Relations
 from synergrip.hands.settling import Settled, Springs, moves, settle
 from synergrip.linalg import Array, frozen
@@ -127,10 +127,13 @@ def _within(file: Mjcf, joint: int, rest: float) -> float:
 
 def _lost(file: Mjcf, arms: Arms, column: int) -> str:
     """Return why it is not known how a joint moves: the spatial tendons that pull at it, with their arms."""
+    kinds = [file.kinds[joint] for joint in file.q]
     pulling = [
         (actuator.name, actuator.tendon)
         for actuator in file.actuators
-        if actuator.tendon in file.spatial and arms.mean[actuator.tendon, column]
+        if actuator.tendon in file.spatial
+        and arms.mean[actuator.tendon, column]
+        and change_of(arms, kinds, actuator.tendon) > NEAR
     ]
     told = [
         f"'{name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms change too much "
