@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.hands.hand import Drives
 from synergrip.hands.mjcf import Mjcf
 from synergrip.hands.mjcf_arms import Arms
-from synergrip.hands.mjcf_readable import NEAR, Readable, change_of, readable
+from synergrip.hands.mjcf_readable import NEAR, Readable, readable
 from synergrip.hands.relations import Relations
 from synergrip.hands.settling import Settled, Springs, moves, settle
 from synergrip.linalg import Array, frozen
@@ -77,8 +77,7 @@ def driven(file: Mjcf, relations: Relations, arms: Arms) -> Driven:
     found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
     for pull in pulls:
         _one_kind(file, pull, found)
-    notes = (*_unread(file), *_near(file, seen))
-    return Driven(found.relations or relations, _drives(file, found, arms, lost, notes))
+    return Driven(found.relations or relations, _drives(file, found, arms, seen))
 
 
 def _springs(file: Mjcf, tendons: Array, offset: Array) -> Springs:
@@ -104,20 +103,20 @@ def _one_kind(file: Mjcf, pull: Array, found: Settled) -> None:
         )
 
 
-def _drives(file: Mjcf, found: Settled, arms: Arms, lost: Sequence[int], notes: tuple[str, ...]) -> Drives:
+def _drives(file: Mjcf, found: Settled, arms: Arms, seen: Readable) -> Drives:
     moving = moves(found.loose)
     sprung, loose = dict[str, float](), dict[str, str]()
     for column, joint in enumerate(file.q):
         name = file.joints[joint]
         if not found.idle[column]:
             continue
-        if column in lost:
-            loose[name] = _lost(file, arms, column)
+        if column in seen.lost:
+            loose[name] = _lost(file, arms, column, seen.bending)
         elif moving[column]:
             loose[name] = "no spring holds it either"
         else:
             sprung[name] = _within(file, joint, float(found.rest[column]))
-    return Drives(frozen(found.compliance), sprung, loose, notes)
+    return Drives(frozen(found.compliance), sprung, loose, (*_unread(file), *_near(file, seen)))
 
 
 def _within(file: Mjcf, joint: int, rest: float) -> float:
@@ -125,15 +124,11 @@ def _within(file: Mjcf, joint: int, rest: float) -> float:
     return float(np.clip(rest, *file.model.jnt_range[joint])) if file.model.jnt_limited[joint] else rest
 
 
-def _lost(file: Mjcf, arms: Arms, column: int) -> str:
+def _lost(file: Mjcf, arms: Arms, column: int, bending: Sequence[int]) -> str:
     """Return why it is not known how a joint moves: the spatial tendons that pull at it, with their arms."""
-    kinds = [file.kinds[joint] for joint in file.q]
+    passing = [tendon for tendon in bending if arms.mean[tendon, column]]
     pulling = [
-        (actuator.name, actuator.tendon)
-        for actuator in file.actuators
-        if actuator.tendon in file.spatial
-        and arms.mean[actuator.tendon, column]
-        and change_of(arms, kinds, actuator.tendon) > NEAR
+        (actuator.name, tendon) for actuator in file.actuators for tendon in passing if actuator.tendon == tendon
     ]
     told = [
         f"'{name}' pulls through the spatial tendon '{file.tendon_names[tendon]}', whose moment arms change too much "

@@ -26,6 +26,8 @@ class Readable:
 
     lost: tuple[int, ...]
     """Columns of q of which it is not known how they move."""
+    bending: tuple[int, ...]
+    """Tendons that move them so: their moment arms change."""
     change: Sequence[tuple[int, float]]
     """Tendons that count as constant, and how far their moment arms change."""
 
@@ -61,21 +63,21 @@ def readable(
     """
     yields = moves(found.yielding)
     passed = {tendon: np.flatnonzero(arms.mean[tendon]).tolist() for tendon in tendons}
-    lost, change, left = set[int](), list[tuple[int, float]](), list(tendons)
+    lost, bending, change, left = set[int](), list[int](), list[tuple[int, float]](), list(tendons)
     while left:
         tied = together(rows, passed[left[0]])
         here = [tendon for tendon in left if set(passed[tendon]) & set(tied)] or left[:1]
         left = [tendon for tendon in left if tendon not in here]
-        if not yields[tied].any():
-            if not _held(relations.A[:, tied], pulls[:, :, tied]):
-                lost.update(tied)
+        held = not yields[tied].any()
+        if held and _held(relations.A[:, tied], pulls[:, :, tied]):
             continue
         changes = [(tendon, change_of(arms, kinds, tendon)) for tendon in here]
-        if max(most for _, most in changes) > NEAR:
+        if held or max(most for _, most in changes) > NEAR:
             lost.update(tied)
+            bending += [tendon for tendon, most in changes if most > NEAR]
         else:
             change += changes
-    return Readable(tuple(sorted(lost)), change)
+    return Readable(tuple(sorted(lost)), tuple(bending), change)
 
 
 def _held(A: Array, pulls: Array) -> bool:
