@@ -152,6 +152,15 @@ def test_a_tendon_that_crosses_the_wrist_moves_the_finger_alone_when_that_stands
     assert hand.drives.idle == ()
 
 
+def test_a_spring_that_crosses_the_wrist_rests_where_the_still_wrist_has_it(tmp_path):
+    tendon = """<tendon><fixed name="band" stiffness="8" springlength="0.3"><joint joint="turn" coef="1"/>
+      <joint joint="end" coef="0.5"/></fixed></tendon><actuator><motor joint="left"/></actuator>"""
+    text = MJCF.replace("</mujoco>", f"{tendon}</mujoco>").replace('name="turn"', 'name="turn" ref="0.2"')
+    hand = load_hand(write(tmp_path, "hand.xml", text), palm="palm")
+    assert hand.drives.sprung == pytest.approx({"end": 0.2})  # 0.2 + 0.5 end = 0.3
+    np.testing.assert_allclose(hand.C_q, np.diag([0, 1 / (8 * 0.5**2), 0]), atol=1e-12)
+
+
 TOML = """schema = 1
 title = "A hand on an arm"
 model = "hand.urdf"

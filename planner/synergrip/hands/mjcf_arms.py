@@ -46,7 +46,8 @@ class Arms:
 def arms_of(file: Mjcf, relations: Relations) -> Arms:
     """Return the moment arms of a file in postures that keep the relations, as far as the ranges allow."""
     if not file.spatial:
-        return Arms(file.tendons, np.zeros((0, *file.tendons.shape)), np.zeros(len(file.tendons)))
+        offset = file.model.tendon_length0 - file.tendons @ file.q_0  # of joints that stand still above the palm
+        return Arms(file.tendons, np.zeros((0, *file.tendons.shape)), offset)
     lower, upper = _ranges(file)
     anywhere = np.random.default_rng(0).uniform(lower, upper, (ANYWHERE, len(lower)))
     arms, _ = file.routed(_kept(relations, anywhere, lower, upper)[:: 1 + ANYWHERE * file.tendons.size // MOST_ARMS])
