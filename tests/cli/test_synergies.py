@@ -96,7 +96,7 @@ def test_fit_in_degrees_is_fit_in_radians() -> None:
         found = document("fit", *arguments, "-n", "2")
         np.testing.assert_allclose(found["S"], expected["S"], atol=1e-12)
         np.testing.assert_allclose(found["standard_deviation"], expected["standard_deviation"], rtol=1e-12)
-    assert "if they are degrees, say --degrees" in run("fit", "bare.csv", "-n", "2").stdout
+    assert "if they are degrees, say --degrees" in " ".join(run("fit", "bare.csv", "-n", "2").stdout.split())
     assert "--degrees" not in run("fit", "postures.csv", "-n", "2").stdout
 
 

@@ -57,7 +57,8 @@ def list_(
 ) -> None:
     """List synergy sets with the number of synergies, the rank and the length of the columns."""
     with answering(form):
-        from synergrip.hands.folder import FILE, bundled_hands, load_hand
+        from synergrip.hands.folder import bundled_hands, load_hand
+        from synergrip.hands.hand_file import FILE
         from synergrip.hands.synergy_file import SUFFIX, read_synergies, read_synergy_file
         from synergrip.reports.json_synergies import list_document
         from synergrip.reports.text_synergies import list_text

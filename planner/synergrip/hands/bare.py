@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from synergrip.errors import InputError
+from synergrip.hands.follower_ranges import FollowerRanges, led
 from synergrip.hands.hand import Coupling, Drives, Hand, Joint, SynergySet
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.synergies import JOINTS, coupling_map, drivers, joint_posture, joint_set
@@ -19,7 +20,9 @@ ZERO = "zero"
 """The posture of a hand that has no other: every joint at 0, or as near as the ranges allow."""
 
 
-def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> Hand:
+def bare_hand(
+    name: str, tree: LinkTree, couplings: Mapping[str, Coupling], follower_ranges: FollowerRanges = "keep"
+) -> Hand:
     """Return the hand that the links of a file make.
 
     Its joints are in the order of the file and as rigid as its springs have it (C_q), and it has no pads. Its set
@@ -31,12 +34,13 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
         name: what the hand is to be called.
         tree: the links and joints.
         couplings: follower -> its drivers; in place of those of `tree`.
+        follower_ranges: whether the ranges that the file states for followers count.
 
     Raises:
         InputError: couplings that leave no joint, that follow each other in a circle, or whose ratios are too large.
     """
     joints = tuple(
-        Joint(joint.name, joint.kind, joint.lower, joint.upper, joint.torque_limit, joint.child)
+        Joint(joint.name, joint.kind, joint.lower, joint.upper, joint.torque_limit, joint.child, joint.place)
         for joint in tree.joints.values()
         if joint.kind != "fixed"
     )
@@ -45,6 +49,8 @@ def bare_hand(name: str, tree: LinkTree, couplings: Mapping[str, Coupling]) -> H
         if any(mark in joint for mark in ',"\n\r\t'):
             raise InputError.at("", f"joint {joint!r}: a name may not hold commas, quotes or control characters")
     idle = tree.drives.idle if tree.drives else ()
+    if follower_ranges == "ignore":
+        joints = led(joints, couplings, *coupling_map(names, couplings))
     sets = {JOINTS: joint_set(names)}
     if (couplings or idle) and any(name not in couplings and name not in idle for name in names):
         sets = {FREE: _free(joints, couplings, tree.drives), **sets}

@@ -42,6 +42,8 @@ class Joint:
     """|tau| allowed [N m] or [N]; infinity when the hand states none."""
     link: str = ""
     """The link that it turns or shifts."""
+    place: str = field(default="", compare=False)
+    """File and line that state the range, for messages."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ class Coupling:
     offset: float = 0.0  # [rad] or [m]
     rigid: bool = field(default=False, compare=False)
     """Whether nothing lets the joints part, as a clutch or a tendon does when a link is held by the object."""
+    place: str = field(default="", compare=False)
+    """Where that stands, for messages: file and line, or the key of the problem."""
 
 
 @dataclass(frozen=True, eq=False)

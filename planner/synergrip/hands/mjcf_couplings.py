@@ -57,13 +57,31 @@ def mjcf_couplings(file: Mjcf) -> Moves:
         if apart.size and apart.max() > AGREEMENT:
             raise ties[int(np.argmax(apart))].element.refused("this equality contradicts the other ones")
         if not (file.actuators or file.source.actuators_left_out):
-            return Moves(couplings(names, relations, order, rigid=True), undriven(file), pulls)
+            made = couplings(names, relations, order, rigid=True)
+            return Moves(_placed(file, ties, arms, made), undriven(file), pulls)
         found = driven(file, relations, arms)
     except InputError as error:
         root = file.source.lines[0]
         raise error.located(lambda issue: issue if issue.file else root.refused(issue.message).issues[0]) from None
     made = couplings(names, found.relations, order)
-    return Moves(_with_rigid(made, names, relations), found.drives, pulls)
+    return Moves(_placed(file, ties, arms, _with_rigid(made, names, relations)), found.drives, pulls)
+
+
+def _placed(file: Mjcf, ties: Sequence[Equality], arms: Arms, made: dict[str, Coupling]) -> dict[str, Coupling]:
+    """Return the couplings with the places of the equalities or tendons that make them."""
+    return {name: replace(each, place=_place(file, ties, arms, name)) for name, each in made.items()}
+
+
+def _place(file: Mjcf, ties: Sequence[Equality], arms: Arms, follower: str) -> str:
+    """Return file and line of the equality or the tendon that a joint follows by, first one of which it is joint1."""
+    column = [file.joints[joint] for joint in file.q].index(follower)
+    held = [tie for tie in ties if _row(file, tie, arms.mean)[0][column]]
+    first = [tie for tie in held if tie.kind == "joint" and tie.ends[0] == column]
+    pulled = [
+        file.source.place("spatial" if tendon in file.spatial else "fixed", file.tendon_names[tendon])
+        for tendon in np.flatnonzero(arms.mean[:, column]).tolist()
+    ]
+    return next((element.place for element in [*(tie.element for tie in [*first, *held]), *pulled]), "")
 
 
 def _with_rigid(made: dict[str, Coupling], names: Sequence[str], relations: Relations) -> dict[str, Coupling]:

@@ -127,7 +127,7 @@ def _joint(
         lower, upper = -math.inf, math.inf
     return TreeJoint(
         name, kind, parent, child, *_written(xyz, rotation), tuple(axis.tolist()), tuple(anchor.tolist()),
-        lower, upper, torque_limit,
+        lower, upper, torque_limit, _place(file, joint).place,
     )  # fmt: skip
 
 

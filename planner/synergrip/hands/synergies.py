@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
+from synergrip.hands.follower_ranges import FollowerRange, follower_ranges, why_outside
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
 from synergrip.hands.units import SI_UNITS, joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
@@ -122,7 +123,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
         q = hand.postures[wish]
     else:
         q = _values(hand, synergies, wish, key)
-    issues = outside_limits(hand.joints, q, key)
+    issues = outside_limits(hand.joints, q, key, hand.couplings)
     raise_issues(issues)
     return frozen(q)
 
@@ -194,14 +195,25 @@ def joint_posture(joints: Sequence[str], values: Mapping[str, float], couplings:
     return frozen(E @ joint_vector(joints, values, {}) + e)
 
 
-def outside_limits(joints: Sequence[Joint], q: Array, key: str) -> list[Issue]:
-    """Return one issue for each joint that `q` (n_q,) puts outside its range."""
+def ranges_of_followers(hand: Hand) -> list[FollowerRange]:
+    """Return, for each follower, its own range and what its coupling makes of the range of its driver."""
+    return follower_ranges(hand.joints, hand.couplings, *coupling_map(hand.joint_names, hand.couplings))
+
+
+def outside_limits(
+    joints: Sequence[Joint], q: Array, key: str, couplings: Mapping[str, Coupling] | None = None
+) -> list[Issue]:
+    """Return one issue for each joint that `q` (n_q,) puts outside its range; why, when `couplings` do it."""
     issues = []
+    told = couplings or {}
+    because = why_outside(joints, told, *coupling_map([joint.name for joint in joints], told), q)
     for joint, value in zip(joints, q, strict=True):
         if not joint.lower - LIMIT_SLACK <= value <= joint.upper + LIMIT_SLACK:
             factor, unit = SHOWN_IN[SI_UNITS[joint.kind]]
             lower, upper, found = joint.lower * factor, joint.upper * factor, value * factor
             message = f"joint '{joint.name}' would be at {found:.4g} {unit}, outside {lower:.4g} to {upper:.4g} {unit}"
+            if joint.name in because:
+                message += f"; {because[joint.name]}"
             issues.append(Issue(message, key=key))
     return issues
 
@@ -232,7 +244,7 @@ def override(
 def _with_ratio(name: str, coupling: Coupling, ratio: float, key: str) -> Coupling:
     if len(coupling.ratios) != 1:
         raise InputError.at(key, f"'{name}' follows {drivers(coupling)}; one ratio does not say how")
-    return replace(coupling, ratios=dict.fromkeys(coupling.ratios, float(ratio)))
+    return replace(coupling, ratios=dict.fromkeys(coupling.ratios, float(ratio)), place=key)
 
 
 def drivers(coupling: Coupling) -> str:

@@ -33,6 +33,8 @@ class TreeJoint:
     upper: float = math.inf  # [rad] or [m]
     torque_limit: float = math.inf
     """|tau| that the file allows [N m] or [N]; infinity when it states none."""
+    place: str = field(default="", compare=False)
+    """File and line that state the range, for messages."""
 
 
 @dataclass(frozen=True)

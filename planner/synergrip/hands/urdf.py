@@ -12,6 +12,7 @@ from pathlib import Path
 
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError, one_of
+from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling
 from synergrip.hands.synergies import coupling_map
 from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
@@ -74,9 +75,7 @@ def urdf_tree(root: Element, told: Collection[str] = (), palm: str = "") -> Link
 
 def _plain(root: Element) -> None:
     """Refuse macros, and files that would take minutes."""
-    for element in root.children:
-        if element.tag.startswith("xacro:"):
-            raise element.refused(f"<{element.tag}> is a xacro macro; expand the file (xacro hand.xacro > hand.urdf)")
+    refuse_macros(root)
     if len(root.children) > MOST_ELEMENTS:
         raise root.refused(f"the file has {len(root.children)} links, joints and the like; give the hand alone")
 
@@ -122,6 +121,7 @@ def _joint(element: Element) -> TreeJoint:
         lower=lower,
         upper=upper,
         torque_limit=_effort(element.child("limit")),
+        place=element.child("limit").place,
     )
 
 
@@ -183,7 +183,7 @@ def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str
         if driver not in moving:
             raise mimic.refused(f"joint '{name}' mimics a joint that is not there: {one_of(driver, moving)}")
         (ratio,), (offset,) = _numbers(mimic, "multiplier", "1", LARGEST), _numbers(mimic, "offset", "0", LARGEST)
-        couplings[name] = Coupling({driver: ratio}, offset, rigid=True)
+        couplings[name] = Coupling({driver: ratio}, offset, rigid=True, place=mimic.place)
     try:
         coupling_map(moving, couplings)
     except InputError as error:  # nothing but a loop is left to refuse

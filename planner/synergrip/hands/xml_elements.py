@@ -27,6 +27,11 @@ class Element:
     line: int  # 1-based
     children: list[Element] = field(default_factory=list)
 
+    @property
+    def place(self) -> str:
+        """File and line, for messages."""
+        return f"{self.path}:{self.line}"
+
     def all(self, tag: str) -> Iterator[Element]:
         """Yield the children of that tag."""
         return (child for child in self.children if child.tag == tag)

@@ -21,9 +21,10 @@ from synergrip.grasps.placing import Touch, place
 from synergrip.hands.arm import arm_notes
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.follower_ranges import contradictions
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.parted import parted_notes
-from synergrip.hands.synergies import posture, stands_still
+from synergrip.hands.synergies import posture, ranges_of_followers, stands_still
 from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
@@ -58,7 +59,8 @@ class Held:
         read = undriven_notes(self.hand, self.synergies, self.q, self.C_q)
         arm = arm_notes(self.hand, self.synergies, touching)
         parted = parted_notes(self.hand, self.q)
-        return (*read, *arm, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
+        ranges = contradictions(ranges_of_followers(self.hand))
+        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
 
     @property
     def limits(self) -> HandLimits:
@@ -85,7 +87,14 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     table = file.hand
     if table is None:
         raise InputError.at("hand", "missing table [hand]")
-    hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, palm=table.palm or "", key="hand.model")
+    hand = load_hand(
+        table.model,
+        relative_to=folder,
+        coupling=table.coupling,
+        follower_ranges=table.follower_ranges,
+        palm=table.palm or "",
+        key="hand.model",
+    )
     thing = _object(file.object)
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
