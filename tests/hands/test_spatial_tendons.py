@@ -278,3 +278,31 @@ def test_a_geom_that_is_fitted_to_a_mesh_is_refused_where_it_stands(tmp_path):
     with pytest.raises(InputError, match="fitted to a mesh; give it a type and a size") as caught:
         hand_of(tmp_path, finger().replace('name="pa"', 'name="pa" mesh="skin"'))
     assert caught.value.issues[0].line == 6
+
+
+EFFORTS = {
+    "its own": ('<motor joint="a" gear="3" forcerange="-2 1"/>', 6),
+    "through a cord": ('<motor tendon="cord" gear="3" forcerange="-2 0"/>', 2 * 3 * (1 + 0.8**2)),
+    "at the follower": ('<motor joint="b" forcerange="-2 2"/>', 2 * 0.8),
+    "at both": ('<motor joint="a" forcerange="-1 1"/><motor joint="b" forcerange="-2 2"/>', 1 + 2 * 0.8),
+    "without a limit": ('<motor joint="a" forcerange="-1 1"/><motor joint="b"/>', np.inf),
+}
+
+
+@pytest.mark.parametrize(("actuators", "effort"), EFFORTS.values(), ids=EFFORTS)
+def test_efforts_are_what_all_actuators_give_along_a_synergy(tmp_path, actuators, effort):
+    """The effort of a synergy is sigma = S' tau: a cord with the pull f gives tau = r f, and so r' S f."""
+    cord = '<fixed name="cord"><joint joint="a" coef="1"/><joint joint="b" coef="0.8"/></fixed>'
+    equality = "" if "cord" in actuators else '<equality><joint joint1="b" joint2="a" polycoef="0 0.8"/></equality>'
+    after = f"{equality}<tendon>{cord}</tendon><actuator>{actuators}</actuator>"
+    free = hand_of(tmp_path, plain("a", "b", after=after)).synergy_sets["free"]
+    np.testing.assert_allclose(free.S, [[1], [0.8]])
+    np.testing.assert_allclose(free.effort_limits, [effort])
+
+
+def test_a_torque_limit_of_the_joint_itself_counts_as_the_effort(tmp_path):
+    equality = (
+        '<equality><joint joint1="b" joint2="a"/></equality><actuator><motor joint="a" forcerange="-9 9"/></actuator>'
+    )
+    text = fingers(("a", 'actuatorfrcrange="-4 4"'), ("b", ""), after=equality)
+    assert hand_of(tmp_path, text).synergy_sets["free"].effort_limits.tolist() == [4]

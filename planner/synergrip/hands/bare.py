@@ -27,7 +27,8 @@ def bare_hand(
 
     Its joints are in the order of the file and as rigid as its springs have it (C_q), and it has no pads. Its set
     "free" has one synergy for each joint that follows no other one, with the followers: q = E q_free + e, so that
-    S = E; its effort limits are the torque limits of those joints. Joints that no motor of the file drives have none.
+    S = E; its effort limits are the torque limits of those joints, or what their actuators give along with those of
+    the followers. Joints that no motor of the file drives have no synergy.
     A hand without couplings and such joints has the set "joints" only, and so has one that no motor drives at all.
 
     Args:
@@ -88,9 +89,28 @@ def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling], drives: Dr
     title = "; ".join(
         filter(None, ["each joint that follows no other one", _followers(couplings), _idle(names, drives)])
     )
-    limits = frozen([joints[index].torque_limit for index in free])  # the actuator of a driver moves its followers too
+    limits = frozen(_efforts([joints[index].torque_limit for index in free], free, S, drives))
     offset = E @ [resting.get(name, 0.0) for name in names] + e
     return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), frozen(offset), limits)
+
+
+def _efforts(torques: list[float], free: Sequence[int], S: Array, drives: Drives | None) -> Array:
+    """Return (n_z,) the largest efforts: those of the drivers' joints, whose actuators move the followers too.
+
+    Where the torque limit of a driver is what its actuators give there (and not what the file says of the joint), all
+    counts that actuators give along the column of S: at followers too, as through a tendon over both.
+    """
+    if drives is None or drives.pulls is None or drives.forces is None:
+        return np.array(torques)
+    alone, together = (_given(drives.pulls @ motion, drives.forces) for motion in (np.eye(len(S))[:, free], S))
+    return np.where(np.isclose(torques, alone), together, torques)
+
+
+def _given(gains: Array, forces: Array) -> Array:
+    """Return (m,) what actuators with `gains` (n_a, m) give together; infinity where none acts."""
+    acting = np.abs(gains) > 1e-12 * np.abs(gains).max(initial=0.0)
+    limits = np.sum(np.abs(gains) * np.where(acting, forces[:, None], 0.0), axis=0)
+    return np.where(limits > 0, limits, np.inf)
 
 
 def _idle(names: Sequence[str], drives: Drives | None) -> str:

@@ -100,6 +100,10 @@ class Drives:
     """Joint of which the file does not say how it moves, and how far it yields -> why not, as a clause."""
     notes: tuple[str, ...] = ()
     """What was taken for something else, or not read, though it is no error."""
+    pulls: Array | None = None
+    """(n_a, n_q) joint torque per force of each actuator; None when nothing says what an effort is."""
+    forces: Array | None = None
+    """(n_a,) largest force of each actuator; infinity when none is stated."""
 
     @property
     def idle(self) -> tuple[str, ...]:

@@ -116,7 +116,9 @@ def _drives(file: Mjcf, found: Settled, arms: Arms, seen: Readable) -> Drives:
             loose[name] = "no spring holds it either"
         else:
             sprung[name] = _within(file, joint, float(found.rest[column]))
-    return Drives(frozen(found.compliance), sprung, loose, (*_unread(file), *_near(file, seen)))
+    notes = (*_unread(file), *_near(file, seen))
+    forces = frozen([actuator.force for actuator in file.actuators])
+    return Drives(frozen(found.compliance), sprung, loose, notes, frozen(pulls_of(file, arms.mean)), forces)
 
 
 def _within(file: Mjcf, joint: int, rest: float) -> float:
