@@ -112,7 +112,7 @@ class _Closing:
     def of(cls, hand: Hand, direction: Array, gaps: Gaps) -> _Closing:
         """Scale the direction to steps, and read from the hand which joints move and take along what."""
         step = np.array([STEP[joint.kind] for joint in hand.joints])
-        carriers = [set(_carriers(hand, touch.pad.link)) for touch in gaps.touches]
+        carriers = [set(hand.carriers(touch.pad.link)) for touch in gaps.touches]
         movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
         lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
         return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand), _tied(hand))
@@ -207,14 +207,6 @@ class _Closing:
     def _waiting_gaps(self, state: _State) -> list[tuple[int, float]]:
         pads = [int(pad) for pad in np.flatnonzero(state.waiting)]
         return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
-
-
-def _carriers(hand: Hand, link: str) -> Iterator[str]:
-    """Yield a link and those that carry it, up to the palm."""
-    yield link
-    while link in hand.parents:
-        link = hand.parents[link]
-        yield link
 
 
 def _takes(hand: Hand) -> Flags:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from os.path import isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
@@ -17,6 +17,7 @@ from synergrip.hands.bare import bare_hand
 from synergrip.hands.follower_ranges import FollowerRanges, led
 from synergrip.hands.foreign_files import XACRO
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
+from synergrip.hands.hand_drives import told_drives
 from synergrip.hands.hand_file import FILE, HandFile, JointTable, PadTable, PostureTable
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.model_file import SUFFIXES, read_model
@@ -48,6 +49,7 @@ def load_hand(
     *,
     relative_to: Path | None = None,
     coupling: Mapping[str, float] | float | None = None,
+    palm: str = "",
     follower_ranges: FollowerRanges | None = None,
     key: str = "hand.model",
 ) -> Hand:
@@ -60,17 +62,19 @@ def load_hand(
         coupling: ratios that replace those of the hand: one for all followers, or by follower.
         follower_ranges: whether the ranges that the model file states for followers count ("keep"), or what their
             couplings make of the ranges of their drivers ("ignore"); as the hand has it when absent.
-        key: where the name stands, for the error; the coupling and the follower ranges stand beside it.
+        palm: the link of a URDF or MJCF file that is the palm, when it is not the outermost one. What it does not carry
+            stands still and is left out.
+        key: where the name stands, for the error; coupling, follower ranges and palm stand beside it.
 
     Raises:
-        InputError: no such hand, a file that cannot be used (located in that file), or a coupling that the hand does
-            not have (at the key of the coupling).
+        InputError: no such hand, a file that cannot be used (located in that file), or a coupling or palm that the hand
+            does not have (at their keys).
     """
     path = _find(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]
     at = f"{beside}.coupling" if beside else "coupling"
     if path.name != FILE:
-        tree = read_model(path, key)
+        tree = _model(path, key, palm=palm, palm_key=f"{beside}.palm" if beside else "palm")
         try:
             chosen = override(tree.couplings, coupling, at)
             _any_follower(chosen, follower_ranges, beside)
@@ -80,9 +84,12 @@ def load_hand(
     document = read_document(path, "hand file")
     file = parse(document, HandFile)
     try:
-        tree = read_model(path.parent / file.model, "model", file.couplings)
+        tree = _model(path.parent / file.model, "model", file.couplings, file.palm or "")
     except InputError as error:
         raise error.located(document.locate) from None
+    if palm and palm != tree.root:
+        message = f"'{tree.root}' is the palm of this hand, as its {FILE} has it; name another one there, in 'palm'"
+        raise InputError.at(f"{beside}.palm" if beside else "palm", message)
     chosen = override({**tree.couplings, **_told(document, file)}, coupling, at)
     _any_follower(chosen, follower_ranges, beside)
     if follower_ranges is not None:
@@ -91,6 +98,14 @@ def load_hand(
         return _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
     except InputError as error:
         raise error.located(document.locate) from None
+
+
+def _model(path: Path, key: str, told: Collection[str] = (), palm: str = "", palm_key: str = "palm") -> LinkTree:
+    """Return what `read_model` does, with the palm at `palm_key` in errors."""
+    try:
+        return read_model(path, key, told, palm)
+    except InputError as error:
+        raise error.located(lambda issue: replace(issue, key=palm_key) if issue.key == "palm" else issue) from None
 
 
 def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
@@ -170,6 +185,8 @@ def _hand(
         kinematics=kinematics(tree, names),
         couplings=couplings,
         parents=tree.parents,
+        drives=told_drives(tree, couplings, file),
+        still=tree.still,
     )
 
 

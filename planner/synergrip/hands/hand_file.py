@@ -120,7 +120,10 @@ class HandFile(Table):
     version: Version = Field(alias="schema", description="1")
     title: Text = Field(description="name of the hand, for people")
     model: Text = Field(description="URDF or MJCF file, relative to hand.toml")
-    joint: tuple[JointTable, ...] = Field(min_length=1, description="every moving joint, in the order of q")
+    palm: Text | None = Field(default=None, description="link that is the palm; the outermost one when absent")
+    joint: tuple[JointTable, ...] = Field(
+        min_length=1, description="every moving joint that the palm carries, in the order of q"
+    )
     pads: dict[str, PadTable] = Field(default_factory=dict, description="places that are made to touch things")
     couplings: dict[str, CouplingTable] = Field(
         default_factory=dict, description="joints that follow others; before what the model file says of them"

@@ -18,15 +18,19 @@ from synergrip.hands.xml_elements import DEEPEST, Element, read_xml
 
 LEFT_OUT = {
     "camera", "config", "contact", "custom", "deformable", "extension", "flex", "flexcomp", "flexstrain", "flexvert",
-    "geom", "hfield", "inertial", "keyframe", "lengthrange", "light", "material", "mesh", "option", "pair", "plugin",
-    "sensor", "size", "skin", "spatial", "statistic", "texture", "visual",
+    "hfield", "inertial", "keyframe", "lengthrange", "light", "material", "mesh", "option", "pair", "plugin",
+    "sensor", "size", "skin", "statistic", "texture", "visual",
 }  # fmt: skip
-"""Elements without influence on the kinematics. Spatial tendons are among them: they are not linear in the joints."""
+"""Elements without influence on the kinematics."""
+OF_A_GEOM = ("name", "class", "type", "size", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis", "fromto")
+"""Attributes of a geom that a spatial tendon wraps around; the other geoms are left out."""
 COMPILER = ("angle", "autolimits", "coordinate", "eulerseq")
 """Attributes of <compiler> with influence on the kinematics; "fusestatic", for one, would lose links."""
 ATTRIBUTES_LEFT_OUT = ("align", "material")
 DRIVEN = ("joint", "jointinparent", "tendon")
-"""Attributes that say what an actuator drives; the other actuators are left out."""
+"""Attributes that say what an actuator drives; the other actuators are left out, and dampers, which hold nothing."""
+AT_A_PLACE = ("site", "cranksite")
+"""Attributes of an actuator that moves joints in another way, which is not read."""
 OF_A_PLUGIN = ("name", "class", *DRIVEN, "gear", "forcelimited", "forcerange")
 """Attributes that an actuator plugin shares with <general>, which stands in for it."""
 INERTIA = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
@@ -46,6 +50,8 @@ class Source:
     """The element of each line, as it stands in the user's file."""
     equalities: tuple[Element, ...]
     """In the order in which MuJoCo numbers them."""
+    actuators_left_out: tuple[str, ...] = ()
+    """Names of those that move joints in a way that is not read."""
 
     def place(self, tag: str, name: str) -> Element:
         """Return the element of that tag and name, or the outermost one."""
@@ -60,15 +66,17 @@ def kinematic_source(root: Element) -> Source:
         root: the element <mujoco> of the file.
 
     Raises:
-        InputError: an included file that cannot be read, a number that is not finite, an equality of a tendon that
-            is left out; with file and line.
+        InputError: an included file that cannot be read, a number that is not finite; with file and line.
     """
     whole = replace(root, children=list(_with_includes(root, root.path.parent, [root.path.resolve()], 1)))
-    spatial = {tendon.attributes.get("name", "") for part in whole.all("tendon") for tendon in part.all("spatial")}
-    parts = list(_written(whole, "", spatial))
+    spatial = [tendon for part in whole.all("tendon") for tendon in part.all("spatial")]
+    wrapped = {geom.attributes.get("geom", "") for tendon in spatial for geom in tendon.all("geom")}
+    parts = list(_written(whole, "", wrapped))
     kept = [element for _, _, element in parts if element is not None]
     equalities = [element for _, parent, element in parts if element is not None and parent == "equality"]
-    return Source("".join(text for text, _, _ in parts), tuple(kept), tuple(equalities))
+    actuators = [actuator for part in whole.all("actuator") for actuator in part.children]
+    unread = [each.attributes.get("name", each.tag) for each in actuators if {*AT_A_PLACE} & {*each.attributes}]
+    return Source("".join(text for text, _, _ in parts), tuple(kept), tuple(equalities), tuple(unread))
 
 
 def _with_includes(element: Element, folder: Path, opened: list[Path], depth: int) -> Iterator[Element]:
@@ -89,20 +97,9 @@ def _with_includes(element: Element, folder: Path, opened: list[Path], depth: in
         yield from _with_includes(read_xml(path, "MJCF file"), folder, opened, depth + 1)
 
 
-def _holds(element: Element, spatial: set[str]) -> bool:
-    """Tell whether an equality is to be kept; one of a spatial tendon only when it is switched off is left out."""
-    names = {element.attributes.get("tendon1", ""), element.attributes.get("tendon2", "")} & spatial - {""}
-    if names and element.attributes.get("active") != "false":
-        raise element.refused(
-            f"the equality holds the spatial tendon '{names.pop()}', which is not linear in the joints; leave it out "
-            "and give the synergies of the hand in a file"
-        )
-    return not names
-
-
-def _written(element: Element, parent: str, spatial: set[str]) -> Iterator[tuple[str, str, Element | None]]:
+def _written(element: Element, parent: str, wrapped: set[str]) -> Iterator[tuple[str, str, Element | None]]:
     """Yield pieces of the text, with parent and element where a line begins."""
-    tag, attributes = _kept(element, parent, spatial)
+    tag, attributes = _kept(element, parent, wrapped)
     if not tag:
         return
     _check_numbers(element, attributes)
@@ -110,7 +107,7 @@ def _written(element: Element, parent: str, spatial: set[str]) -> Iterator[tuple
     if tag == "body":
         yield f"<inertial{_written_attributes(INERTIA)}/>", tag, None
     for child in element.children:
-        yield from _written(child, tag, spatial)
+        yield from _written(child, tag, wrapped)
     if not parent:
         yield '<compiler><lengthrange mode="none"/></compiler>', tag, None
     yield f"</{tag}>", tag, None
@@ -120,21 +117,20 @@ def _written_attributes(attributes: dict[str, str]) -> str:
     return "".join(f" {name}={quoteattr(value)}" for name, value in attributes.items())
 
 
-def _kept(element: Element, parent: str, spatial: set[str]) -> tuple[str, dict[str, str]]:
+def _kept(element: Element, parent: str, wrapped: set[str]) -> tuple[str, dict[str, str]]:
     """Return the tag and attributes that MuJoCo is to see; an empty tag for nothing."""
     tag = element.tag
     attributes = {name: value for name, value in element.attributes.items() if name not in ATTRIBUTES_LEFT_OUT}
     if parent == "actuator":
-        driven = [attributes[name] for name in DRIVEN if name in attributes]
-        if not driven or attributes.get("tendon") in spatial:
+        if tag == "damper" or not any(name in attributes for name in DRIVEN):
             return "", {}
         if tag == "plugin":
             return "general", {name: attributes[name] for name in OF_A_PLUGIN if name in attributes}
         return tag, attributes
     if tag in LEFT_OUT or (parent == "asset" and tag != "model"):
         return "", {}
-    if parent == "equality" and not _holds(element, spatial):
-        return "", {}
+    if tag == "geom" and parent != "spatial":
+        return _wrapping(element, parent, wrapped)
     if tag == "compiler":
         return tag, {name: attributes[name] for name in COMPILER if name in attributes}
     if tag == "joint" and parent in ("body", "frame"):
@@ -142,6 +138,16 @@ def _kept(element: Element, parent: str, spatial: set[str]) -> tuple[str, dict[s
     if parent == "asset" and "file" in attributes:
         attributes["file"] = str((element.path.parent / attributes["file"]).resolve())
     return tag, attributes
+
+
+def _wrapping(element: Element, parent: str, wrapped: set[str]) -> tuple[str, dict[str, str]]:
+    """Return a geom that a tendon wraps around, or the defaults of such ones; what it looks like is left out."""
+    named = element.attributes.get("name", "") in wrapped - {""}
+    if not named and parent != "default":
+        return "", {}
+    if named and "mesh" in element.attributes:
+        raise element.refused("a tendon wraps around this geom, which is fitted to a mesh; give it a type and a size")
+    return "geom", {name: value for name, value in element.attributes.items() if name in OF_A_GEOM}
 
 
 def _check_numbers(element: Element, attributes: dict[str, str]) -> None:

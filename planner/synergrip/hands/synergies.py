@@ -110,7 +110,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
         hand: the hand.
         synergies: the chosen set; its names are looked up first.
         wish: the name of a posture of the hand, or values [rad or m] by synergy or joint name. Names left
-            out are 0; a joint that follows another one follows unless it is named.
+            out are 0, or where springs alone hold them; a joint that follows another one follows unless it is named.
         key: where it stands, for the error.
 
     Raises:
@@ -138,7 +138,13 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
         raise_issues(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
         return joint_values(chosen, wish)
     raise_issues(misfits(given, kinds))
-    return joint_posture(hand.joint_names, wish, hand.couplings)
+    return joint_posture(hand.joint_names, {**_resting(hand), **wish}, hand.couplings)
+
+
+def _resting(hand: Hand) -> dict[str, float]:
+    """Return where springs hold the joints that nothing else moves."""
+    sprung = hand.drives.sprung if hand.drives else {}
+    return {name: rest for name, rest in sprung.items() if name not in hand.couplings}
 
 
 def names_known(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
@@ -161,13 +167,20 @@ def set_named(hand: Hand, synergies: SynergySet, names: Mapping[str, str], key: 
     known = names_known(hand, synergies)
     for name, at in names.items():
         if name not in known:
-            raise InputError.at(at, f"synergy or joint {one_of(name, known)}", on_key=at != key)
+            raise InputError.at(
+                at, stands_still(hand, name) or f"synergy or joint {one_of(name, known)}", on_key=at != key
+            )
     for each in _sets(hand, synergies):
         if each.name != JOINTS and all(name in each.synergies for name in names):
             return each
     if not all(name in hand.joint_names for name in names):
         raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
     return None
+
+
+def stands_still(hand: Hand, name: str) -> str:
+    """Return why a link or joint is no part of the hand though its file has it; empty for another name."""
+    return f"'{name}' stands still: the palm '{hand.links[0]}' does not carry it" if name in hand.still else ""
 
 
 def _sets(hand: Hand, synergies: SynergySet) -> tuple[SynergySet, ...]:

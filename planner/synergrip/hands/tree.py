@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from synergrip.hands.hand import Coupling
+from synergrip.hands.hand import Coupling, Drives
 
 MOST_MOVING = 200
 """Joints that move; a file with more is no hand."""
@@ -51,6 +51,10 @@ class LinkTree:
     """By name, in file order."""
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
     """Moving joints that the file makes followers of others."""
+    drives: Drives | None = None
+    """What it says of motors and springs, with the moving joints in file order; None when it has no motors."""
+    still: tuple[str, ...] = ()
+    """Links and joints that were left out because they stand still: the palm is a link below or beside them."""
 
     @property
     def moving(self) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from synergrip.documents import LARGEST_NUMBER
@@ -15,6 +16,7 @@ from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling
 from synergrip.hands.synergies import coupling_map
 from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
+from synergrip.hands.urdf_palm import carried_by
 from synergrip.hands.xml_elements import Element, read_xml
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
@@ -34,17 +36,21 @@ def read_urdf(path: Path, key: str = "", told: Collection[str] = ()) -> LinkTree
     return urdf_tree(root, told)
 
 
-def urdf_tree(root: Element, told: Collection[str] = ()) -> LinkTree:
+def urdf_tree(root: Element, told: Collection[str] = (), palm: str = "") -> LinkTree:
     """Return the links and joints of a URDF.
 
     Args:
         root: its element <robot>.
         told: joints whose <mimic> is passed over, because another file says what they follow.
+        palm: the link that is the palm, when it is not the outermost one; what it does not carry is left out.
 
     Raises:
         InputError: no moving joint, no tree, a joint without what its type needs, a <mimic> that cannot be; with
-            file and line.
+            file and line. What `carried_by` refuses.
     """
+    if palm:
+        part, still = carried_by(root, palm, told)
+        return replace(urdf_tree(part, told), still=still)
     _plain(root)
     joints: dict[str, TreeJoint] = {}
     for element in root.all("joint"):

@@ -152,6 +152,11 @@ class HandTable(Table):
     """The hand, its posture and its synergies."""
 
     model: Text = Field(description="name of a bundled hand, or the folder of one")
+    palm: Text | None = Field(
+        default=None,
+        description="link of a URDF or MJCF file that is the palm; what it does not carry stands still. The outermost "
+        "link when absent",
+    )
     posture: Posture | None = Field(
         default=None,
         description="name of a posture of the hand, or an angle per posture parameter, a length for slides",
