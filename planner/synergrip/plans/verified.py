@@ -113,10 +113,9 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
     balance = response.scale.wrench(motion.forces @ grasp.G.T + motion.wrench)
     start = forces_at_start(response) + (motion.wrench - grasp.w_0) @ response.dlambda_dw.T
     internal = response.scale.wrench((motion.forces - start) @ grasp.G.T)
-    # forces are differences: rounding is that of the terms, also where they cancel to almost nothing
-    against_a_fixed_object = motion.dz_r @ (response.K @ grasp.J @ grasp.S).T
-    terms = (motion.forces, start, against_a_fixed_object)
-    size = max(*(response.scale.largest_force(term) for term in terms), 1e-12)
+    # forces are sums over the synergies: rounding is that of the terms, also where they cancel to almost nothing
+    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
+    size = max(*(response.scale.largest_force(term) for term in (motion.forces, start, terms)), 1e-12)
     expected = analysis.coordinates.references(*wanted)
     got = analysis.coordinates.coordinates(motion.dz_r)
     missed = analysis.coordinates.references(*(g - w for g, w in zip(got, wanted, strict=True)))

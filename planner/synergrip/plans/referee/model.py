@@ -116,7 +116,8 @@ def write_model(
 
     grasp, dz_r = response.grasp, references
     if dz_r is None:
-        dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
+        makes_force = bool(coordinates.dimensions[0])
+        dz_r = cp.Variable((len(times), grasp.n_z)) * (_reference_size(response, units.force) if makes_force else 1.0)
     known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
     n_alpha, n_beta, _ = coordinates.dimensions
     _, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
@@ -136,10 +137,8 @@ def write_model(
 
 
 def _reference_size(response: Response, force_unit: float) -> float:
-    """Return the references that answer to the force unit; 1 where they make no force."""
-    stiffness = float(np.linalg.norm(response.scale.force[:, None] * response.dlambda_dzr, 2))
-    moving = float(np.linalg.norm(response.K @ response.grasp.J @ response.grasp.S, 2))
-    return force_unit / stiffness if stiffness > 1e-12 * moving else 1.0
+    """Return the references that answer to the force unit."""
+    return force_unit / float(np.linalg.norm(response.scale.force[:, None] * response.dlambda_dzr, 2))
 
 
 def _equal(name: str, value: Expression) -> Cone:

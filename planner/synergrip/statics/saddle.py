@@ -1,0 +1,158 @@
+"""The equilibrium of a grasp as one saddle-point system, and what its arithmetic may have lost.
+
+``C lambda + G' u = J S z_r`` and ``G lambda = -w``, C the sum of the compliances of contacts, joints and synergies.
+Neither C nor ``G C^-1 G'`` is inverted by itself: where compliances differ by 1e9 they keep no digit of the small
+ones. And the system is only what refines: what is left over is told from the grasp's own matrices, so that rounding
+of C costs nothing either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from synergrip.doubled import ROUNDOFF, Doubled, block, solve
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Scale
+from synergrip.linalg import Array
+
+N = TypeVar("N", Array, Doubled)
+CAUTION = 10.0
+"""How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
+
+
+@dataclass(frozen=True)
+class Arithmetic(Generic[N]):
+    """The numbers to reckon with."""
+
+    number: Callable[[Array], N]
+    rounded: Callable[[N], Array]
+    block: Callable[[Sequence[Sequence[Any]]], N]
+    solve: Callable[[N, N], N]
+    """X of ``A X = B``."""
+    roundoff: float
+    corrections: int
+    """How many are made; the first is the solution."""
+    other: Callable[[Array], N] | None = None
+    """Other numbers with the same roundings, where they can be told from them."""
+
+
+def _high(number: Doubled) -> Array:
+    return number.high
+
+
+def _between_the_digits(values: Array) -> Doubled:
+    """Return numbers that `values` are the roundings of: any, but always the same ones."""
+    rest = np.random.default_rng(values.size).uniform(-0.5, 0.5, values.shape) * np.spacing(np.abs(values))
+    if values.shape == values.T.shape and np.array_equal(values, values.T):
+        rest = np.triu(rest) + np.triu(rest, 1).T
+    return Doubled(values, np.where(values == 0, 0.0, rest))
+
+
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, np.block, np.linalg.solve, 2.0**-53, 3)
+DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, ROUNDOFF, 2, _between_the_digits)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What answers to z_r (n_z columns), then to the wrench (6 columns): "lambda", "u", "tau", "sigma", "z", "q".
+
+    SI units; wrenches and motions of the object are taken about the centroid of the contacts.
+    """
+
+    maps: Mapping[str, Array]
+    errors: Mapping[str, Array]
+    """Estimates of what the arithmetic has lost in each entry."""
+    changes: Mapping[str, Array]
+    """Estimates of what changes with the digits that the data do not have."""
+    terms: Mapping[str, Array]
+    """Sizes of the terms that each entry is the sum of."""
+
+
+def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
+    """Solve the equilibrium of a grasp.
+
+    Raises:
+        numpy.linalg.LinAlgError: the system is singular, as far as the arithmetic can tell.
+    """
+    number, rounded, n_z = arithmetic.number, arithmetic.rounded, grasp.n_z
+    matrices = _Matrices.of(grasp, number)
+    turned = number(about_centroid(scale))
+    inverse = _inverse(matrices, turned, arithmetic, grasp.n_l)
+    still, load = np.eye(n_z, n_z + 6), np.eye(6, n_z + 6, n_z)
+
+    def correction(matrices: _Matrices[N], force: N, u: N) -> tuple[N, N]:
+        gap, imbalance = matrices.left_over(force, turned.T @ u, number(still))
+        found = inverse @ arithmetic.block([[gap], [turned @ imbalance - number(load)]])
+        return found[: grasp.n_l], found[grasp.n_l :]
+
+    force, u = number(np.zeros((grasp.n_l, n_z + 6))), number(np.zeros((6, n_z + 6)))
+    for _ in range(arithmetic.corrections):
+        d_force, d_u = correction(matrices, force, u)
+        force, u = force + d_force, u + d_u
+    maps = matrices.followed(force, u, number(still))
+    lost = matrices.followed(d_force, d_u, number(0 * still))
+
+    sizes = _Matrices.of(grasp, np.abs)
+    terms = np.abs(rounded(inverse)) @ np.vstack([sizes.J @ sizes.S @ still, np.abs(rounded(turned)) @ load])
+    operations = sizes.followed(np.abs(rounded(force)), np.abs(rounded(u)), still)
+    errors = {name: CAUTION * (np.abs(rounded(lost[name])) + arithmetic.roundoff * operations[name]) for name in maps}
+    changes = errors
+    if arithmetic.other is not None:
+        others = _Matrices.of(grasp, arithmetic.other)
+        d_force, d_u = correction(others, force, u)
+        changed = others.followed(force + d_force, u + d_u, number(still))
+        changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
+    return Answer({name: rounded(each) for name, each in maps.items()}, errors, changes,
+                  sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still))  # fmt: skip
+
+
+def about_centroid(scale: Scale) -> Array:
+    """Return T (6, 6): ``T w`` is the wrench about the centroid of the contacts, ``T' u`` turns its motion into B's."""
+    T = np.eye(6)
+    T[3:, :3] = scale.motion[:3, 3:]
+    return T
+
+
+@dataclass(frozen=True)
+class _Matrices(Generic[N]):
+    """The matrices of a grasp in some arithmetic, compliances with the minus of the equations they stand in."""
+
+    G: N
+    J: N
+    S: N
+    C_s: N
+    C_q: N
+    C_z: N
+
+    @classmethod
+    def of(cls, grasp: Grasp, data: Callable[[Array], N]) -> _Matrices[N]:
+        compliances = (data(-each) for each in (grasp.C_s, grasp.C_q, grasp.C_z))
+        return cls(data(grasp.G), data(grasp.J), data(grasp.S), *compliances)
+
+    def followed(self, force: N, u: N, still: N) -> dict[str, N]:
+        """Return all that follows from forces; `still` is z of synergies that do not yield."""
+        tau = self.J.T @ force
+        sigma = self.S.T @ tau
+        z = still + self.C_z @ sigma
+        return {"lambda": force, "u": u, "tau": tau, "sigma": sigma, "z": z, "q": self.S @ z + self.C_q @ tau}
+
+    def left_over(self, force: N, u: N, still: N) -> tuple[N, N]:
+        """Return by what contact motions (10) do not fit, and the wrench (7) that is balanced; about B."""
+        q = self.followed(force, u, still)["q"]
+        return self.J @ q + self.C_s @ force - self.G.T @ u, -(self.G @ force)
+
+
+def _inverse(matrices: _Matrices[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
+    """Return the inverse of the system, whose rows and columns are brought to about one size first."""
+    JS, G = matrices.J @ matrices.S, turned @ matrices.G
+    C = -matrices.C_s - matrices.J @ matrices.C_q @ matrices.J.T - JS @ matrices.C_z @ JS.T
+    A = arithmetic.block([[C, G.T], [G, arithmetic.number(np.zeros((6, 6)))]])
+    sizes = np.abs(arithmetic.rounded(A))
+    forces = 1 / np.sqrt(np.diag(sizes)[:n_l])
+    motions = 1 / (sizes[n_l:, :n_l] * forces).max(axis=1)
+    size = 2.0 ** np.round(np.log2(np.concatenate([forces, motions])))
+    return arithmetic.solve(A * np.outer(size, size), arithmetic.number(np.diag(size))) * size[:, None]
