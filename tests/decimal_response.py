@@ -46,6 +46,30 @@ def decimal_maps(grasp: Grasp) -> dict[str, Array]:
         return maps | {f"{name}_dw": _rounded(both[name], n_z, n_z + 6) for name in ("dlambda", "du", "dq")}
 
 
+def yields_everywhere(grasp: Grasp) -> bool:
+    """Return whether the compliances of contacts, joints and synergies leave no contact direction rigid."""
+    with localcontext() as context:
+        context.prec = DIGITS
+        J, S, C_s, C_q, C_z = (_exact(getattr(grasp, name)) for name in ("J", "S", "C_s", "C_q", "C_z"))
+        n_l, n_q, n_z = grasp.n_l, grasp.n_q, grasp.n_z
+        yielding = _sum(C_q, _product(S, _product(C_z, _transposed(S, n_q, n_z)))) if n_z else C_q
+        C = _sum(C_s, _product(J, _product(yielding, _transposed(J, n_l, n_q))))
+        left, largest = set(range(n_l)), max(C[i][i] for i in range(n_l))
+        while left:  # C is semidefinite: its largest diagonal entry is a pivot
+            pick = max(left, key=lambda i: C[i][i])
+            if C[pick][pick] <= largest * Decimal(10) ** -40:
+                return False
+            left.remove(pick)
+            for i in left:
+                factor = C[i][pick] / C[pick][pick]
+                C[i] = [x - factor * p for x, p in zip(C[i], C[pick], strict=True)]
+        return True
+
+
+def _sum(first: list[Row], second: list[Row]) -> list[Row]:
+    return [[a + b for a, b in zip(*rows, strict=True)] for rows in zip(first, second, strict=True)]
+
+
 def _row(force: Row, u: Row, q: Row, z: Row) -> Row:
     return [*z, *q, *force, *u]
 

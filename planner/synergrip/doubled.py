@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -39,9 +40,9 @@ class Doubled:
         """The transpose."""
         return Doubled(self.high.T, self.low.T)
 
-    def __getitem__(self, place: object) -> Doubled:
+    def __getitem__(self, place: Any) -> Doubled:
         """Return entries as numpy does."""
-        return Doubled(self.high[place], self.low[place])  # type: ignore[index]
+        return Doubled(self.high[place], self.low[place])
 
     def __neg__(self) -> Doubled:
         """Return the negative."""

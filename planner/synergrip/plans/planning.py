@@ -15,6 +15,7 @@ from synergrip.conic.situation import Situation
 from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
+from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.between import bend_of
 from synergrip.plans.clash import clashes
@@ -48,7 +49,12 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         return _refused(grasp, task, analysis, refusal)
     if task.between == "hold":
         situation = replace(situation, bend=bend_of(task, analysis))
-    return _Planner(task, analysis, situation, solver).outcome()
+    planner = _Planner(task, analysis, situation, solver)
+    try:
+        refuse_doubtful_response(analysis.response)
+        return planner.outcome()
+    except InDoubtError as doubt:
+        return Unknown(task, analysis, str(doubt), tuple(planner.decisions))
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:

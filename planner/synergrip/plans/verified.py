@@ -11,6 +11,7 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.conic.situation import Situation
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
+from synergrip.plans.accuracy import accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.between import Between, between
 from synergrip.plans.outcome import Check, Plan
@@ -33,6 +34,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     """Return the plan that the goals have led to.
 
     Raises:
+        InDoubtError: its forces are not known well enough to tell whether limits hold.
         SelfCheckError: a check of the plan fails.
     """
     situation = stage.situation
@@ -40,6 +42,7 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     references = analysis.coordinates.references(alpha, beta, gamma)
     motion = forward(analysis.response, task.times, references, task.wrench)
     usages = limit_usages(task, situation, motion)
+    refuse_doubtful_forces(analysis.response, motion)
     checks = (*identities(analysis, motion, (alpha, beta, gamma)), *limit_checks(usages))
     found = between(task, analysis, situation, motion)
     if found is not None and task.between == "hold":
@@ -51,8 +54,8 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     return Plan(
         task, analysis, situation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*stage.notes, *_ranges_left(task, situation, motion), *_far(analysis, motion), *_missed(found)), found,
-        stage.interrupted,
+        (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, situation, motion),
+         *_far(analysis, motion), *_missed(found)), found, stage.interrupted,
     )  # fmt: skip
 
 
@@ -102,7 +105,7 @@ def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
 
 
 def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, Array]) -> tuple[Check, ...]:
-    """Return the checks of equilibrium (7), internal force (13) and the forward maps of Theorem 1 (35).
+    """Return the checks of equilibrium (7), internal force (13), the forward maps of Theorem 1 (35), the response.
 
     Args:
         analysis: of the grasp.
@@ -126,6 +129,7 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
         Check("references", _relative(motion.dz_r - expected, expected), EXACT),
         Check("forward maps", _relative(missed, expected), EXACT),
         Check("forces from alpha", response.scale.largest_force(produced) / size, EXACT),
+        *response_check(response, motion),
     )
 
 

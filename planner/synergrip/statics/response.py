@@ -88,7 +88,9 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     of_wrench = {name: frozen(each[:, n_z:] @ turned) for name, each in maps.items()}
     du_dw = of_wrench["u"]
     return Response(
-        grasp, scale, decision, *(of_references[name] for name in ("lambda", "u", "tau", "sigma", "z", "q")),
+        grasp, scale, decision,
+        of_references["lambda"], of_references["u"], of_references["tau"], of_references["sigma"],
+        of_references["z"], of_references["q"],
         of_wrench["lambda"], frozen((du_dw + du_dw.T) / 2), of_wrench["z"], of_wrench["q"], accuracy,
     )  # fmt: skip
 
@@ -117,6 +119,6 @@ def _accuracy(found: Answer, scale: Scale) -> dict[str, Accuracy]:
         of = [float((unit * np.abs(each[name][:, columns])).max(initial=0.0))
               for each in (found.maps, found.errors, found.changes, found.terms)]  # fmt: skip
         size, error, change, terms = of
-        size = size if size > error else terms
-        result[f"d{name}_{cause}"] = Accuracy(error / size, change / size, size) if size > 0 else Accuracy(0.0, 0.0, 0.0)
+        size = (size if size > error else terms) or 1.0
+        result[f"d{name}_{cause}"] = Accuracy(error / size, change / size, size)
     return result

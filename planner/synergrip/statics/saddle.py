@@ -20,6 +20,8 @@ from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array
 
 N = TypeVar("N", Array, Doubled)
+CORRECTIONS = 3
+"""The first is the solution, the others refine it."""
 CAUTION = 10.0
 """How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
 
@@ -34,8 +36,6 @@ class Arithmetic(Generic[N]):
     solve: Callable[[N, N], N]
     """X of ``A X = B``."""
     roundoff: float
-    corrections: int
-    """How many are made; the first is the solution."""
     other: Callable[[Array], N] | None = None
     """Other numbers with the same roundings, where they can be told from them."""
 
@@ -52,8 +52,12 @@ def _between_the_digits(values: Array) -> Doubled:
     return Doubled(values, np.where(values == 0, 0.0, rest))
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, np.block, np.linalg.solve, 2.0**-53, 3)
-DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, ROUNDOFF, 2, _between_the_digits)
+def _solve(A: Array, B: Array) -> Array:
+    return np.asarray(np.linalg.solve(A, B))
+
+
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, np.block, _solve, 2.0**-53)
+DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, ROUNDOFF, _between_the_digits)
 
 
 @dataclass(frozen=True)
@@ -90,7 +94,7 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
         return found[: grasp.n_l], found[grasp.n_l :]
 
     force, u = number(np.zeros((grasp.n_l, n_z + 6))), number(np.zeros((6, n_z + 6)))
-    for _ in range(arithmetic.corrections):
+    for _ in range(CORRECTIONS):
         d_force, d_u = correction(matrices, force, u)
         force, u = force + d_force, u + d_u
     maps = matrices.followed(force, u, number(still))
@@ -106,8 +110,9 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
         d_force, d_u = correction(others, force, u)
         changed = others.followed(force + d_force, u + d_u, number(still))
         changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
-    return Answer({name: rounded(each) for name, each in maps.items()}, errors, changes,
-                  sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still))  # fmt: skip
+    sums = sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still)
+    sums |= {name: operations[name] for name in ("z", "q")}  # of forces as they are: z_r is among the terms
+    return Answer({name: rounded(each) for name, each in maps.items()}, errors, changes, sums)
 
 
 def about_centroid(scale: Scale) -> Array:
@@ -155,4 +160,5 @@ def _inverse(matrices: _Matrices[N], turned: N, arithmetic: Arithmetic[N], n_l: 
     forces = 1 / np.sqrt(np.diag(sizes)[:n_l])
     motions = 1 / (sizes[n_l:, :n_l] * forces).max(axis=1)
     size = 2.0 ** np.round(np.log2(np.concatenate([forces, motions])))
-    return arithmetic.solve(A * np.outer(size, size), arithmetic.number(np.diag(size))) * size[:, None]
+    found: N = arithmetic.solve(A * np.outer(size, size), arithmetic.number(np.diag(size))) * size[:, None]
+    return found
