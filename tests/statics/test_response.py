@@ -234,4 +234,4 @@ def test_rigid_motion_costs_no_force_on_small_objects_with_soft_contacts(seed: i
     JS = small.J @ small.S
     C = small.C_s + small.J @ small.C_q @ small.J.T + JS @ small.C_z @ JS.T
     terms = response.scale.force[:, None] * np.linalg.solve(C, JS @ spaces.Gamma_zcs)
-    assert np.abs(leak).max() < 2e-14 * np.abs(terms).max()
+    assert np.abs(leak).max() < 5e-13 * np.abs(terms).max()

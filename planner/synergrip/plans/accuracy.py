@@ -15,6 +15,8 @@ SHOWN = 1e-8
 """Relative error from which on an answer tells of it."""
 RELIED_ON = 1e-6
 """Relative error of the maps, and of the forces of a plan, beyond which no verdict is given."""
+_RELIED_ON = ("dlambda_dzr", "dlambda_dw", "du_dzr", "du_dw", "dq_dzr", "dq_dw")
+"""The maps that forces, motions and limits of a plan come from."""
 _WORDS = {
     "lambda": "contact forces", "u": "object motion", "tau": "joint torques", "sigma": "actuator efforts",
     "z": "synergy displacements", "q": "joint displacements",
@@ -49,7 +51,7 @@ def refuse_doubtful_response(response: Response) -> None:
     Raises:
         InDoubtError: with the reason.
     """
-    if max(each.doubt for each in response.accuracy.values()) > RELIED_ON:
+    if max(response.accuracy[name].doubt for name in _RELIED_ON) > RELIED_ON:
         raise InDoubtError("; ".join(accuracy_notes(response)))
 
 
