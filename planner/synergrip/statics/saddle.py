@@ -20,7 +20,7 @@ from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array
 
 N = TypeVar("N", Array, Doubled)
-CORRECTIONS = 3
+CORRECTIONS = 4
 """The first is the solution, the others refine it."""
 CAUTION = 10.0
 """How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
