@@ -183,7 +183,7 @@ def test_very_soft_synergies_keep_the_digits_of_the_little_that_they_move() -> N
 
 @pytest.mark.parametrize("share", [1e-4, 1e-6, 1e-8, 1e-10])
 def test_what_the_last_digits_of_the_data_decide_is_measured(share: float) -> None:
-    """Two contacts that yield together 1 / share times as much as to a squeeze: a difference of almost equal numbers."""
+    """Two contacts that yield together 1 / share times as much as to a squeeze: a difference of like numbers."""
     C_s = 1e-3 * np.eye(8)
     C_s[0, 4] = C_s[4, 0] = -1e-3 * (1 - share)
     S = np.zeros((8, 1))

@@ -79,8 +79,8 @@ def _forces_in_doubt(response: Response, motion: Motion) -> float:
     of_references, of_load = response.accuracy["dlambda_dzr"], response.accuracy["dlambda_dw"]
     references = float(np.abs(motion.dz_r).sum(axis=1).max(initial=0.0))
     load = float(np.abs(response.scale.wrench(motion.wrench - response.grasp.w_0)).sum(axis=1).max(initial=0.0))
-    doubt = of_references.doubt * of_references.size * references + of_load.doubt * of_load.size * load
-    return doubt / max(response.scale.largest_force(motion.forces), 1e-12)
+    unknown = of_references.unknown * references + of_load.unknown * load
+    return unknown / max(response.scale.largest_force(motion.forces), 1e-12)
 
 
 def _named(name: str) -> str:

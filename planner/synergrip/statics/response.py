@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
@@ -25,19 +24,40 @@ ENOUGH = 1e-11
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How well a map is known; relative to its largest entry, lengths and newtons as `Scale` makes them comparable."""
+    """How well a map is known, by largest entries; lengths and newtons as `Scale` makes them comparable."""
 
-    error: float
-    """What the arithmetic may have lost."""
-    sensitivity: float
-    """About what changes when the grasp's numbers change by less than half a unit of their last digit."""
     size: float
-    """The largest entry, in scaled units; that of the terms it is the sum of when no more than rounding is left."""
+    """Of the map."""
+    terms: float
+    """Of the terms that its entries are sums of."""
+    lost: float
+    """What the arithmetic may have lost."""
+    changed: float
+    """About what changes when the grasp's numbers change by less than half a unit of their last digit."""
+
+    @property
+    def error(self) -> float:
+        """What the arithmetic may have lost, as a share of the map."""
+        return self._share(self.lost)
+
+    @property
+    def sensitivity(self) -> float:
+        """What the digits that the grasp's numbers do not have would change, as a share of the map."""
+        return self._share(self.changed)
+
+    @property
+    def unknown(self) -> float:
+        """The larger of what is lost and what changes, in the unit of the map."""
+        return max(self.lost, self.changed)
 
     @property
     def doubt(self) -> float:
-        """The larger of the two."""
-        return max(self.error, self.sensitivity)
+        """The same as a share of the map."""
+        return self._share(self.unknown)
+
+    def _share(self, amount: float) -> float:
+        """Return an amount as a share of the map; of its terms when the map is 0 as far as anyone can tell."""
+        return amount / (self.size if self.size > self.unknown else self.terms) if amount > 0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -113,12 +133,11 @@ def _accuracy(found: Answer, scale: Scale) -> dict[str, Accuracy]:
     """Return the accuracy of every map."""
     motion = np.repeat([1.0, scale.length], 3)
     result = {}
-    for name, (cause, columns) in product(found.maps, (("dzr", slice(None, -6)), ("dw", slice(-6, None)))):
-        rows = {"lambda": scale.force, "u": motion}.get(name, np.ones(len(found.maps[name])))
-        unit = rows[:, None] * (motion if cause == "dw" else 1.0)
-        of = [float((unit * np.abs(each[name][:, columns])).max(initial=0.0))
-              for each in (found.maps, found.errors, found.changes, found.terms)]  # fmt: skip
-        size, error, change, terms = of
-        size = (size if size > error else terms) or 1.0
-        result[f"d{name}_{cause}"] = Accuracy(error / size, change / size, size)
+    for name, values in found.maps.items():
+        rows = {"lambda": scale.force, "u": motion}.get(name, np.ones(len(values)))
+        entries = np.abs(np.stack([values, found.terms[name], found.errors[name], found.changes[name]]))
+        entries *= rows[:, None]
+        entries[..., -6:] *= motion
+        for cause, columns in (("dzr", entries[..., :-6]), ("dw", entries[..., -6:])):
+            result[f"d{name}_{cause}"] = Accuracy(*columns.max(axis=(1, 2), initial=0.0).tolist())
     return result

@@ -56,7 +56,12 @@ def _solve(A: Array, B: Array) -> Array:
     return np.asarray(np.linalg.solve(A, B))
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, np.block, _solve, 2.0**-53)
+def _block(rows: Sequence[Sequence[Array]]) -> Array:
+    """Return what `numpy.block` does, several times as fast."""
+    return np.concatenate([np.concatenate(row, axis=1) for row in rows])
+
+
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve, 2.0**-53)
 DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, ROUNDOFF, _between_the_digits)
 
 

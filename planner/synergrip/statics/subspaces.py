@@ -15,6 +15,7 @@ import numpy as np
 from synergrip.linalg import SINGULAR, Array, Decision, canonical, frozen, split
 from synergrip.statics.response import Response
 
+
 @dataclass(frozen=True)
 class Subspaces:
     """Bases of the controlled subspaces. Each is determined by its subspace alone (fixed order and sign)."""
@@ -92,7 +93,7 @@ def _forces(response: Response, rank: int, Gt: Array) -> tuple[Array, Decision]:
     force, known = response.scale.force, response.accuracy["dlambda_dzr"]
     scaled = force[:, None] * response.dlambda_dzr
     vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
-    noise = known.size * max(known.doubt, np.finfo(float).eps) * np.sqrt(scaled.size)
+    noise = max(known.unknown, np.finfo(float).eps * known.size) * np.sqrt(scaled.size)
     counted = int(np.sum(values > noise))
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
     decision = Decision(counted, frozen(values / values[0] if counted else 0 * values), counted != rank)
