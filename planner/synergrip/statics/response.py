@@ -57,7 +57,8 @@ class Accuracy:
 
     def _share(self, amount: float) -> float:
         """Return an amount as a share of the map; of its terms when the map is 0 as far as anyone can tell."""
-        return amount / (self.size if self.size > self.unknown else self.terms) if amount > 0 else 0.0
+        whole = self.size if self.size > self.unknown else self.terms
+        return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
 
 
 @dataclass(frozen=True)

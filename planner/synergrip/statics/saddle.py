@@ -47,8 +47,6 @@ def _high(number: Doubled) -> Array:
 def _between_the_digits(values: Array) -> Doubled:
     """Return numbers that `values` are the roundings of: any, but always the same ones."""
     rest = np.random.default_rng(values.size).uniform(-0.5, 0.5, values.shape) * np.spacing(np.abs(values))
-    if values.shape == values.T.shape and np.array_equal(values, values.T):
-        rest = np.triu(rest) + np.triu(rest, 1).T
     return Doubled(values, np.where(values == 0, 0.0, rest))
 
 
@@ -116,8 +114,10 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
         changed = others.followed(force + d_force, u + d_u, number(still))
         changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
     sums = sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still)
-    sums |= {name: operations[name] for name in ("z", "q")}  # of forces as they are: z_r is among the terms
-    return Answer({name: rounded(each) for name, each in maps.items()}, errors, changes, sums)
+    values = {name: rounded(each) for name, each in maps.items()}
+    for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
+        sums[name][:, :n_z] = np.abs(values[name][:, :n_z])
+    return Answer(values, errors, changes, sums)
 
 
 def about_centroid(scale: Scale) -> Array:
