@@ -192,8 +192,8 @@ def test_only_what_is_lost_is_said_to_be_inaccurate() -> None:
 
 def test_forces_in_doubt_make_their_rank_ambiguous() -> None:
     """Twisting is weaker than what the last digits of the data change in squeezing."""
-    C_s = np.diag([1e-9, 1e-3, 1e-3, 1.0] * 2)
-    C_s[0, 4] = C_s[4, 0] = -1e-9 * (1 - 1e-9)
+    C_s = np.diag([1e-6, 1e-3, 1e-3, 1.0] * 2)
+    C_s[0, 4] = C_s[4, 0] = -1e-6 * (1 - 1e-9)
     S = np.zeros((8, 2))
     S[[0, 4], 0] = 1.0
     S[[3, 7], 1] = 1.0
