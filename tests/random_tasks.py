@@ -157,8 +157,9 @@ def _largest_margin(grasp: Grasp, task: Task) -> float | None:
         analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
         beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
     )  # fmt: skip
-    decision = ask(Question(situation, task.limits, LargestMargin()), SOLVERS["clarabel"])
-    return float(decision.solution.x[-1]) * situation.force_unit if decision.optimal else None
+    answered = ask(Question(situation, task.limits, LargestMargin()), SOLVERS["clarabel"])
+    unit = answered.question.situation.force_unit
+    return float(answered.decision.solution.x[-1]) * unit if answered.decision.optimal else None
 
 
 def moving_random_task(rng: np.random.Generator) -> tuple[Grasp, Task]:

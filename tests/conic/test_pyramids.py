@@ -99,7 +99,7 @@ def held(grasp: Grasp) -> Situation:
 
 
 def least_effort(grasp: Grasp, cone: FrictionCone) -> float:
-    decision = ask(Question(held(grasp), (cone,), LeastEffort()), SOLVERS["clarabel"])
+    decision = ask(Question(held(grasp), (cone,), LeastEffort()), SOLVERS["clarabel"]).decision
     assert decision.optimal
     return decision.program.objective(decision.solution.x)
 
@@ -111,7 +111,7 @@ def grasp_of(seed: int, kinds: tuple[str, ...] = ("hard", "soft", "frictionless"
         grasp = hand_like_grasp(rng)
         if {c.kind.name for c in grasp.contacts} <= {*kinds}:
             question = Question(held(grasp), (FrictionPyramid(0.1, facets=4),), LeastEffort())
-            if ask(question, SOLVERS["clarabel"]).optimal:
+            if ask(question, SOLVERS["clarabel"]).decision.optimal:
                 return grasp
 
 

@@ -58,7 +58,7 @@ def worst_between(outcome: Plan, per_interval: int = 200) -> float:
     there = replace(outcome.situation, times=times, wrench=wrench, wanted=np.zeros((len(times), 6)))
     limits = [limit for limit in (FrictionCone(task.margin), *task.kept) if not limit.couples_knots]
     usages = [limit.usage(there, motion) for limit in limits]
-    return max(float((usage.excess / usage.scale).max()) for usage in usages)
+    return max(usage.violation for usage in usages)
 
 
 @pytest.mark.parametrize("goal", ["margin", "effort", "peak_force"])

@@ -1,7 +1,7 @@
 """How large the unknowns can be at all: a box that the limits imply, used to prove infeasibility.
 
-A ray that is exact but for rounding proves nothing about unbounded unknowns. But no plan needs forces
-a million times the load, and most limits bound the unknowns far below that.
+A ray that is exact but for rounding proves nothing about unbounded unknowns. But most limits bound them, and where
+none does, no plan needs forces a million times those that the task asks for.
 """
 
 from __future__ import annotations
@@ -16,25 +16,28 @@ from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, split
 
 LARGEST = 1e6
-"""In normalised units. The bound where no limit gives a smaller one, and part of the program's meaning."""
+"""In normalised units. The bound where no limit gives one, and part of the program's meaning."""
+
+FARTHEST = 1e12
+"""A limit that is farther away than this is none, but the rounding of what it looks at."""
 
 
 def box(situation: Situation, limits: Sequence[Limit]) -> Array:
     """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
-    result = np.full(situation.n_v, LARGEST)
+    result = np.full(situation.n_v, np.inf)
     cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
     for limit in limits:
         pair = limit.bounded(situation, cones_hold=cones_hold)
         if pair is not None:
             result = np.minimum(result, _implied(*pair))
-    return result
+    return np.where(result < FARTHEST, result, LARGEST)
 
 
 def _implied(value: Affine, limit: Array) -> Array:
-    """Return bounds on |v| from ``|matrix v + constant| <= limit``; `LARGEST` where the matrix leaves v free."""
+    """Return bounds on |v| from ``|matrix v + constant| <= limit``; infinite where the matrix leaves v free."""
     rows = np.isfinite(limit)
     matrix, room = value.matrix[rows], limit[rows] + np.abs(value.constant[:, rows]).max(axis=0, initial=0.0)
-    bounds = np.full(value.matrix.shape[1], LARGEST)
+    bounds = np.full(value.matrix.shape[1], np.inf)
     if not matrix.size:
         return bounds
     normed = matrix / np.where(room > 0, room, 1.0)[:, None]

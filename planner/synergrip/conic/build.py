@@ -19,20 +19,24 @@ from synergrip.conic.tiles import Tile, stacked
 from synergrip.linalg import Array, frozen
 
 
-def build(situation: Situation, limits: Sequence[Limit], goal: Goal) -> Program:
-    """Return the program that looks for the best plan by `goal` among those that keep all `limits`."""
+def build(situation: Situation, limits: Sequence[Limit], goal: Goal, worth: float = 1.0) -> Program:
+    """Return the program that looks for the best plan by `goal` among those that keep all `limits`.
+
+    Sums of squares are divided by `worth`.
+    """
     rows = _rows(situation, limits, goal)
     cost = goal.objective(situation)
     extra = 0 if cost.epigraph is None else 1
     T, n_v = situation.knots, situation.n_v
     P, linear = _quadratic(cost.squares, T, n_v, extra)
+    P.data, linear = P.data / worth, linear / worth
     A = stacked([Tile(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in rows], T, n_v, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
     bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
     blocks = tuple(Block(p.limit, p.kind, p.dim, p.items, T - len(p.constant), len(p.constant)) for p in rows)
-    program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost))
+    program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
     if situation.courses is None:
         return program
     return _of_courses(program, situation.courses, 1.0 if extra else situation.divisor)

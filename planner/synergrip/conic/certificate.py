@@ -2,6 +2,7 @@
 
 Optimal: the slack ``b - A x`` lies in its cone, the multipliers lie in the dual cone, the stationarity
 ``P x + q + A'z = 0`` holds, and primal and dual objective agree.
+Unbounded: x leaves every cone nowhere, however far it is followed, and the goal improves all the way.
 Infeasible: for y in the dual cone, every x with ``b - A x`` in the cone has ``0 <= y'(b - A x)``; so
 ``b'y + |A'y|' box < 0`` leaves no x in the box. An inexact ray proves it all the same.
 """
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.conic.cones import distance_to_cones, project_on_dual
+from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
 from synergrip.linalg import Array, frozen
 
@@ -23,7 +24,9 @@ GAP_TOLERANCE = 1e-8
 NEARLY = 1e-4
 """Gap within which a plan that holds is still of use, although it is not the best to all digits."""
 SHARP = 1e-7
-"""A violation below this is not worth another attempt."""
+"""A violation below this is not worth another attempt, when nothing smaller hangs on it."""
+UNBOUNDED_GAIN = 1e-5
+"""Least improvement along a ray of size 1, and share of it by which a cone may be left."""
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
@@ -33,7 +36,7 @@ class Certificate:
     """A claim about a program with the numbers that bear it out, or do not."""
 
     kind: str
-    """"optimal", "infeasible" or "none"."""
+    """"optimal", "infeasible", "unbounded" or "none"."""
     verified: bool
     primal_residual: float = np.inf
     """Optimal: distance of the slack from its cone. Infeasible: the largest entry of |A'y|."""
@@ -49,10 +52,9 @@ class Certificate:
         """True for an x that keeps every row and is the best to some digits, verified or not."""
         return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= NEARLY
 
-    @property
-    def sharp(self) -> bool:
-        """True for a verified claim that another attempt could hardly better."""
-        return self.verified and (self.kind != "optimal" or self.primal_residual <= SHARP)
+    def sharp(self, violation: float = SHARP) -> bool:
+        """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
+        return self.verified and (self.kind != "optimal" or self.primal_residual <= violation)
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -73,6 +75,22 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     gap = abs(value - bound) / max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def judge_unbounded(program: Program, x: Array) -> Certificate:
+    """Judge the claim that the goal improves without end along x (n,).
+
+    Every cone is measured by its own entries of A: a limit that is far away is still a limit, and stops the way.
+    """
+    size = float(np.abs(x).max(initial=0.0))
+    if not np.all(np.isfinite(x)) or not size > 0:
+        return Certificate("unbounded", False)
+    ray = x / size
+    gain, curved = -float(program.q @ ray), float(np.abs(program.P @ ray).max(initial=0.0))
+    outside = distance_to_cones(program, -(program.A @ ray) / row_sizes(program))
+    verified = gain > UNBOUNDED_GAIN and max(outside, curved) <= UNBOUNDED_GAIN * gain
+    return Certificate("unbounded", bool(verified), outside, curved, -gain)
 
 
 @np.errstate(over="ignore", invalid="ignore")

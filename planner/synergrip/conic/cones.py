@@ -26,6 +26,17 @@ def distance_to_cones(program: Program, s: Array) -> float:
     return worst
 
 
+def row_sizes(program: Program) -> Array:
+    """Return (m,) the largest entry of A in each row's cone; 1 where there is none."""
+    entries = np.asarray(abs(program.A).max(axis=1).todense()).ravel()
+    result = np.ones(len(entries))
+    for block, rows in program.slices():
+        if block.rows:
+            largest = entries[rows].reshape(-1, block.dim).max(axis=1)
+            result[rows] = np.repeat(np.where(largest > 0, largest, 1.0), block.dim)
+    return result
+
+
 def project_on_dual(program: Program, y: Array) -> Array:
     """Return the point of the dual cone nearest to y (m,): free, nonnegative and second-order parts."""
     result = np.array(y, dtype=float)

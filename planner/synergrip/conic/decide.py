@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal
+from synergrip.conic.certificate import SHARP, Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 
@@ -45,32 +45,38 @@ class Decision:
         return self.certificate.nearly
 
     @property
+    def unbounded(self) -> bool:
+        """True when it was found and verified that nothing bounds the goal."""
+        return self.certificate.verified and self.certificate.kind == "unbounded"
+
+    @property
     def infeasible(self) -> bool:
         """True when infeasibility was found and verified."""
         return self.certificate.verified and self.certificate.kind == "infeasible"
 
 
-def decide(goal: str, program: Program, solver: Solver) -> Decision:
+def decide(goal: str, program: Program, solver: Solver, violation: float = SHARP) -> Decision:
     """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
 
-    The best is the verified one with the smallest violation. When none verifies, neither does the decision; it is
-    then, if there is one, the claim that keeps every row and has the smallest gap.
+    Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
+    violation. When none verifies, neither does the decision; it is then, if there is one, the claim that keeps every
+    row and has the smallest gap.
     """
     best, seconds = None, 0.0
     for attempt, settings in enumerate(ATTEMPTS, start=1):
         solution = solver(program, settings)
         seconds += solution.seconds
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
-        if best is None or _rank(decision) < _rank(best):
+        if best is None or rank(decision) < rank(best):
             best = decision
-        if decision.certificate.sharp:
+        if decision.certificate.sharp(violation):
             return decision
     if best is None:
         raise ValueError("the retry chain is empty")
     return replace(best, seconds=seconds)
 
 
-def _rank(decision: Decision) -> tuple[int, float]:
+def rank(decision: Decision) -> tuple[int, float]:
     """Order decisions: verified ones first, by violation; then those that hold, by gap."""
     certificate = decision.certificate
     if certificate.verified:
@@ -81,7 +87,7 @@ def _rank(decision: Decision) -> tuple[int, float]:
 def judge(program: Program, solution: Solution) -> Certificate:
     """Judge a claim. A solver that claims nothing is heard on both counts."""
     if solution.claim is Claim.UNBOUNDED:
-        return Certificate("none", False)
+        return judge_unbounded(program, solution.x)
     if solution.claim is not Claim.INFEASIBLE:
         optimal = judge_optimal(program, solution.x, solution.z)
         if optimal.verified or solution.claim is Claim.OPTIMAL:

@@ -1,7 +1,8 @@
 """A task in the coordinates of the program: everything a limit or goal may speak about, affine in the unknowns.
 
-At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit, beta_k / motion_unit)``. gamma is
-left out (zero) when no limit looks at more than forces, beta as far as the wanted motion fixes it. Then
+At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit, beta_k / motion_unit)``. The units
+are the solver's: they bring the unknowns near 1 and change no answer. gamma is left out (zero) when no limit looks at
+more than forces, beta as far as the wanted motion fixes it. Then
 ``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k``, the references follow by (35), and the rest from these two
 (docs/theory.md).
 """
@@ -44,7 +45,7 @@ class Affine:
 
 @dataclass(frozen=True)
 class Units:
-    """Sizes that bring the unknowns near 1 before solving."""
+    """Sizes of forces, references and motions."""
 
     force: float  # [N]
     reference: float
@@ -65,6 +66,12 @@ class Situation:
     gamma: Affine  # (dim Gamma_zr)
     wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
     units: Units
+    """Of the program's unknowns and rows; they change no answer."""
+    stated: Units
+    """Those in which weights are stated, and change the answer."""
+    load_size: float
+    """[N] what the task asks of the contacts: a violation is measured against this, or against what a contact carries
+    when that is more."""
     bend: Bend | None = None
     """What happens between the knots, when the program is to allow for it."""
     courses: Array | None = None
@@ -106,7 +113,7 @@ class Situation:
     def beta_basis(self) -> Array:
         """(dim Gamma_ucs, m) orthonormal directions in which the rigid motion was an unknown at first."""
         matrix = self.whole.beta.matrix
-        return frozen(matrix[:, np.any(matrix, axis=0)] / self.units.motion)
+        return frozen(matrix[:, np.any(matrix, axis=0)] / self.whole.units.motion)
 
     @property
     def divisor(self) -> float:
@@ -172,10 +179,24 @@ class Situation:
         of_alpha = self.response.du_dzr @ self.coordinates.inverse[:, : self.coordinates.dimensions[0]]
         return self.alpha.after(of_alpha)
 
-    def in_units_of(self, force: float) -> Situation:
-        """Return the same situation, of which nothing is determined, with unknown forces in another unit [N]."""
-        alpha = replace(self.alpha, matrix=frozen(self.alpha.matrix * (force / self.force_unit)))
-        return replace(self, alpha=alpha, units=replace(self.units, force=force))
+    def in_units(self, units: Units) -> Situation:
+        """Return the same situation, of which nothing is determined, with its unknowns in other units."""
+
+        def scaled(part: Affine, factor: float) -> Affine:
+            return replace(part, matrix=frozen(part.matrix * factor))
+
+        old = self.units
+        return replace(
+            self, units=units, alpha=scaled(self.alpha, units.force / old.force),
+            gamma=scaled(self.gamma, units.reference / old.reference),
+            beta=scaled(self.beta, units.motion / old.motion),
+        )  # fmt: skip
+
+    def column_units(self, units: Units) -> Array:
+        """Return (n_v,) what each unknown is a multiple of in some units, when nothing of the plan is determined."""
+        n_alpha, n_gamma = self.alpha.matrix.shape[0], int(self.frees_gamma) * self.gamma.matrix.shape[0]
+        sizes = [units.force] * n_alpha + [units.reference] * n_gamma
+        return np.array(sizes + [units.motion] * (self.n_v - len(sizes)))
 
     def around(self, v: Array, open_directions: Array, courses: Array | None = None) -> Situation:
         """Return what is left of it when all plans are alike but for some directions and courses.
@@ -204,7 +225,7 @@ class Situation:
 def situate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
-    beta_basis: Array | None = None, wanted: Array | None = None,
+    beta_basis: Array | None = None, wanted: Array | None = None, stated: Units | None = None,
 ) -> Situation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -219,6 +240,7 @@ def situate(
         redundancy: whether gamma is an unknown (some limit looks at more than forces) or zero.
         beta_basis: (dim Gamma_ucs, m) orthonormal directions in which beta may differ from what is given; none.
         wanted: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
+        stated: units in which weights are stated; those of the unknowns when None.
     """
     n_alpha, n_beta, n_gamma = spaces.dimensions
     basis = np.zeros((n_beta, 0)) if beta_basis is None else beta_basis
@@ -231,5 +253,5 @@ def situate(
         response, spaces, coords, frozen(times), frozen(wrench),
         Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
         Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
-        frozen(beta @ spaces.Gamma_ucs.T if wanted is None else wanted), units,
+        frozen(beta @ spaces.Gamma_ucs.T if wanted is None else wanted), units, stated or units, units.force,
     )  # fmt: skip

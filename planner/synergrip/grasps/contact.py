@@ -66,10 +66,12 @@ class Contact:
         """Return the slip margin [N] of forces (..., rows): shape (...).
 
         Hard finger ``mu n - ||(t, o)||``, soft finger ``mu n - sqrt(t^2 + o^2 + (mu m / nu)^2)``;
-        a frictionless contact cannot slip, its margin is the normal force itself.
+        a frictionless contact cannot slip, its margin is the normal force itself. A contact that would have to pull
+        is missed by that pull at least, however little friction it has.
         """
-        image = np.asarray(force) @ self.cone.T
-        return np.asarray(image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1))
+        image, normal = np.asarray(force) @ self.cone.T, np.asarray(force)[..., 0]
+        margin = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
+        return np.asarray(np.where(normal < 0, np.minimum(margin, normal), margin))
 
 
 def contact_frame(normal: Array) -> Array:

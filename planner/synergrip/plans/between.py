@@ -42,7 +42,7 @@ class Between:
     @property
     def excess(self) -> float:
         """How far the worst value is beyond its limit, in units of the limit; negative inside."""
-        return max(float((usage.excess / usage.scale).max(initial=-np.inf)) for usage in self.usages)
+        return max(usage.violation for usage in self.usages)
 
 
 def bend_of(task: Task, analysis: Analysis) -> Bend | None:

@@ -12,7 +12,6 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
-from synergrip.conic.solution import Claim
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
@@ -25,9 +24,10 @@ from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.situated import situated
-from synergrip.plans.solvers import SOLVERS, Answerer, ask
+from synergrip.plans.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.plans.stages import Stage, not_the_best, through
 from synergrip.plans.task import Task
+from synergrip.plans.units import caps
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
 
@@ -75,33 +75,35 @@ class _Planner:
         first, *others = goals_of(self.task)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
-        if not best.nearly:
-            return self._without_optimum(best, first)
-        notes = () if best.optimal else (not_the_best(best),)
-        stage = Stage(self.situation, limits, first, (best,), notes)
+        if not best.decision.nearly:
+            return self._without_optimum(best.decision, first)
+        notes = () if best.decision.optimal else (not_the_best(best.decision),)
+        stage = Stage(best.question.situation, limits, first, (best.decision,), notes)
         if stage.falls_short_of(self.task.margin):
-            return self._short_of_margin(best, stage.scalar)
+            return self._short_of_margin(best, stage.largest_margin or 0.0)
         last = through(stage, others, unasked_goals(self.task), self.solver)
         return verified_plan(self.task, self.analysis, last, stage.largest_margin)
 
-    def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Decision:
-        decision = ask(Question(self.situation, limits, goal), self.solver)
-        self.decisions.append(decision)
-        return decision
+    def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Answered:
+        # how hard to squeeze for the largest margin, only what bounds it can tell
+        sizes = caps(self.analysis, self.task) if isinstance(goal, LargestMargin) else ()
+        answered = ask(Question(self.situation, limits, goal), self.solver, sizes)
+        self.decisions.append(answered.decision)
+        return answered
 
     def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
         if isinstance(goal, LargestMargin):
-            if decision.solution.claim is Claim.UNBOUNDED:
+            if decision.unbounded:
                 raise unbounded()
             return self._no_optimum(decision)
         first = self._ask(self.task.kept, LargestMargin())
-        widest = Stage(self.situation, self.task.kept, LargestMargin(), (first,))
-        largest = widest.largest_margin if first.optimal else None
+        widest = Stage(first.question.situation, self.task.kept, LargestMargin(), (first.decision,))
+        largest = widest.largest_margin if first.decision.optimal else None
         if decision.infeasible:
             return self._infeasible(decision, largest)
-        if first.infeasible:
-            return self._infeasible(first, None)
+        if first.decision.infeasible:
+            return self._infeasible(first.decision, None)
         if largest is not None and largest < self.task.margin:
             return self._short_of_margin(first, largest)
         return self._any_plan(goal)
@@ -109,10 +111,10 @@ class _Planner:
     def _any_plan(self, goal: Goal) -> Outcome:
         """A plan that holds, when there is one and the best by the goal that was asked for is out of reach."""
         some = self._ask(self.task.all_limits, LeastEffort())
-        if not some.optimal:
-            return self._no_optimum(some)
+        if not some.decision.optimal:
+            return self._no_optimum(some.decision)
         note = f"'{goal.name}' was not verified, nor came any goal after it; this is the plan of least contact effort"
-        stage = Stage(self.situation, self.task.all_limits, LeastEffort(), (some,), (note,))
+        stage = Stage(some.question.situation, self.task.all_limits, LeastEffort(), (some.decision,), (note,))
         return verified_plan(self.task, self.analysis, through(stage, (), unasked_goals(self.task), self.solver), None)
 
     def _no_optimum(self, decision: Decision) -> Outcome:
@@ -121,12 +123,12 @@ class _Planner:
         why = f"{decision.solution.solver} says '{decision.solution.status}' and nothing verifies"
         return Unknown(self.task, self.analysis, why, tuple(self.decisions))
 
-    def _short_of_margin(self, first: Decision, largest: float) -> Outcome:
+    def _short_of_margin(self, widest: Answered, largest: float) -> Outcome:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
         limits = (*self.task.kept, FrictionCone(self.task.margin))
-        program = Question(self.situation, limits, LeastEffort()).program()
-        certificate = judge_infeasible(program, first.solution.z)
-        proof = replace(first, program=program, certificate=certificate)
+        program = Question(widest.question.situation, limits, LeastEffort()).program()
+        certificate = judge_infeasible(program, widest.decision.solution.z)
+        proof = replace(widest.decision, program=program, certificate=certificate)
         if not proof.infeasible:
             why = f"the largest margin is {largest:.9g} N, too close to the {self.task.margin:.9g} N asked to be sure"
             return Unknown(self.task, self.analysis, why, tuple(self.decisions))
@@ -151,8 +153,7 @@ class _Planner:
     def _without_limits(self) -> str:
         """Tell limits from geometry: would the cones alone allow it?"""
         free = ask(Question(self.situation, (FrictionCone(self.task.margin),), LeastEffort()), self.solver)
-        if not free.optimal:
+        if not free.decision.optimal:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"
-        forces = self.situation.force.constant + free.program.unknowns(free.solution.x) @ self.situation.force.matrix.T
-        normal = forces[:, self.analysis.grasp.normal_rows].max()
+        normal = free.question.situation.force.at(free.v)[:, self.analysis.grasp.normal_rows].max()
         return f"for the friction cones alone {normal:.4g} N of normal force would do"

@@ -14,7 +14,7 @@ from synergrip.errors import InputError, Issue, RigidContactError, SynergripErro
 from synergrip.files import bundled
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.reading.limits_table import HandLimits, limits_of
+from synergrip.plans.reading.limits_table import MAXIMISED, HandLimits, limits_of
 from synergrip.plans.reading.loads import Loads, loads
 from synergrip.plans.reading.problem_file import ProblemFile, read_problem_file
 from synergrip.plans.task import Task
@@ -174,7 +174,17 @@ def located(problem: Problem, error: SynergripError) -> SynergripError:
         return error
     if isinstance(error, RigidContactError):
         return _rigid_located(problem, error)
-    return error.located(lambda issue: issue if issue.key.isupper() else problem.document.locate(issue))
+    goal = problem.file.goal
+    asked = {MAXIMISED: f"goal.{goal.key_of('margin')}" if "margin" in goal.names else MAXIMISED}
+
+    def place(issue: Issue) -> Issue:
+        return (
+            issue
+            if issue.key.isupper()
+            else problem.document.locate(replace(issue, key=asked.get(issue.key, issue.key)))
+        )
+
+    return error.located(place)
 
 
 def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactError:

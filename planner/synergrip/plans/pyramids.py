@@ -135,7 +135,8 @@ def compare(cones: Plan, request: Request) -> Comparison:
     """Return what pyramids in the friction cones' place would make of a plan. The plan is not changed by it."""
     facets = request.facets
     question = _question(cones, facets)
-    decision = ask(question, SOLVERS["clarabel"])
+    answered = ask(question, SOLVERS["clarabel"])
+    question, decision = answered.question, answered.decision
     pyramids = _best(cones, question, decision, facets)
     rejected = False if pyramids is not None else True if _excluded(cones, question, decision, facets) else None
     others = qpsolvers_.other_cones(decision.program)
@@ -179,7 +180,9 @@ def _excluded(cones: Plan, question: Question, first: Decision, facets: int) -> 
         return True
     kept = _kept(cones, facets)
     if not isinstance(question.goal, LargestMargin):
-        first = ask(Question(question.situation, kept, LargestMarginInPyramids(facets=facets)), SOLVERS["clarabel"])
+        widest = Question(question.situation, kept, LargestMarginInPyramids(facets=facets))
+        answered = ask(widest, SOLVERS["clarabel"])
+        question, first = answered.question, answered.decision
     if not first.optimal:
         return first.infeasible
     asked = Question(question.situation, (*kept, FrictionPyramid(cones.task.margin, facets=facets)), LeastEffort())

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import astuple, dataclass, replace
 
-from synergrip.conic.decide import Decision, decide
+import numpy as np
+
+from synergrip.conic.certificate import GAP_TOLERANCE
+from synergrip.conic.decide import Decision, decide, rank
+from synergrip.conic.goals.goal import Squares
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_motion import LeastMotion
+from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.program import Program
 from synergrip.conic.relaxed import proven
-from synergrip.conic.solution import Settings, Solution
+from synergrip.conic.situation import Units
+from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
+from synergrip.linalg import Array
 from synergrip.plans.question import Question
 
 Answerer = Callable[[Question, Program, Settings], Solution]
@@ -38,15 +46,148 @@ def answerer(name: str) -> Answerer:
     return SOLVERS[name]
 
 
-def ask(question: Question, solver: Answerer) -> Decision:
-    """Build the program of a question, have it solved and verified; looked at less closely when nothing verifies."""
-    decision = _decided(question, solver)
-    if decision.optimal or decision.infeasible or not isinstance(question.goal, LeastMotion):
-        return decision
-    softer = question.goal.softer
-    second = _decided(replace(question, goal=softer), solver) if softer is not None else decision
-    return second if second.optimal else decision
+SMALL, NOTHING = 1e-2, 1e-12
+"""Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
+and below which a sum of squares, which is never less than 0, is as good as 0."""
+AGAIN = 3
+"""How often a question is asked in other units, at most."""
+APART = 3.0
+"""Factor between two units that makes a difference."""
 
 
-def _decided(question: Question, solver: Answerer) -> Decision:
-    return decide(question.goal.name, question.program(), lambda program, settings: solver(question, program, settings))
+@dataclass(frozen=True)
+class Answered:
+    """A question as it was finally asked, in units that suit its answer, and the answer."""
+
+    question: Question
+    decision: Decision
+
+    @property
+    def v(self) -> Array:
+        """(T, n_v) unknowns."""
+        return self.decision.program.unknowns(self.decision.solution.x)
+
+    @property
+    def value(self) -> float:
+        """Value of the goal, in the program's units; small squares are added up, so that no terms cancel."""
+        value = self.decision.program.objective(self.decision.solution.x)
+        if value > SMALL:
+            return value
+        cost = self.question.goal.objective(self.question.situation)
+        return value if cost.epigraph is not None else cost.squared(self.v) / self.question.worth
+
+    @property
+    def small(self) -> bool:
+        """True when the value is small beside 1: a margin never is, it is measured against the load."""
+        return not isinstance(self.question.goal, LargestMargin) and NOTHING < self.value < SMALL
+
+    @property
+    def settled(self) -> bool:
+        """True for a verified answer; when it is an optimum, for one whose value is not small beside 1."""
+        return self.decision.certificate.verified and not (self.decision.optimal and self.small)
+
+    @property
+    def place(self) -> tuple[bool, int, float]:
+        """Its place among answers to the same question: settled ones first, then by violation, then by gap."""
+        decision = self.decision
+        if not self.settled and decision.nearly and self.value > 0:
+            return True, 1, decision.certificate.gap * max(1.0, 1.0 / self.value)
+        return not self.settled, *rank(decision)
+
+
+def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> Answered:
+    """Build the program of a question, have it solved and verified; asked again in other units when that is needed.
+
+    Args:
+        question: in units of what the task asks for.
+        solver: who answers.
+        sizes: [N] forces in whose units it is asked, too, when those of an answer do not help.
+    """
+    question = _weighed(question)
+    best = found = _decided(question, solver)
+    left = list(sizes)
+    for _ in range(AGAIN + len(left)):
+        if best.settled:
+            return best
+        other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
+        if other is None:
+            break
+        found = _decided(other, solver)
+        best = min(best, found, key=lambda each: each.place)
+    return _beside_its_value(_less_closely(best, solver))
+
+
+def _decided(question: Question, solver: Answerer) -> Answered:
+    program = question.program()
+    decision = decide(
+        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation
+    )  # fmt: skip
+    return Answered(question, decision)
+
+
+def _weighed(question: Question) -> Question:
+    """Return the question with a first guess of what a weighted sum is worth, for its weights are anybody's."""
+    if not isinstance(question.goal, WeightedSum):
+        return question
+    parts = question.goal.objective(question.situation).squares
+    sizes = [float((each**2).sum()) for part in parts for each in _entries(part)]
+    worth = max(sizes, default=1.0)
+    return replace(question, worth=worth) if worth > 0 else question
+
+
+def _entries(part: Squares) -> Iterator[Array]:
+    yield part.constant
+    yield np.sqrt(len(part.constant)) * part.matrix
+    for earlier in part.earlier:
+        yield np.outer(earlier.weights, earlier.matrix.ravel())
+
+
+def _in_its_units(found: Answered) -> Question | None:
+    """Return the question in units of the forces, references and motions of an answer; None when that is no change."""
+    question, v = found.question, found.v
+    if found.decision.solution.claim not in (Claim.OPTIMAL, Claim.NOTHING) or not np.all(np.isfinite(v)):
+        return None
+    situation, old = question.situation, question.situation.units
+    if situation.origin is None:
+        motion = situation.beta.at(v) - situation.beta.constant
+        sizes = (situation.response.scale.largest_force(situation.force.at(v)), _largest(situation.reference.at(v)),
+                 _largest(motion))  # fmt: skip
+        units = Units(*(size if 0 < size < np.inf else was for size, was in zip(sizes, astuple(old), strict=True)))
+        situation, v = situation.in_units(units), v * situation.column_units(old) / situation.column_units(units)
+    value = question.goal.objective(situation).squared(v)
+    worth = value if 0 < value < np.inf else question.worth
+    new = (*astuple(situation.units), worth)
+    ratios = np.array(new) / np.array((*astuple(old), question.worth))
+    if np.all((ratios < APART) & (ratios > 1 / APART)):
+        return None
+    return replace(question, situation=situation, worth=worth)
+
+
+def _in_units_of(question: Question, force: float) -> Question | None:
+    """Return the question in another unit of force [N]; None when earlier goals have determined a part of the plan."""
+    situation = question.situation
+    if situation.origin is not None:
+        return None
+    return replace(question, situation=situation.in_units(replace(situation.units, force=force)))
+
+
+def _largest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))
+
+
+def _less_closely(best: Answered, solver: Answerer) -> Answered:
+    """Return smoothness looked at less closely, when nothing verifies."""
+    goal = best.question.goal
+    if best.decision.certificate.verified or not isinstance(goal, LeastMotion) or goal.softer is None:
+        return best
+    second = _decided(replace(best.question, goal=goal.softer), solver)
+    return second if second.decision.optimal else best
+
+
+def _beside_its_value(best: Answered) -> Answered:
+    """Return the answer judged by its gap relative to a small value: what is then no optimum is not called one."""
+    if not best.decision.optimal or not best.small:
+        return best
+    certificate = best.decision.certificate
+    judged = replace(certificate, verified=certificate.gap <= GAP_TOLERANCE * best.value)
+    return replace(best, decision=replace(best.decision, certificate=judged))

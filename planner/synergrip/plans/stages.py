@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.certificate import SHARP
 from synergrip.conic.decide import Decision
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -15,10 +16,11 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen, split
 from synergrip.plans.question import Question
+from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.solvers import Answerer, ask
 
 SLACKS = (1e-8, 1e-7)
-"""How much of a best value, in force units, the next goal may give up, so that its program has an interior."""
+"""How much of a best value, relative to the largest force, the next goal may give up: its program needs an interior."""
 LOOSE = 1e-7
 """How much limits are loosened, relatively, once earlier goals have fixed a part of the plan: a limit that the fixed
 part touches has no room for rounding."""
@@ -29,6 +31,7 @@ class Stage:
     """What the goals so far have led to."""
 
     situation: Situation
+    """In the units in which the last decision was found."""
     limits: tuple[Limit, ...]
     """What every later goal keeps."""
     goal: Goal
@@ -50,8 +53,10 @@ class Stage:
 
     @property
     def largest_margin(self) -> float | None:
-        """The largest margin [N], when that is the last goal."""
-        return self.scalar if isinstance(self.goal, LargestMargin) else None
+        """The largest margin [N], when that is the last goal; 0 when it is no more than the rounding of 0."""
+        if not isinstance(self.goal, LargestMargin):
+            return None
+        return self.scalar if abs(self.scalar) > SLACKS[0] * self.situation.force_unit else 0.0
 
     def falls_short_of(self, margin: float) -> bool:
         """Return whether the last goal is the largest margin and does not reach a margin [N]."""
@@ -79,6 +84,9 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     """Return the stage of the best plans by `goal`; with a note, and else as before, when none verifies.
 
     An interrupt keeps what the goals before have led to, and no further goal is looked at.
+
+    Raises:
+        InputError: nothing bounds the goal.
     """
     if stage.interrupted:
         return stage
@@ -91,11 +99,17 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     nearly = stage
     for limits in _limits(stage, situation):
         try:
-            decision = ask(Question(situation, limits, goal), solver)
+            answered = ask(Question(situation, limits, goal, _violation(stage)), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
-        best = replace(stage, situation=situation, limits=limits, goal=goal, decisions=(*stage.decisions, decision))
+        decision = answered.decision
+        if decision.unbounded:
+            raise unbounded()
+        best = replace(
+            stage, situation=answered.question.situation, limits=limits, goal=goal,
+            decisions=(*stage.decisions, decision),
+        )  # fmt: skip
         if decision.optimal:
             return best
         if decision.nearly:
@@ -123,7 +137,9 @@ def _left_open(stage: Stage) -> Situation:
     """
     situation, goal = stage.situation, stage.goal
     if isinstance(goal, LargestMargin | LeastPeak):
-        return _in_units_of_its_forces(stage) if situation.origin is None else situation
+        if situation.origin is not None:
+            return situation
+        return situation.in_units(replace(situation.units, force=_carried(stage)))
     squares = goal.objective(situation).squares
     if not squares:
         return situation
@@ -153,14 +169,18 @@ def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if isinstance(stage.goal, LargestMargin | LeastPeak):
         for slack in SLACKS:
-            yield (stage.goal.keeps(stage.scalar, slack * stage.situation.force_unit), *stage.limits)
+            yield (stage.goal.keeps(stage.scalar, slack * _carried(stage)), *stage.limits)
         return
     fixed = not situation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
 
 
-def _in_units_of_its_forces(stage: Stage) -> Situation:
-    """Return the situation in units of the forces found: the best plans squeeze hard, and tolerances are absolute."""
+def _violation(stage: Stage) -> float:
+    """Return the violation worth another attempt: less than what the next goal may give up of a margin or a peak."""
+    return SLACKS[0] if isinstance(stage.goal, LargestMargin | LeastPeak) else SHARP
+
+
+def _carried(stage: Stage) -> float:
+    """Return the largest force of the plan found [N], or the force unit: the best plans may squeeze hard."""
     situation = stage.situation
-    forces = situation.force.at(stage.v)
-    return situation.in_units_of(max(situation.force_unit, situation.response.scale.largest_force(forces)))
+    return max(situation.force_unit, situation.response.scale.largest_force(situation.force.at(stage.v)))

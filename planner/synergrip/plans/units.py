@@ -1,41 +1,111 @@
-"""Sizes that bring the unknowns of a task near 1 before solving; they change no answer."""
+"""Sizes of forces, references and motions in a task: those in which weights are stated, and those of its unknowns.
+
+The second kind changes no answer. It is taken from what a plan cannot do without: the load, the margin, the least
+normal force, the forces that a wanted motion takes. A largest force that does not bind says nothing about them. What
+only the answer shows, solving again in its units takes care of (`plans/solvers.py`).
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import Units
+from synergrip.linalg import Array, split
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
 
 
 def units_of(analysis: Analysis, task: Task) -> Units:
-    """Return the force unit (the load, as the contacts feel it), the reference unit and the motion unit of a task."""
-    response = analysis.response
-    change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
-    load = response.scale.largest_force(forces_at_start(response) - change)
-    force = max(load, task.margin)
+    """Return the units in which the weights of a task are stated: of force, references and motion."""
+    force = max(_load(analysis, task), task.margin)
     reference = 1.0
     for limit in task.limits:
-        if isinstance(limit, NormalForce) and np.isfinite(limit.upper) and task.goal == "margin":
-            force = max(force, limit.upper)
-        elif isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
+        if isinstance(limit, SynergyReference) and np.any(np.isfinite(limit.limit)):
             reference = float(np.max(limit.limit[np.isfinite(limit.limit)]))
-    # objects are moved by millimetres; in metres, tight tolerances drown the free part of the rigid motion
-    motion = max(task.tolerance, 1e-6) if task.tolerance > 0 else 1e-3
-    return Units(force if force > 0 else _of_limits(analysis, task), reference, motion)
+    return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def _of_limits(analysis: Analysis, task: Task) -> float:
-    """Return a force unit for a task without load and margin: the smallest force that a limit speaks of, else 1 N."""
-    sizes = [1.0]
+def sizes_of(analysis: Analysis, task: Task, beta: Array, wanted: Array) -> Units:
+    """Return the sizes near which the unknowns of a task are expected.
+
+    Args:
+        analysis: of the grasp.
+        task: its loads and limits.
+        beta: (T, dim Gamma_ucs) the rigid motion as far as it is given [m].
+        wanted: (T, 6) wanted displacement of the object [m, rad].
+    """
+    least = max((limit.lower for limit in task.limits if isinstance(limit, NormalForce)), default=0.0)
+    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, wanted))
+    if not force > 0:
+        force = smallest_cap(analysis, task)
+    n_alpha, n_beta, _ = analysis.coordinates.dimensions
+    inverse = np.abs(analysis.coordinates.inverse)
+    moving = np.abs(beta).max(axis=0, initial=0.0)
+    if task.tracking == "compliant":
+        moving = np.full(n_beta, np.linalg.norm(analysis.response.scale.twist(wanted), axis=1).max(initial=0.0))
+    references = force * inverse[:, :n_alpha].sum(axis=1) + inverse[:, n_alpha : n_alpha + n_beta] @ moving
+    reference = float(references.max(initial=0.0))
+    return Units(force, reference if reference > 0 else 1.0, _motion(task))
+
+
+def smallest_cap(analysis: Analysis, task: Task) -> float:
+    """Return the smallest force that a limit of a task allows at most [N]; 1 N when none allows less."""
+    return min([1.0, *_caps(analysis, task)])
+
+
+def caps(analysis: Analysis, task: Task) -> tuple[float, ...]:
+    """Return the forces [N] that the limits of a task allow at most, the smallest first."""
+    return tuple(sorted(set(_caps(analysis, task))))
+
+
+def _caps(analysis: Analysis, task: Task) -> list[float]:
+    length, response = analysis.response.scale.length, analysis.response
+    found: list[float] = []
     for limit in task.limits:
-        if isinstance(limit, NormalForce) and np.isfinite(limit.upper):
-            sizes.append(limit.upper)
-        elif isinstance(limit, JointTorque) and np.any(np.isfinite(limit.limit)):
-            sizes.append(float(np.min(limit.limit)) / analysis.response.scale.length)
-    return min(sizes)
+        if isinstance(limit, NormalForce):
+            found.append(limit.upper)
+        elif isinstance(limit, JointTorque | ActuatorEffort):
+            found.append(float(np.min(limit.limit)) / length)
+        elif isinstance(limit, SynergyReference):
+            forces = np.abs(response.scale.force[:, None] * response.dlambda_dzr)
+            found.append(float((forces * np.where(np.isfinite(limit.limit), limit.limit, np.inf)).max(initial=0.0)))
+    return [size for size in found if 0 < size < np.inf]
+
+
+def _load(analysis: Analysis, task: Task) -> float:
+    """Return the largest contact force that the load causes by itself [N], moments over the length."""
+    response = analysis.response
+    change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
+    return response.scale.largest_force(forces_at_start(response) - change)
+
+
+def _of_motion(analysis: Analysis, task: Task, wanted: Array) -> float:
+    """Return the largest contact force [N] that compliant tracking takes because the motion leaves Gamma_ucs."""
+    response, spaces, scale = analysis.response, analysis.spaces, analysis.response.scale
+    n_alpha = spaces.E_s.shape[1]
+    if task.tracking != "compliant" or not n_alpha:
+        return 0.0
+    sag = (task.wrench - analysis.grasp.w_0) @ response.du_dw.T
+    missing = scale.twist(wanted - sag)
+    rigid = scale.motion @ spaces.Gamma_ucs  # orthonormal columns
+    missing = missing - missing @ rigid @ rigid.T
+    if not np.linalg.norm(missing, axis=1).max(initial=0.0) > task.tolerance:
+        return 0.0
+    whole = scale.motion @ response.du_dzr @ analysis.coordinates.inverse[:, :n_alpha]
+    elastic = split((whole - rigid @ (rigid.T @ whole)).T, float(np.linalg.norm(whole, 2)))
+    if not elastic.decision.rank:
+        return 0.0
+    made = elastic.row_space.T @ whole  # by alpha, in the directions that it moves the object in
+    alpha = missing @ elastic.row_space @ np.linalg.pinv(made).T
+    stiffest = float(np.linalg.norm(scale.force[:, None] * response.K * scale.force, 2))
+    return min(scale.largest_force(alpha @ spaces.E_s.T), stiffest * float(np.abs(missing).max()))
+
+
+def _motion(task: Task) -> float:
+    # objects are moved by millimetres; in metres, tight tolerances drown the free part of the rigid motion
+    return task.tolerance if task.tolerance > 0 else 1e-3

@@ -100,8 +100,8 @@ def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usag
 
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
-    """Return one check per limit: the largest excess, relative to the limit's size."""
-    return tuple(Check(u.title, max(float((u.excess / u.scale).max(initial=-np.inf)), 0.0), LIMIT) for u in usages)
+    """Return one check per limit: the largest excess, relative to the limit's size, or to the load it carries."""
+    return tuple(Check(u.title, max(u.violation, 0.0), LIMIT) for u in usages)
 
 
 def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, Array]) -> tuple[Check, ...]:

@@ -8,9 +8,8 @@ from typing import Any
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
-from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.conic.limits.limit import Usage
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Check, Infeasible, Outcome, Plan
 from synergrip.plans.repairs import repairs
@@ -52,7 +51,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         "elastic_motion": plan.elastic_motion, "sag": motion.sag,
     }  # fmt: skip
     return {name: array.tolist() for name, array in arrays.items()} | {
-        "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
+        "margin": margin_document(plan.usages[0]),
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,
         "limits": [usage_document(usage) for usage in plan.usages],
@@ -81,12 +80,12 @@ def check_document(check: Check) -> dict[str, Any]:
     return {"name": check.name, "error": check.error, "tolerance": check.tolerance, "passed": check.passed}
 
 
-def margin_document(margins: Array, contacts: list[str], times: Array) -> dict[str, Any]:
-    """Return the worst slip margin, where and when, and all of them (T, n_c)."""
-    k, i = first_largest(-margins)
+def margin_document(margins: Usage) -> dict[str, Any]:
+    """Return the worst slip margin, where and when (the first of those that differ by rounding), and all of them."""
+    k, i = margins.worst()
     return {
-        "worst_N": float(margins.min()), "contact": contacts[i], "time_s": float(times[k]),
-        "per_contact_N": margins.tolist(),
+        "worst_N": float(margins.value.min()), "contact": margins.items[i], "time_s": float(margins.times[k]),
+        "per_contact_N": margins.value.tolist(),
     }  # fmt: skip
 
 

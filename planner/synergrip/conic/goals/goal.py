@@ -41,6 +41,10 @@ class Objective:
     squares: tuple[Squares, ...] = ()
     epigraph: float | None = None
 
+    def squared(self, v: Array) -> float:
+        """Return half the sum of the squares at unknowns v (T, n_v)."""
+        return sum(float((part.at(v) ** 2).sum()) / 2 for part in self.squares)
+
     @property
     def empty(self) -> bool:
         """True when nothing is minimised."""

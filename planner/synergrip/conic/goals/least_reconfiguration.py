@@ -12,7 +12,10 @@ from synergrip.conic.situation import Situation
 
 @dataclass(frozen=True)
 class LeastReconfiguration:
-    """Minimise ``sum ||gamma||^2 + ||beta - what is given||^2`` over what the goals before it left open."""
+    """Minimise ``sum ||gamma||^2 + ||beta - what is given||^2`` over what the goals before it left open.
+
+    Both count in the units in which weights are stated.
+    """
 
     name: str = "least reconfiguration"
 
@@ -22,7 +25,7 @@ class LeastReconfiguration:
 
     def objective(self, situation: Situation) -> Objective:
         """Return the squares of the unknowns but for the forces."""
-        units = situation.units
+        units = situation.stated
         parts = [squares_of(situation.gamma, 1 / units.reference)]
         if situation.frees_beta:
             beyond = situation.beta.plus(-situation.whole.beta.constant)

@@ -15,7 +15,7 @@ from synergrip.linalg import frozen
 
 @dataclass(frozen=True)
 class WeightedSum:
-    """Minimise the sum of weight times goal, over goals that are sums of squares."""
+    """Minimise the sum of weight times goal, over goals that are sums of squares, each in the units stated for it."""
 
     goals: tuple[tuple[Goal, float], ...]
 
@@ -30,7 +30,8 @@ class WeightedSum:
 
     def objective(self, situation: Situation) -> Objective:
         """Return all the squares, each times the root of its weight."""
-        parts = ((part, weight) for goal, weight in self.goals for part in goal.objective(situation).squares)
+        stated = replace(situation, units=situation.stated)
+        parts = ((part, weight) for goal, weight in self.goals for part in goal.objective(stated).squares)
         return Objective(tuple(_times(part, float(np.sqrt(weight))) for part, weight in parts))
 
 

@@ -9,10 +9,15 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.rows import Kind, Rows, nonnegative
 from synergrip.conic.situation import Situation
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
+
+CANCELLED = 1e-9
+"""Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
+SLIPPERY = 0.1
+"""Friction below which a cone, to a tolerance e, allows a pull of more than ten times e."""
 
 
 @dataclass(frozen=True)
@@ -42,15 +47,29 @@ class FrictionCone:
         count = grasp.n_c
         return Usage(
             "slip margin", "N", tuple(c.name for c in grasp.contacts), margins,
-            np.full(count, self.margin), np.full(count, np.inf), np.full(count, situation.force_unit), motion.times,
+            np.full(count, self.margin), np.full(count, np.inf), np.full(count, situation.load_size), motion.times,
+            carried(situation, motion),
         )  # fmt: skip
 
 
-def slip_margins(situation: Situation, motion: Motion) -> np.ndarray:
+def slip_margins(situation: Situation, motion: Motion) -> Array:
     """Return the slip margin (T, n_c) [N] of every contact."""
     grasp = situation.response.grasp
     pairs = zip(grasp.contacts, grasp.rows, strict=True)
     return np.column_stack([contact.slip_margin(motion.forces[:, rows]) for contact, rows in pairs])
+
+
+def carried(situation: Situation, motion: Motion) -> Array:
+    """Return (T, n_c) [N] the largest force component that each contact carries, or what the task asks when more.
+
+    An error of a force is small or large against this, never against a limit that does not bind. Forces are sums over
+    the synergies: where these cancel to almost nothing, what is left is their rounding.
+    """
+    grasp, response = situation.response.grasp, situation.response
+    sizes = np.abs(motion.forces * response.scale.force)
+    largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
+    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
+    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * response.scale.largest_force(terms))))
 
 
 def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:
@@ -75,4 +94,15 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         names = tuple(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
         result.append(Rows(key, kind, size, names, value.matrix, constant, frozen(epigraph * first)))
-    return result
+    return result + _pushing(situation, key)
+
+
+def _pushing(situation: Situation, key: str) -> list[Rows]:
+    """Return rows ``n >= 0`` for contacts so slippery that their cones say it only to within many times a tolerance."""
+    grasp = situation.response.grasp
+    slippery = [c.kind.name != "frictionless" and c.friction < SLIPPERY for c in grasp.contacts]
+    if not any(slippery):
+        return []
+    value = situation.force.after(np.eye(grasp.n_l)[grasp.normal_rows][slippery] / situation.force_unit)
+    names = tuple(f"{c.name} (pushing)" for c, each in zip(grasp.contacts, slippery, strict=True) if each)
+    return [nonnegative(key, names, value)]

@@ -27,13 +27,25 @@ class Usage:
     value: Array  # (T, m)
     lower: Array  # (m,) -inf where there is none
     upper: Array  # (m,) +inf where there is none
-    scale: Array  # (m,) size against which an excess is small or large
+    scale: Array  # (m,) size by which items are compared: the worst is the one that is farthest beyond, in this
     times: Array  # (T,)
+    allowance: Array | None = None
+    """(T, m) size against which an excess is small or large; `scale` when None."""
 
     @property
     def excess(self) -> Array:
         """(T, m) how far the value is beyond its bounds; negative inside."""
         return np.maximum(self.value - self.upper, self.lower - self.value)
+
+    @property
+    def size(self) -> Array:
+        """(T, m) size against which an excess is small or large."""
+        return np.broadcast_to(self.scale if self.allowance is None else self.allowance, self.value.shape)
+
+    @property
+    def violation(self) -> float:
+        """The largest excess, relative to the size it is measured against; negative inside, -inf without a bound."""
+        return float((self.excess / self.size).max(initial=-np.inf))
 
     def worst(self) -> tuple[int, int]:
         """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""

@@ -8,11 +8,15 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
+
+FAR = 1e3
+"""A bound this many times the force unit hardly binds."""
 
 
 @dataclass(frozen=True)
@@ -26,12 +30,15 @@ class NormalForce:
     couples_knots: ClassVar[bool] = False
 
     def rows(self, situation: Situation) -> Sequence[Rows]:
-        """Return two bounds per contact, in force units; that contacts push, friction cones say already."""
+        """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
         grasp = situation.response.grasp
         value = situation.force.after(normal_selection(situation))
-        lower = self.lower if self.lower > 0 else -np.inf
-        bounds = (np.full(grasp.n_c, lower), np.full(grasp.n_c, self.upper))
-        return within(self.key, _names(situation), value, *bounds, np.full(grasp.n_c, situation.force_unit))
+        lower, each, none = self.lower if self.lower > 0 else -np.inf, np.ones(grasp.n_c), np.full(grasp.n_c, np.inf)
+        units = (bound_unit(bound, situation.force_unit) * each for bound in (lower, self.upper))
+        return [
+            *within(self.key, _names(situation), value, lower * each, none, next(units)),
+            *within(self.key, _names(situation), value, -none, self.upper * each, next(units)),
+        ]
 
     def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""
@@ -51,11 +58,16 @@ class NormalForce:
         """Return the normal forces."""
         starts = situation.response.grasp.normal_rows
         count = len(starts)
-        scale = np.full(count, max(self.upper if np.isfinite(self.upper) else 0.0, situation.force_unit))
         return Usage(
             "normal force", "N", _names(situation), motion.forces[:, starts],
-            np.full(count, self.lower), np.full(count, self.upper), scale, motion.times,
+            np.full(count, self.lower), np.full(count, self.upper), np.full(count, situation.load_size), motion.times,
+            carried(situation, motion),
         )  # fmt: skip
+
+
+def bound_unit(bound: float, force_unit: float) -> float:
+    """Return the unit [N] of the rows of a bound: its own where it is far from all forces, to drown nothing."""
+    return abs(bound) if np.isfinite(bound) and abs(bound) > FAR * force_unit else force_unit
 
 
 def normal_selection(situation: Situation) -> Array:

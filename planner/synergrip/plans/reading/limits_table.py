@@ -29,9 +29,9 @@ from synergrip.plans.reading.problem_file import ProblemFile
 Given = float | str | tuple[float, ...]
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference")
-"""Limits each of which alone bounds the largest margin."""
-SETTLING = {"peak_force", "references"}
-"""Goals that bound the largest margin among the plans that are best by them."""
+"""Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
+MAXIMISED = "goal.maximise"
+"""The key under which the largest margin is asked for, unless it is one of several goals."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
 
     Raises:
         InputError: a list of the wrong length, ``"hand"`` without a hand that states the limit, units that do
-            not suit the joints, or a goal that no limit bounds.
+            not suit the joints, or a goal that needs ranges that nobody states.
     """
     table, each = file.limits, _Bounds(grasp)
     readers: dict[str, Callable[[Any], Limit]] = {
@@ -70,8 +70,7 @@ def limits_of(file: ProblemFile, grasp: Grasp, hand: HandLimits) -> tuple[Limit,
     }
     given = {key: getattr(table, key) for key in readers}
     limits = tuple(readers[key](value) for key, value in given.items() if value is not None)
-    bounded = any(given[name] is not None for name in BOUNDING)
-    raise_issues([*_without_ranges(file.goal, hand), *(() if bounded else _without_bound(file.goal))])
+    raise_issues(list(_without_ranges(file.goal, hand)))
     return limits
 
 
@@ -79,11 +78,6 @@ def _without_ranges(goal: GoalTable, hand: HandLimits) -> Iterator[Issue]:
     if "centred" in {*goal.names, *goal.weights} and hand.ranges is None:
         message = "'centred' needs a [hand]; a grasp file states no joint ranges"
         yield Issue(message, key=f"goal.{goal.key_of('centred')}")
-
-
-def _without_bound(goal: GoalTable) -> Iterator[Issue]:
-    if "margin" in goal.names and not SETTLING & {*goal.names[: goal.names.index("margin")]}:
-        yield unbounded(f"goal.{goal.key_of('margin')}").issues[0]
 
 
 def _angle_reserve(grasp: Grasp, angle: float) -> FrictionReserve:
@@ -137,13 +131,13 @@ class _Bounds:
         return _each(value, self.grasp.synergies, "synergy", key, of_hand)
 
 
-def unbounded(key: str = "goal.maximise") -> InputError:
-    """Return the error of a largest margin, asked for under `key`, that nothing bounds."""
+def unbounded() -> InputError:
+    """Return the error of a largest margin that nothing bounds."""
     listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
     message = (
         f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
     )
-    return InputError.at(key, message)
+    return InputError.at(MAXIMISED, message)
 
 
 def _each(value: Given, names: tuple[str, ...], what: str, key: str, of_hand: Array | None = None) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,12 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.friction_cone import SLIPPERY, FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.normal_force import NormalForce, bound_unit
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
@@ -81,6 +82,8 @@ def friction(
             cones.append(Cone(key, (contact.name,), mu * force[:, 0] - margin, tail))
         else:
             raise NotWrittenError(f"contact.kind: {one_of(contact.kind.name, ('frictionless', 'hard', 'soft'))}")
+        if contact.kind.name != "frictionless" and mu < SLIPPERY:
+            cones.append(Cone(key, (f"{contact.name} (pushing)",), force[:, :1]))
     return tuple(cones)
 
 
@@ -90,9 +93,13 @@ def _normals(model: Model) -> Expression:
 
 def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
     names = [contact.name for contact in model.response.grasp.contacts]
-    sides = (("lowest", limit.lower, 1.0), ("highest", limit.upper, -1.0))
+    sides, unit = (("lowest", limit.lower, 1.0), ("highest", limit.upper, -1.0)), model.force_unit
     return tuple(
-        Cone(limit.key, tuple(f"{n} ({side})" for n in names), sign * (_normals(model) - bound / model.force_unit))
+        Cone(
+            limit.key,
+            tuple(f"{n} ({side})" for n in names),
+            sign * (_normals(model) * (unit / bound_unit(bound, unit)) - bound / bound_unit(bound, unit)),
+        )
         for side, bound, sign in sides
         if np.isfinite(bound) and not (side == "lowest" and bound <= 0)  # friction cones say that
     )
@@ -161,6 +168,7 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
 
 
 def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:
+    model = replace(model, units=model.stated)
     return Wish(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
 
 

@@ -136,7 +136,7 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     situation = question.situation
     model = _written(situation, situation.times, situation.wrench, situation.wanted, _references(situation))
     wish, limits = _cones(question, model)
-    cost = wish.cost / situation.divisor if wish.scalar is None else wish.cost
+    cost = wish.cost / (situation.divisor * question.worth) if wish.scalar is None else wish.cost
     posed = pose(model, cost, [*limits, *wish.cones])
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
@@ -161,7 +161,7 @@ def _written(
         situation.response, situation.coordinates, times=times, wrench=wrench,
         beta=interpolated(times, situation.times, whole.beta.constant), units=situation.units,
         redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=wanted,
-        rigid_basis=situation.spaces.Gamma_ucs, references=references,
+        rigid_basis=situation.spaces.Gamma_ucs, references=references, stated=situation.stated,
     )  # fmt: skip
 
 

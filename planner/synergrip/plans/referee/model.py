@@ -75,6 +75,9 @@ class Model:
     """Whether gamma is free."""
     wanted: Array  # (T, 6) wanted displacement of the object
     units: Units
+    """Of rows and of goals."""
+    stated: Units
+    """Of goals in a weighted sum."""
 
     @property
     def force_unit(self) -> float:
@@ -110,6 +113,7 @@ def write_model(
     response: Response, coordinates: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array, wanted: Array, rigid_basis: Array, references: Expression | None = None,
+    stated: Units | None = None,
 ) -> Model:  # fmt: skip
     """Write a task down; the arguments are those of `situate`, and the references when they are not wholly free."""
     import cvxpy as cp
@@ -133,6 +137,7 @@ def write_model(
     return Model(
         response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T,
         dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, wanted, units,
+        stated or units,
     )  # fmt: skip
 
 

@@ -15,9 +15,9 @@ def least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
     """Write the squares of gamma and of the free part of beta down."""
     import cvxpy as cp
 
-    cost = 0.5 * cp.sum_squares(model.gamma / model.units.reference) if model.redundancy else 0.0
+    cost = 0.5 * cp.sum_squares(model.gamma / model.stated.reference) if model.redundancy else 0.0
     if model.beta_free.size:
-        cost = cost + 0.5 * cp.sum_squares(model.beta_free / model.units.motion)
+        cost = cost + 0.5 * cp.sum_squares(model.beta_free / model.stated.motion)
     return Wish(cost)
 
 
