@@ -104,7 +104,7 @@ def judged(seed: int) -> Judged:
         wrong.append(f"said to be inaccurate, wrong by {worst:.1e} only")
     if not inaccurate and worst > RIGHT:
         wrong.append(f"wrong by {worst:.1e}")
-    enough = all(each.error >= 1e-16 or each.error == 0 for each in response.accuracy.values())
+    enough = all(each.changed == each.lost for each in response.accuracy.values())  # it tells no other change
     return Judged("inaccurate" if inaccurate else "right", wrong, worst, "float64" if enough else "doubled")
 
 

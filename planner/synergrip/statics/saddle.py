@@ -14,12 +14,14 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from synergrip.doubled import ROUNDOFF, Doubled, block, solve
+from synergrip.doubled import Doubled, block, solve
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array
 
 N = TypeVar("N", Array, Doubled)
+ROUNDOFF = 2.0**-53
+"""Relative error of the maps when they are rounded to float64."""
 CORRECTIONS = 4
 """The first is the solution, the others refine it."""
 CAUTION = 10.0
@@ -35,7 +37,6 @@ class Arithmetic(Generic[N]):
     block: Callable[[Sequence[Sequence[Any]]], N]
     solve: Callable[[N, N], N]
     """X of ``A X = B``."""
-    roundoff: float
     other: Callable[[Array], N] | None = None
     """Other numbers with the same roundings, where they can be told from them."""
 
@@ -59,8 +60,8 @@ def _block(rows: Sequence[Sequence[Array]]) -> Array:
     return np.concatenate([np.concatenate(row, axis=1) for row in rows])
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve, 2.0**-53)
-DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, ROUNDOFF, _between_the_digits)
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve)
+DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, _between_the_digits)
 
 
 @dataclass(frozen=True)
@@ -105,8 +106,8 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
 
     sizes = _Matrices.of(grasp, np.abs)
     terms = np.abs(rounded(inverse)) @ np.vstack([sizes.J @ sizes.S @ still, np.abs(rounded(turned)) @ load])
-    operations = sizes.followed(np.abs(rounded(force)), np.abs(rounded(u)), still)
-    errors = {name: CAUTION * (np.abs(rounded(lost[name])) + arithmetic.roundoff * operations[name]) for name in maps}
+    values = {name: rounded(each) for name, each in maps.items()}
+    errors = {name: CAUTION * np.abs(rounded(lost[name])) + ROUNDOFF * np.abs(values[name]) for name in maps}
     changes = errors
     if arithmetic.other is not None:
         others = _Matrices.of(grasp, arithmetic.other)
@@ -114,7 +115,6 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
         changed = others.followed(force + d_force, u + d_u, number(still))
         changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
     sums = sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still)
-    values = {name: rounded(each) for name, each in maps.items()}
     for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
         sums[name][:, :n_z] = np.abs(values[name][:, :n_z])
     return Answer(values, errors, changes, sums)
