@@ -99,12 +99,23 @@ class CellReader:
 def cells_of(line: str, number: int) -> Iterator[Cell]:
     """Yield the cells of line `number`."""
     column = 1
-    for text in line.split(","):
+    for text in _parts(line):
         bare = text.strip()
         if len(bare) > 1 and bare.startswith('"') and bare.endswith('"'):
-            bare = bare[1:-1].strip()
-        yield Cell(bare, number, column + (text.find(bare) if bare else 0))
+            bare = bare[1:-1].replace('""', '"').strip()
+        yield Cell(bare, number, column + max(text.find(bare), 0))
         column += len(text) + 1
+
+
+def _parts(line: str) -> list[str]:
+    """Return the texts between the commas of a line; commas inside quotes part nothing."""
+    parts = list[str]()
+    for piece in line.split(","):
+        if parts and parts[-1].count('"') % 2:
+            parts[-1] += f",{piece}"
+        else:
+            parts.append(piece)
+    return line.split(",") if parts[-1].count('"') % 2 else parts  # a quote that nothing closes is no quote
 
 
 def _is_plain(text: str) -> bool:

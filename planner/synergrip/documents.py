@@ -49,15 +49,16 @@ class Document:
     def locate(self, issue: Issue) -> Issue:
         """Return `issue` with file, line, column, length and source line filled in from its key.
 
-        A key that is not in the file is shown at the innermost table or list around it. An issue that
-        already names a file is returned as it is.
+        A key that is not in the file is shown at the innermost table or list around it, which may be one that
+        an override made. An issue that already names a file is returned as it is.
         """
         if issue.file:
             return issue
-        for override in reversed(self.overrides):
-            if issue.key == override.key or issue.key.startswith((f"{override.key}.", f"{override.key}[")):
-                return replace(issue, file=f"--set {override.text}")
         found = self.positions.nearest(issue.key)
+        for override in reversed(self.overrides):
+            shared = override.shares(issue.key)
+            if shared == override.key or len(shared) > len(found[0] if found else ""):
+                return replace(issue, file=f"--set {override.text}")
         if found is None:
             return _at(self.path, self.text, issue, 1, 1)
         key, place = found

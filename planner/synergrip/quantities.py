@@ -24,8 +24,16 @@ UNITS: dict[str, dict[str, float]] = {
     "spin stiffness": {"N m/rad": 1.0, "N mm/rad": 1e-3},
     "joint compliance": {"rad/(N m)": 1.0, "deg/(N m)": math.pi / 180, "mrad/(N m)": 1e-3},
     "slide compliance": {"m/N": 1.0, "mm/N": 1e-3},
+    "acceleration": {"m/s^2": 1.0, "m/s²": 1.0, "mm/s^2": 1e-3},
 }
-"""Unit -> factor to SI, for each kind of quantity."""
+"""Unit -> factor to SI, for each kind of quantity; the SI unit first."""
+
+USUAL: dict[str, tuple[float, float]] = {
+    "length": (1e-6, 3.0), "angle": (1e-3, 7.0), "mass": (1e-4, 50.0), "time": (1e-4, 3600.0), "force": (1e-4, 1e4),
+    "torque": (1e-5, 1e3), "stiffness": (50.0, 1e9), "spin stiffness": (1e-3, 1e5), "joint compliance": (1e-6, 10.0),
+    "slide compliance": (1e-9, 0.1), "acceleration": (1e-2, 1e3),
+}  # fmt: skip
+"""Sizes in SI that a hand and what it holds have. A number without a unit beyond them is hardly meant in SI."""
 
 SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N m": (1.0, "N m")}
 """SI unit -> the factor and the unit in which people read it."""
@@ -33,8 +41,11 @@ SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N
 EXAMPLES = {
     "length": "10 mm", "angle": "5 deg", "mass": "200 g", "time": "2 s", "force": "0.5 N", "torque": "1.5 N m",
     "stiffness": "8 N/mm", "spin stiffness": "2 N m/rad", "joint compliance": "0.025 rad/(N m)",
-    "slide compliance": "0.1 mm/N",
+    "slide compliance": "0.1 mm/N", "acceleration": "9.81 m/s^2",
 }  # fmt: skip
+
+LONGEST = 400
+"""Characters of a number; the pattern takes time that grows with the square of their count."""
 
 _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*\Z")
 
@@ -51,12 +62,12 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         InputError: no number, no unit, an unknown unit or a unit of another kind.
     """
     units = UNITS[kind]
-    listed, usual = ", ".join(units), EXAMPLES[kind].partition(" ")[2]
+    listed = ", ".join(units)
     article = "an" if kind[0] in "aeiou" else "a"
     if isinstance(text, bool) or not isinstance(text, str):
-        wrote = f"{text!r} has no unit; " if isinstance(text, int | float) and not isinstance(text, bool) else ""
-        shown = f"{text:g} {usual}" if wrote else EXAMPLES[kind]
-        raise InputError.at(key, f'{wrote}expected {article} {kind} such as "{shown}" (units: {listed})')
+        plain = isinstance(text, int | float) and not isinstance(text, bool)
+        wrote, shown = f"{text!r} has no unit; " if plain else "", without_unit(text, kind)
+        raise InputError.at(key, f"{wrote}expected {article} {kind} such as {shown} (units: {listed})")
     match = _NUMBER.match(text)
     if match is None:
         raise InputError.at(
@@ -64,7 +75,7 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         )
     number, unit = float(match[1]), " ".join(match[2].split())
     if not unit:
-        raise InputError.at(key, f'missing unit; write "{match[1]} {usual}" (units: {listed})')
+        raise InputError.at(key, f"missing unit; write {without_unit(match[1], kind)} (units: {listed})")
     if unit not in units:
         other = next((name for name, table in UNITS.items() if unit in table), "")
         why = f"'{unit}' is a unit of {other}" if other else f"unknown unit '{unit}'"
@@ -73,6 +84,24 @@ def quantity(text: object, kind: str, key: str = "") -> float:
     if not math.isfinite(value):
         raise InputError.at(key, f"{text!r} is not finite")
     return value
+
+
+def without_unit(value: object, kind: str) -> str:
+    """Return how a number without a unit is written as a quantity, in quotes; an example of the kind for anything else.
+
+    A plain number is one in SI. When that is no usual size of the kind, a unit in which the same number is one comes
+    before it.
+    """
+    text = "" if isinstance(value, bool) or not isinstance(value, int | float | str) else str(value)
+    match = _NUMBER.match(text) if len(text) <= LONGEST else None
+    if match is None or match[2]:
+        return f'"{EXAMPLES[kind]}"'
+    units = UNITS[kind]
+    size, (least, most) = abs(float(match[1])), USUAL[kind]
+    example = EXAMPLES[kind].partition(" ")[2]
+    others = [unit for unit in (example, *units) if least <= size * units[unit] <= most]
+    meant = [*([] if size == 0 or least <= size <= most else others[:1]), next(iter(units))]
+    return " or ".join(f'"{match[1]} {unit}"' for unit in meant)
 
 
 def kind_of(text: object, kinds: Sequence[str]) -> str | None:

@@ -97,7 +97,10 @@ def _issues(detail: ErrorDetails, model: type[BaseModel]) -> Iterator[Issue]:
         meaning = f" ({field.description})" if field and field.description else ""
         yield Issue(f"missing key '{name}'{meaning}", key=key, on_key=True)
     else:
-        yield Issue(_message(kind, detail["input"], context), key=key)
+        advice = ""
+        if kind == "tuple_type" and isinstance(detail["input"], Mapping) and _model_at(model, detail["loc"]):
+            advice = f"; its entries are written [[{key}]] in TOML, --set {key}=[{{...}}] gives all of them"
+        yield Issue(_message(kind, detail["input"], context) + advice, key=key)
 
 
 def _message(kind: str, value: object, context: Mapping[str, Any]) -> str:

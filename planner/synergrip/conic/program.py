@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.rows import Kind
+from synergrip.conic.rows import Item, Kind
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
@@ -26,7 +26,7 @@ class Block:
     limit: str
     kind: Kind
     dim: int
-    items: tuple[str, ...]
+    items: tuple[Item, ...]
     first_knot: int
     knots: int
 
@@ -123,9 +123,12 @@ class Program:
             header: dict[str, Any] = json.loads(str(stored["header"]))
             n, m = len(stored["q"]), len(stored["b"])
             blocks = tuple(
-                Block(b["limit"], Kind(b["kind"]), b["dim"], tuple(b["items"]), b["first_knot"], b["knots"])
+                Block(
+                    b["limit"], Kind(b["kind"]), b["dim"], tuple(Item(*pair) for pair in b["items"]),
+                    b["first_knot"], b["knots"],
+                )
                 for b in header["blocks"]
-            )
+            )  # fmt: skip
             matrices = [
                 sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
                 for k, shape in (("P", (n, n)), ("A", (m, n)))

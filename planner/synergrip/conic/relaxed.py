@@ -17,7 +17,7 @@ from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.cones import project_on_dual, row_sizes
 from synergrip.conic.decide import Solver
 from synergrip.conic.program import Block, Program
-from synergrip.conic.rows import Kind
+from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.linalg import Array, frozen
 
@@ -39,7 +39,7 @@ def relaxed(program: Program) -> Program:
     return replace(
         program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A,
         b=frozen(np.append(program.b, 1.0)), box=frozen(np.append(program.box, LARGEST)), constant=0.0,
-        blocks=(*program.blocks, Block("relaxation", Kind.NONNEGATIVE, 1, ("least",), 0, 1)),
+        blocks=(*program.blocks, Block("relaxation", Kind.NONNEGATIVE, 1, (Item("least"),), 0, 1)),
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.reading.limits_table import MAXIMISED, HandLimits, limits_of
@@ -135,11 +136,12 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
         from synergrip.grasps.given import read_given
 
         matrices = path.parent / file.grasp.file
-        return _Touching(read_given(matrices, "grasp.file"), None, _spot_notes(matrices))
+        grasp = read_given(matrices, "grasp.file")
+        return _Touching(grasp, None, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
     from synergrip.plans.reading.setup import hand_grasp
 
     grasp, held = hand_grasp(file, path.parent)
-    return _Touching(grasp, held, held.notes)
+    return _Touching(grasp, held, (*held.notes, *facing_notes(grasp.contacts)))
 
 
 def _spot_notes(matrices: Path) -> tuple[str, ...]:

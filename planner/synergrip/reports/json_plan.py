@@ -67,6 +67,7 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
         "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
+        "hints": list(outcome.hints),
     }  # fmt: skip
     if outcome.clashes:
         document["clashes"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.clashes]

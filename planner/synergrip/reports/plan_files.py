@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 from collections.abc import Callable
@@ -54,8 +55,14 @@ def plan_csv(plan: Plan) -> str:
     motion = plan.motion
     table = np.column_stack([motion.times, motion.dz_r, motion.forces, motion.torques, motion.du, plan.margins])
     stream = io.StringIO()
-    np.savetxt(stream, table, fmt="%.17g", delimiter=",", header=",".join(header), comments="")
+    csv.writer(stream, lineterminator="\n").writerow(map(_one_line, header))  # with quotes around names with commas
+    np.savetxt(stream, table, fmt="%.17g", delimiter=",")
     return stream.getvalue()
+
+
+def _one_line(name: str) -> str:
+    """Return the name of a column without control characters, which a model file may hold."""
+    return "".join(letter if letter.isprintable() else "?" for letter in name)
 
 
 def _write_npz(path: Path, plan: Plan) -> None:

@@ -153,6 +153,8 @@ def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
     yield from refused_lines(word, outcome.stage, outcome.why)
     for i, clash in enumerate(outcome.clashes):
         yield f"{'Clashes' if i == 0 else '':8} {clash.share:4.0%}  {clash.key}  ({', '.join(clash.items)})"
+    for hint in outcome.hints:
+        yield from wrapped("Hint     ", hint)
     for change in repairs(outcome):
         yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
 

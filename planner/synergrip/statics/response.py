@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
-from synergrip.linalg import Array, Decision, frozen
+from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
@@ -81,6 +82,15 @@ class Response:
     dq_dw: Array  # (n_q, 6)
     accuracy: Mapping[str, Accuracy]
     """Of every map, by its name."""
+
+    @cached_property
+    def K(self) -> Array:
+        """(n_l, n_l) total stiffness C^-1 [N/m]; for sizes: where compliances differ much it holds few digits."""
+        grasp, JS = self.grasp, self.grasp.J @ self.grasp.S
+        C = grasp.C_s + grasp.J @ grasp.C_q @ grasp.J.T + JS @ grasp.C_z @ JS.T
+        root = np.sqrt(np.diag(C))
+        values, vectors = np.linalg.eigh(C / np.outer(root, root))
+        return frozen((vectors / np.maximum(values, SINGULAR)) @ vectors.T / np.outer(root, root))
 
     @property
     def right_inverse(self) -> Array:

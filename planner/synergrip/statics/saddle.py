@@ -86,38 +86,39 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
     Raises:
         numpy.linalg.LinAlgError: the system is singular, as far as the arithmetic can tell.
     """
-    number, rounded, n_z = arithmetic.number, arithmetic.rounded, grasp.n_z
-    matrices = _Matrices.of(grasp, number)
-    turned = number(about_centroid(scale))
-    inverse = _inverse(matrices, turned, arithmetic, grasp.n_l)
-    still, load = np.eye(n_z, n_z + 6), np.eye(6, n_z + 6, n_z)
+    number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, grasp.n_l, grasp.n_z
+    matrices, turned = _Matrices.of(grasp, number), number(about_centroid(scale))
+    inverse = _inverse(matrices, turned, arithmetic, n_l)
+    still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
-    def correction(matrices: _Matrices[N], force: N, u: N) -> tuple[N, N]:
-        gap, imbalance = matrices.left_over(force, turned.T @ u, number(still))
-        found = inverse @ arithmetic.block([[gap], [turned @ imbalance - number(load)]])
-        return found[: grasp.n_l], found[grasp.n_l :]
+    def correction(matrices: _Matrices[N], solution: N) -> N:
+        gap, balanced = matrices.left_over(solution[:n_l], turned.T @ solution[n_l:], still)
+        return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
 
-    force, u = number(np.zeros((grasp.n_l, n_z + 6))), number(np.zeros((6, n_z + 6)))
+    solution = number(np.zeros((n_l + 6, n_z + 6)))
     for _ in range(CORRECTIONS):
-        d_force, d_u = correction(matrices, force, u)
-        force, u = force + d_force, u + d_u
-    maps = matrices.followed(force, u, number(still))
-    lost = matrices.followed(d_force, d_u, number(0 * still))
-
-    sizes = _Matrices.of(grasp, np.abs)
-    terms = np.abs(rounded(inverse)) @ np.vstack([sizes.J @ sizes.S @ still, np.abs(rounded(turned)) @ load])
+        last = correction(matrices, solution)
+        solution = solution + last
+    maps = matrices.followed(solution, still)
     values = {name: rounded(each) for name, each in maps.items()}
+    lost = matrices.followed(last, number(np.zeros((n_z, n_z + 6))))
     errors = {name: CAUTION * np.abs(rounded(lost[name])) + ROUNDOFF * np.abs(values[name]) for name in maps}
     changes = errors
     if arithmetic.other is not None:
         others = _Matrices.of(grasp, arithmetic.other)
-        d_force, d_u = correction(others, force, u)
-        changed = others.followed(force + d_force, u + d_u, number(still))
+        changed = others.followed(solution + correction(others, solution), still)
         changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
-    sums = sizes.followed(terms[: grasp.n_l], terms[grasp.n_l :], still)
+    return Answer(values, errors, changes, _terms(grasp, np.abs(rounded(inverse)), values))
+
+
+def _terms(grasp: Grasp, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the sizes of the terms of every map; `inverse` is that of the system, entry by entry its size."""
+    sizes, n_z = _Matrices.of(grasp, np.abs), grasp.n_z
+    still = np.eye(n_z, n_z + 6)
+    result = sizes.followed(inverse @ np.vstack([sizes.J @ sizes.S @ still, np.eye(6, n_z + 6, n_z)]), still)
     for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
-        sums[name][:, :n_z] = np.abs(values[name][:, :n_z])
-    return Answer(values, errors, changes, sums)
+        result[name][:, :n_z] = np.abs(values[name][:, :n_z])
+    return result
 
 
 def about_centroid(scale: Scale) -> Array:
@@ -143,8 +144,9 @@ class _Matrices(Generic[N]):
         compliances = (data(-each) for each in (grasp.C_s, grasp.C_q, grasp.C_z))
         return cls(data(grasp.G), data(grasp.J), data(grasp.S), *compliances)
 
-    def followed(self, force: N, u: N, still: N) -> dict[str, N]:
-        """Return all that follows from forces; `still` is z of synergies that do not yield."""
+    def followed(self, solution: N, still: N) -> dict[str, N]:
+        """Return all that follows from forces and motions; `still` is z of synergies that do not yield."""
+        force, u = solution[:-6], solution[-6:]
         tau = self.J.T @ force
         sigma = self.S.T @ tau
         z = still + self.C_z @ sigma
@@ -152,7 +154,8 @@ class _Matrices(Generic[N]):
 
     def left_over(self, force: N, u: N, still: N) -> tuple[N, N]:
         """Return by what contact motions (10) do not fit, and the wrench (7) that is balanced; about B."""
-        q = self.followed(force, u, still)["q"]
+        tau = self.J.T @ force
+        q = self.S @ (still + self.C_z @ (self.S.T @ tau)) + self.C_q @ tau
         return self.J @ q + self.C_s @ force - self.G.T @ u, -(self.G @ force)
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.rows import Kind, Rows, nonnegative
+from synergrip.conic.rows import Kind, Rows, items_of, nonnegative
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -91,9 +91,9 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         first = np.tile(np.eye(size)[0], len(chosen))
         value = situation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
-        names = tuple(contact.name for contact, _ in chosen)
+        items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
-        result.append(Rows(key, kind, size, names, value.matrix, constant, frozen(epigraph * first)))
+        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first)))
     return result + _pushing(situation, key)
 
 
@@ -104,5 +104,5 @@ def _pushing(situation: Situation, key: str) -> list[Rows]:
     if not any(slippery):
         return []
     value = situation.force.after(np.eye(grasp.n_l)[grasp.normal_rows][slippery] / situation.force_unit)
-    names = tuple(f"{c.name} (pushing)" for c, each in zip(grasp.contacts, slippery, strict=True) if each)
-    return [nonnegative(key, names, value)]
+    names = (contact.name for contact, each in zip(grasp.contacts, slippery, strict=True) if each)
+    return [nonnegative(key, items_of(names, "pushing"), value)]

@@ -38,7 +38,8 @@ class ContactSpec:
     tangential_stiffness: float  # N/m
     spin_stiffness: float  # N m/rad
     """About the normal; 0 unless the contact is soft."""
-    normals: Literal["object", "pad"]
+    normals: Literal["object", "pad"] | None
+    """None when nothing is said but the normal itself: the surface's where there is one, else as stated."""
     key: str
     """The key of the file that names the pad or link."""
 
@@ -105,7 +106,7 @@ def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactSp
         stiffness=stiffness,
         tangential_stiffness=_given(shared, entry, "tangential_stiffness", stiffness),
         spin_stiffness=_given(shared, entry, "spin_stiffness") if soft else 0.0,
-        normals=_given(shared, entry, "normals", "object"),
+        normals=_given(shared, entry, "normals", "object" if entry.normal is None else None),
         key=key,
     )
 

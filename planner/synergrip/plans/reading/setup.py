@@ -82,7 +82,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
         try:
-            touches.append(_touch(hand, contact))
+            touches.append(_touch(hand, contact, thing))
         except InputError as error:
             issues += error.issues
     if table.close is not None:
@@ -113,15 +113,22 @@ def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Arra
     return synergies, q, C_q, C_z
 
 
-def _touch(hand: Hand, contact: ContactSpec) -> Touch:
+def _touch(hand: Hand, contact: ContactSpec, thing: Object) -> Touch:
     kind = contact_kind(contact.model)
     stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
     each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
     aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
         contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
-        each, contact.normals, contact.key, aimed,
+        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed, _normal_at(contact),
     )  # fmt: skip
+
+
+def _normal_at(contact: ContactSpec) -> str:
+    """Return where the normal of a pad or of a place on a link is stated."""
+    if isinstance(contact.at, str):
+        return f"the normal of pad '{contact.at}' in the hand's hand.toml"
+    return f"{contact.key.removesuffix('link')}normal"
 
 
 def _pad(hand: Hand, contact: ContactSpec) -> Pad:

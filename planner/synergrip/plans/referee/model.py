@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.rows import Item, items_of
 from synergrip.conic.situation import Units
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response
@@ -29,7 +30,7 @@ class Cone:
 
     key: str
     """Key in the problem file of what asks for it."""
-    items: tuple[str, ...]
+    items: tuple[Item, ...]
     head: Expression  # (T, len(items)), or (T,) with a tail
     tail: Expression | None = None  # (T, d - 1)
     equality: bool = False
@@ -44,7 +45,7 @@ class Cone:
             return self.head + relaxation >= 0
         return cp.SOC(self.head + relaxation, self.tail, axis=1)
 
-    def multipliers(self, constraint: Expression) -> Iterator[tuple[str, Array]]:
+    def multipliers(self, constraint: Expression) -> Iterator[tuple[Item, Array]]:
         """Yield each item with its multipliers (T, d); those of an inequality lie in the dual cone."""
         if self.tail is None:
             values = np.reshape(constraint.dual_value, self.head.shape)
@@ -120,8 +121,7 @@ def write_model(
 
     grasp, dz_r = response.grasp, references
     if dz_r is None:
-        makes_force = bool(coordinates.dimensions[0])
-        dz_r = cp.Variable((len(times), grasp.n_z)) * (_reference_size(response, units.force) if makes_force else 1.0)
+        dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
     known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
     n_alpha, n_beta, _ = coordinates.dimensions
     _, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
@@ -142,12 +142,14 @@ def write_model(
 
 
 def _reference_size(response: Response, force_unit: float) -> float:
-    """Return the references that answer to the force unit."""
-    return force_unit / float(np.linalg.norm(response.scale.force[:, None] * response.dlambda_dzr, 2))
+    """Return the references that answer to the force unit; 1 where they make no force."""
+    stiffness = float(np.linalg.norm(response.scale.force[:, None] * response.dlambda_dzr, 2))
+    moving = float(np.linalg.norm(response.K @ response.grasp.J @ response.grasp.S, 2))
+    return force_unit / stiffness if stiffness > 1e-12 * moving else 1.0
 
 
 def _equal(name: str, value: Expression) -> Cone:
-    return Cone(name, tuple(f"{name}_{i + 1}" for i in range(value.shape[1])), value, equality=True)
+    return Cone(name, items_of(f"{name}_{i + 1}" for i in range(value.shape[1])), value, equality=True)
 
 
 @dataclass(frozen=True)
