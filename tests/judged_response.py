@@ -23,6 +23,8 @@ from synergrip.statics import respond
 
 RIGHT = 1e-8
 """Relative error of a map that is right, or said to be inaccurate."""
+WITHIN = 10.0
+"""An error that is estimated may be exceeded by less than a power of ten."""
 
 
 def stiff_grasp(seed: int) -> Grasp:
@@ -96,7 +98,7 @@ def judged(seed: int) -> Judged:
     for name, true in maps.items():
         errors[name] = _error(grasp, name, getattr(response, name), true, _natural(grasp, maps))
         said = response.accuracy[name].error
-        if errors[name] > 2 * said + 1e-14:
+        if errors[name] > WITHIN * said + 1e-14:
             wrong.append(f"{name} is wrong by {errors[name]:.1e}, said {said:.1e}")
     worst = max(errors.values())
     inaccurate = max(each.error for each in response.accuracy.values()) > RIGHT

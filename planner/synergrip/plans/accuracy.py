@@ -15,6 +15,8 @@ SHOWN = 1e-8
 """Relative error from which on an answer tells of it."""
 RELIED_ON = 1e-6
 """Relative error of the maps, and of the forces of a plan, beyond which no verdict is given."""
+CANCELLED = 1e-7
+"""Share of the terms that forces are sums of, below which they are measured against that share: no load, no squeeze."""
 _RELIED_ON = ("dlambda_dzr", "dlambda_dw", "du_dzr", "du_dw", "dq_dzr", "dq_dw")
 """The maps that forces, motions and limits of a plan come from."""
 _WORDS = {
@@ -75,12 +77,14 @@ def response_check(response: Response, motion: Motion) -> Iterator[Check]:
 
 
 def _forces_in_doubt(response: Response, motion: Motion) -> float:
-    """Return how far forces may be from the truth, relative to the largest of them."""
+    """Return how far forces may be from the truth, relative to the largest of them; rounding of nothing is no doubt."""
     of_references, of_load = response.accuracy["dlambda_dzr"], response.accuracy["dlambda_dw"]
     references = float(np.abs(motion.dz_r).sum(axis=1).max(initial=0.0))
     load = float(np.abs(response.scale.wrench(motion.wrench - response.grasp.w_0)).sum(axis=1).max(initial=0.0))
     unknown = of_references.unknown * references + of_load.unknown * load
-    return unknown / max(response.scale.largest_force(motion.forces), 1e-12)
+    terms = response.scale.largest_force(np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T)
+    size = max(response.scale.largest_force(motion.forces), CANCELLED * terms)
+    return unknown / size if unknown > 0 else 0.0
 
 
 def _named(name: str) -> str:
