@@ -48,7 +48,7 @@ def answerer(name: str) -> Answerer:
 
 SMALL, NOTHING = 1e-2, 1e-12
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
-and below which a sum of squares, which is never less than 0, is as good as 0."""
+and below which a sum of squares, which is never less than 0, is as good as 0. A force is the root of that."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
 APART = 3.0
@@ -79,7 +79,11 @@ class Answered:
     @property
     def small(self) -> bool:
         """True when the value is small beside 1: a margin never is, it is measured against the load."""
-        return not isinstance(self.question.goal, LargestMargin) and NOTHING < self.value < SMALL
+        value = self.value
+        if isinstance(self.question.goal, LargestMargin) or value >= SMALL:
+            return False
+        scalar = self.question.goal.objective(self.question.situation).epigraph is not None
+        return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
 
     @property
     def settled(self) -> bool:
