@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -17,11 +18,13 @@ import numpy as np
 from synergrip.doubled import Doubled, block, solve
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 
 N = TypeVar("N", Array, Doubled)
 ROUNDOFF = 2.0**-53
 """Relative error of the maps when they are rounded to float64."""
+APART = 2.0**26
+"""How many times a half unit of the last digit float64 changes the data by, to tell what half a unit changes."""
 CORRECTIONS = 4
 """The first is the solution, the others refine it."""
 CAUTION = 10.0
@@ -37,18 +40,30 @@ class Arithmetic(Generic[N]):
     block: Callable[[Sequence[Sequence[Any]]], N]
     solve: Callable[[N, N], N]
     """X of ``A X = B``."""
-    other: Callable[[Array], N] | None = None
-    """Other numbers with the same roundings, where they can be told from them."""
+    other: Callable[[Array], N]
+    """Other numbers, `apart` times as far away as those that round to the same float64."""
+    apart: float
 
 
 def _high(number: Doubled) -> Array:
     return number.high
 
 
+@cache
+def _half_units(shape: tuple[int, ...]) -> Array:
+    """Return numbers between -1/2 and 1/2: any, but always the same ones."""
+    return frozen(np.random.default_rng(sum(shape)).uniform(-0.5, 0.5, shape))
+
+
 def _between_the_digits(values: Array) -> Doubled:
-    """Return numbers that `values` are the roundings of: any, but always the same ones."""
-    rest = np.random.default_rng(values.size).uniform(-0.5, 0.5, values.shape) * np.spacing(np.abs(values))
+    """Return numbers that `values` are the roundings of."""
+    rest = _half_units(values.shape) * np.spacing(np.abs(values))
     return Doubled(values, np.where(values == 0, 0.0, rest))
+
+
+def _apart(values: Array) -> Array:
+    """Return other numbers that are as much farther away as float64 needs to tell them."""
+    return values * (1 + APART * 2.0**-53 * _half_units(values.shape))
 
 
 def _solve(A: Array, B: Array) -> Array:
@@ -60,8 +75,8 @@ def _block(rows: Sequence[Sequence[Array]]) -> Array:
     return np.concatenate([np.concatenate(row, axis=1) for row in rows])
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve)
-DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, _between_the_digits)
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve, _apart, APART)
+DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, _between_the_digits, 1.0)
 
 
 @dataclass(frozen=True)
@@ -102,12 +117,12 @@ def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
     maps = matrices.followed(solution, still)
     values = {name: rounded(each) for name, each in maps.items()}
     lost = matrices.followed(last, number(np.zeros((n_z, n_z + 6))))
+    others = _Matrices.of(grasp, arithmetic.other)
+    other = others.followed(solution + correction(others, solution), still)
+    changes = {name: CAUTION / arithmetic.apart * np.abs(rounded(other[name] - maps[name])) for name in maps}
     errors = {name: CAUTION * np.abs(rounded(lost[name])) + ROUNDOFF * np.abs(values[name]) for name in maps}
-    changes = errors
-    if arithmetic.other is not None:
-        others = _Matrices.of(grasp, arithmetic.other)
-        changed = others.followed(solution + correction(others, solution), still)
-        changes = {name: CAUTION * np.abs(rounded(changed[name] - maps[name])) for name in maps}
+    if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
+        changes = errors = {name: np.maximum(changes[name], errors[name]) for name in maps}
     return Answer(values, errors, changes, _terms(grasp, np.abs(rounded(inverse)), values))
 
 
