@@ -15,6 +15,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
+from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.between import bend_of
 from synergrip.plans.clash import Clash, beside_friction, clashes
@@ -50,8 +51,12 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         return _refused(grasp, task, analysis, refusal)
     if task.between == "hold":
         situation = replace(situation, bend=bend_of(task, analysis))
-    outcome = _Planner(task, analysis, situation, solver).outcome()
-    return with_hint(outcome, plan)
+    planner = _Planner(task, analysis, situation, solver)
+    try:
+        refuse_doubtful_response(analysis.response)
+        return with_hint(planner.outcome(), plan)
+    except InDoubtError as doubt:
+        return Unknown(task, analysis, str(doubt), tuple(planner.decisions))
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
