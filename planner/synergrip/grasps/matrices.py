@@ -157,7 +157,7 @@ def read_matrices(path: Path, key: str = "") -> Matrices:
     Raises:
         InputError: all the issues of the file, each with its place.
     """
-    document = read_document(path, "grasp file", key)
+    document = read_document(path, "grasp file", key, numbers=True)
     issues: list[Issue] = []
     contacts: tuple[ContactFile, ...] | None = None
     try:

@@ -13,6 +13,9 @@ from synergrip.hands.mjcf_source import Source, kinematic_source
 from synergrip.hands.xml_elements import Element
 from synergrip.linalg import Array, frozen
 
+MOST_RELATIONS = 500
+"""Equalities, actuators or tendons."""
+
 _LINE = re.compile(r"\bline (\d+)")
 _FRAME = re.compile(r"^(XML )?Error: |^Schema violation: |\s*Element( name)? '.*$", re.DOTALL)
 
@@ -69,13 +72,15 @@ def compiled(root: Element) -> Mjcf:
 
     source = kinematic_source(root)
     try:
-        model = mujoco.MjModel.from_xml_string(source.text)
+        model = mujoco.MjModel.from_xml_string(source.text, dict(source.files))
     except (ValueError, mujoco.FatalError) as error:
-        found = _LINE.search(str(error))
-        number = int(found[1]) if found else 0
-        element = source.lines[number - 1] if 1 <= number <= len(source.lines) else source.lines[0]
-        said = " ".join(_FRAME.sub("", _FRAME.sub("", str(error).strip())).split())
+        element = source.at([int(number) for number in reversed(_LINE.findall(str(error)))])
+        inmost = str(error).strip().rpartition("model file with error: ")[2]
+        said = " ".join(_FRAME.sub("", _FRAME.sub("", inmost)).split())
         raise element.refused(f"<{element.tag}>: MuJoCo says: {said}") from None
+    for count, what in ((model.neq, "equalities"), (model.nu, "actuators"), (model.ntendon, "tendons")):
+        if count > MOST_RELATIONS:
+            raise root.refused(f"the file has {count} {what}, and a hand has at most {MOST_RELATIONS}")
     kinds = tuple(mujoco.mjtJoint(kind).name.removeprefix("mjJNT_").lower() for kind in model.jnt_type)
     q = tuple(number for number, kind in enumerate(kinds) if kind in ("hinge", "slide"))
     tendons = _tendons(model, q)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.cells import Cell, CellReader, cells_of
+from synergrip.cells import Cell, CellReader
 from synergrip.errors import one_of
 from synergrip.hands.hand import Hand
 from synergrip.hands.synergies import coupling_map, drivers
@@ -77,8 +77,7 @@ def read_postures(path: Path, hand: Hand | None = None, *, degrees: bool = False
     """
     reader = CellReader.of(path)
     rows = reader.rows()
-    number, header = next(rows, (1, ""))
-    cells = list(cells_of(header, number))
+    cells = reader.header(rows)
     columns = _columns(reader, cells, hand, degrees) if reader.is_header(cells, HEADER) else []
     reader.raise_issues()
     read = [(line, reader.numbers(line, text, len(cells))) for line, text in rows]
