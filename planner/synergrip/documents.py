@@ -40,6 +40,16 @@ class Document:
         """Where each key stands."""
         return positions(self.text, self.path.suffix.lower())
 
+    @cached_property
+    def placed(self) -> bool:
+        """Whether places are told by line, and not by key alone."""
+        return is_placed(self.text)
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """The lines of the text."""
+        return self.text.split("\n")
+
     def locate(self, issue: Issue) -> Issue:
         """Return `issue` with file, line, column, length and source line filled in from its key.
 
@@ -51,15 +61,15 @@ class Document:
         for override in reversed(self.overrides):
             if issue.key == override.key or issue.key.startswith((f"{override.key}.", f"{override.key}[")):
                 return replace(issue, file=f"--set {override.text}")
-        if not is_placed(self.text):
+        if not self.placed:
             return replace(issue, file=str(self.path))
         found = self.positions.nearest(issue.key)
         if found is None:
-            return at(self.path, self.text, issue, 1, 1)
+            return at(self.path, self.lines, issue, 1, 1)
         key, place = found
         on_key = issue.on_key or key != issue.key
         span = place.key if on_key and place.key is not None else place.value
-        return at(self.path, self.text, issue, span.line, span.column, span.length)
+        return at(self.path, self.lines, issue, span.line, span.column, span.length)
 
     def with_overrides(self, texts: Sequence[str]) -> Document:
         """Return the document with each ``KEY=VALUE`` of `texts` put in; missing tables are created.
@@ -104,8 +114,8 @@ def read_document(path: Path, kind: str = "file", key: str = "", *, numbers: boo
         data, repeated = loads(path, text, kind, numbers)
         document = Document(path, data, text)
         _check_values(document)
-        if repeated and is_placed(text):
-            raise InputError(duplicates(path, text, document.positions, MOST_ISSUES))
+        if repeated and document.placed:
+            raise InputError(duplicates(path, document.lines, document.positions, MOST_ISSUES))
     except RecursionError:
         raise InputError([Issue(TOO_DEEP, file=str(path))]) from None
     except ValueError:

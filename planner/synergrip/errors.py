@@ -7,7 +7,7 @@ that explains them (a free twist, a contact component, a direction).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
@@ -180,6 +180,15 @@ def one_of(word: object, valid: Iterable[str]) -> str:
     listed = f"{listed} or {last}" if listed else last
     told = shortened(repr(word)) if isinstance(word, str | int | float) else repr(word)
     return f"{told} is not {'one of ' if len(names) > 1 else ''}{listed}{suggest(str(word), names)}"
+
+
+def repeated(names: Iterable[Hashable]) -> Iterator[int]:
+    """Yield the indices of names that stood before."""
+    seen: set[Hashable] = set()
+    for index, name in enumerate(names):
+        if name in seen:
+            yield index
+        seen.add(name)
 
 
 def shortened(text: str, most: int = LONGEST_NAME) -> str:

@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -23,7 +24,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio
-from synergrip.validation import refusing, shown
+from synergrip.validation import MOST_JUDGED, refusing, shown
 
 Schema = dict[str, Any]
 
@@ -44,7 +45,7 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _judge(self) -> Table:
-        found = tuple(self.issues())
+        found = tuple(islice(self.issues(), MOST_JUDGED))
         if found:
             raise PydanticCustomError("issues", "see issues", {"issues": found})
         return self

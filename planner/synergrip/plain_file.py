@@ -14,7 +14,7 @@ from pathlib import Path
 from synergrip.errors import InputError, Issue, suggest
 
 LARGEST_FILE = 32_000_000
-"""Bytes that are read of a file, or of a model together with the files that it includes."""
+"""Bytes that are read of a file."""
 MOST_NEIGHBOURS = 1000
 """Files of a folder among which a misspelt name is looked for."""
 
@@ -52,8 +52,7 @@ def read_bytes(path: Path, kind: str = "file", key: str = "", limit: int = LARGE
         reason = getattr(error, "strerror", None) or "the name is not a file name"
         raise refuse(f"{kind} '{path}' cannot be read: {reason}") from None
     if len(raw) > limit:
-        what = "" if limit == LARGEST_FILE else " with what is included already"
-        raise refuse(f"'{path}' is larger than {LARGEST_FILE // 1_000_000} MB{what}; is it a {kind}?")
+        raise refuse(f"'{path}' is larger than {limit / 1e6:.3g} MB, the most that is read here; is it a {kind}?")
     return raw
 
 

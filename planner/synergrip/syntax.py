@@ -6,6 +6,7 @@ import json
 import re
 import tomllib
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -65,9 +66,8 @@ def is_placed(text: str) -> bool:
     return len(text) <= LARGEST_PLACED and _amount(text) <= MOST_VALUES
 
 
-def at(path: Path, text: str, issue: Issue, line: int, column: int, length: int = 1) -> Issue:
+def at(path: Path, lines: Sequence[str], issue: Issue, line: int, column: int, length: int = 1) -> Issue:
     """Return the issue with its place, and the source line to show."""
-    lines = text.split("\n")
     source = lines[line - 1] if line <= len(lines) else ""
     return replace(issue, file=str(path), line=line, column=column, length=length, source=source)
 
@@ -78,14 +78,14 @@ def too_long(path: Path, text: str) -> InputError:
     return InputError([_at_offset(path, text, Issue("a number with too many digits"), next(runs, 0))])
 
 
-def duplicates(path: Path, text: str, found: Positions, most: int) -> list[Issue]:
+def duplicates(path: Path, lines: Sequence[str], found: Positions, most: int) -> list[Issue]:
     """Return an issue for each key that stands twice."""
 
     def issue(key: str, first: Place, second: Place) -> Issue:
         span = second.key or second.value
         name = key[len(enclosing(key)) :].lstrip(".")
         message = f"key '{name}' is written twice (first in line {(first.key or first.value).line})"
-        return at(path, text, Issue(message, key=key, on_key=True), span.line, span.column, span.length)
+        return at(path, lines, Issue(message, key=key, on_key=True), span.line, span.column, span.length)
 
     return [issue(*duplicate) for duplicate in found.duplicates[:most]]
 
@@ -139,12 +139,12 @@ def _loads_toml(path: Path, text: str) -> dict[str, Any]:
             line, column = int(place[1]), int(place[2])
         if _REPEATED.search(reason):  # of what follows it, nothing is known, not even that it is TOML
             before = "\n".join([*lines[: line - 1], lines[line - 1][: column + _LONG_HEADER]])
-            repeated = duplicates(path, text, positions(before, ".toml"), 1)
+            repeated = duplicates(path, lines, positions(before, ".toml"), 1)
             if repeated:
                 raise InputError(repeated) from None
         reason = reason if len(reason) <= 200 else f"{reason[:197]}..."
         issue = Issue(f"not valid TOML: {reason[:1].lower()}{reason[1:]}")
-        raise InputError([at(path, text, issue, line, column)]) from None
+        raise InputError([at(path, lines, issue, line, column)]) from None
 
 
 def _loads_json(path: Path, text: str) -> tuple[dict[str, Any], str]:

@@ -116,6 +116,8 @@ def _message(kind: str, value: object, context: Mapping[str, Any]) -> str:
         limit = context["min_length" if few else "max_length"]
         bound = f"{'least' if few else 'most'} {limit} entr{'y' if limit == 1 else 'ies'}"
         return f"expected at {bound}, got {context['actual_length']}"
+    if kind == "string_unicode":
+        return f"expected text, got {shown(value)}, in which a character is cut in half"
     if kind == "string_too_short":
         return "must not be empty"
     return _expected(value, _WANTED.get(kind.removesuffix("_type").removesuffix("_parsing"), "another value"))

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.grasps.kinds import KINDS
 from synergrip.grasps.matrix_reading import Count, MatrixReader
@@ -140,10 +140,10 @@ class GraspFile(Table):
     def issues(self) -> Iterable[Issue]:
         """Refuse a name that two contacts have."""
         names = [contact.name for contact in self.contacts]
-        for index, name in enumerate(names):
-            if name in names[:index]:
-                first = names.index(name)
-                yield Issue(f"two contacts have the name '{name}' (first contacts[{first}])", f"contacts[{index}].name")
+        for index in repeated(names):
+            first = names.index(names[index])
+            message = f"two contacts have the name '{names[index]}' (first contacts[{first}])"
+            yield Issue(message, f"contacts[{index}].name")
 
 
 def read_matrices(path: Path, key: str = "") -> Matrices:

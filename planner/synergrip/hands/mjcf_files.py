@@ -9,6 +9,7 @@ from math import prod
 from os.path import exists, realpath  # unlike Path.exists, no error for a name that is too long
 from pathlib import Path
 
+from synergrip.errors import InputError
 from synergrip.hands.xml_elements import ALONE, DEEPEST, MOST_ELEMENTS, Element, read_xml
 
 MOST_EXPANDED = 5000
@@ -54,7 +55,11 @@ class ModelFiles:
             raise element.refused(f"the {kind} '{path}' is not there")
         known = real(path)
         if known not in self._known:
-            root = read_xml(path, "MJCF file", limit=self.left)
+            try:
+                root = read_xml(path, "MJCF file", limit=self.left)
+            except InputError as error:
+                issue = error.issues[0]
+                raise (error if issue.line else element.refused(issue.message)) from None
             self.left -= root.length
             self.elements += root.size()
             self._known[known] = root

@@ -15,8 +15,7 @@ from xml.sax.saxutils import quoteattr
 
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.hands.mjcf_files import Amount, ModelFiles, expanded, real
-from synergrip.hands.xml_elements import Element
-from synergrip.plain_file import LARGEST_FILE
+from synergrip.hands.xml_elements import LARGEST_MODEL, Element
 
 LEFT_OUT = {
     "camera", "config", "contact", "custom", "deformable", "extension", "flex", "flexcomp", "flexstrain", "flexvert",
@@ -37,6 +36,8 @@ ARMATURE = "1"
 BOUNDED = ("coef", "gear", "polycoef", "pos", "ref")
 LARGEST = 1e6
 """[m, rad or 1] Larger numbers are no place or ratio of a joint, and overflow in MuJoCo."""
+MOST_ATTRIBUTES = 100
+"""Of an element; MuJoCo knows some forty."""
 MOST_MODELS = 50
 """To attach in one file; MuJoCo holds a copy of each."""
 MOST_ATTACHED = 10
@@ -82,7 +83,7 @@ def kinematic_source(root: Element) -> Source:
         InputError: an included or attached file that cannot be read, a model that attaches itself, too many elements, a
             number that is not finite, an equality of a tendon that is left out; with file and line.
     """
-    return _source(root, ModelFiles(max(LARGEST_FILE - root.length, 0)), {}, ())
+    return _source(root, ModelFiles(max(LARGEST_MODEL - root.length, 0)), {}, ())
 
 
 def _source(root: Element, files: ModelFiles, done: dict[Path, tuple[str, Source]], above: tuple[Path, ...]) -> Source:
@@ -181,7 +182,9 @@ def _kept(element: Element, parent: str, spatial: set[str]) -> tuple[str, dict[s
 
 
 def _check_numbers(element: Element, attributes: dict[str, str]) -> None:
-    """Refuse the numbers at which MuJoCo writes a log file beside its answer, and endless texts."""
+    """Refuse the numbers at which MuJoCo writes a log file beside its answer, and what has no end."""
+    if len(attributes) > MOST_ATTRIBUTES:
+        raise element.refused(f"<{element.tag}> has {len(attributes):,} attributes; expected at most {MOST_ATTRIBUTES}")
     for name, text in attributes.items():
         element.check_length(name)
         for part in text.split():

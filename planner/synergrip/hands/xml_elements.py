@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.parsers import expat
 
 from synergrip.errors import InputError, Issue
-from synergrip.plain_file import LARGEST_FILE, read_text
+from synergrip.plain_file import read_text
 
 DEEPEST = 200
 """Elements inside each other."""
 
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+
+LARGEST_MODEL = 16_000_000
+"""Bytes of a model together with what it includes; it has its meshes in files of their own."""
 MOST_ELEMENTS = 50_000
 """A humanoid with two hands has some thousand."""
 MOST_ATTRIBUTES = 500_000
@@ -66,7 +71,7 @@ class Element:
         return 1 + sum(child.size() for child in self.children)
 
 
-def read_xml(path: Path, kind: str, key: str = "", limit: int = LARGEST_FILE) -> Element:
+def read_xml(path: Path, kind: str, key: str = "", limit: int = LARGEST_MODEL) -> Element:
     """Return the outermost element of the XML file at `path`.
 
     Args:
@@ -119,13 +124,10 @@ def read_xml(path: Path, kind: str, key: str = "", limit: int = LARGEST_FILE) ->
 
 def _without_comments(path: Path, text: str) -> str:
     """Return the text without comments, in which the readers of robot files, unlike XML, allow "--"."""
-    pieces = []
-    end = 0
-    while (start := text.find("<!--", end)) >= 0:
-        pieces.append(text[end:start])
-        end = text.find("-->", start + len("<!--")) + len("-->")
-        if end < len("-->"):
-            line = text.count("\n", 0, start) + 1
-            raise InputError([Issue("this comment has no end; close it with -->", file=str(path), line=line, column=1)])
-        pieces.append("\n" * text.count("\n", start, end))
-    return "".join([*pieces, text[end:]])
+    end = text.rfind("-->") + len("-->") if "-->" in text else 0  # beyond it, the pattern would look in vain every time
+    whole = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text[:end]) + text[end:]
+    start = whole.find("<!--")
+    if start >= 0:
+        line = whole.count("\n", 0, start) + 1
+        raise InputError([Issue("this comment has no end; close it with -->", file=str(path), line=line, column=1)])
+    return whole

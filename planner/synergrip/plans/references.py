@@ -11,7 +11,7 @@ import numpy as np
 
 from synergrip.archives import NoArchiveError, read_arrays
 from synergrip.documents import read_document
-from synergrip.errors import InputError
+from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.tables import REFERENCES, read_table
 
@@ -63,7 +63,7 @@ def _from_json(path: Path) -> References:
     data = read_document(path, "plan", KEY, numbers=True).data
     if "dz_r" not in data or "time_s" not in data:
         verdict = data.get("verdict")
-        why = f"its verdict is '{verdict}'" if verdict else "dz_r and time_s are missing"
+        why = f"its verdict is '{shortened(str(verdict))}'" if verdict else "dz_r and time_s are missing"
         raise InputError.at(KEY, f"'{path}' holds no plan: {why}")
     return _references(path, data)
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import ConfigDict, Field
 
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.fields import (
     POSITIVE,
     Force,
@@ -189,8 +189,9 @@ class GoalTable(Table):
             message = f"the goal is given already by '{given[0]}'; several goals are written as order = [...]"
             yield Issue(message, key=name, on_key=True)
         settled = ""
+        twice = set(repeated(self.order or ()))
         for index, name in enumerate(self.order or ()):
-            if name in (self.order or ())[:index]:
+            if index in twice:
                 yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
             elif settled and name in FORCE_GOALS:
                 yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")
