@@ -24,13 +24,8 @@ def error_text(error: InputError, color: bool = False) -> str:
     blocks = ["\n".join(_block(issue, color)) for issue in error.issues]
     count = len(blocks)
     files = {issue.file for issue in error.issues if issue.file}
-    where = (
-        f" in {_clean(shortened(next(iter(files)), LONGEST_NAME))}"
-        if len(files) == 1
-        else f" in {len(files)} files"
-        if files
-        else ""
-    )
+    one = _clean(next(iter(files), ""), LONGEST_NAME)
+    where = f" in {one}" if len(files) == 1 else f" in {len(files)} files" if files else ""
     counted = f"{count} error{'s' if count != 1 else ''}{where}; nothing was solved."
     return "\n\n".join([*blocks, f"{counted}      exit code {error.exit_code}"])
 
