@@ -100,6 +100,14 @@ def _data(**changes: Any) -> str:
     return json.dumps({**json.loads(GRASP), **changes})
 
 
+def _large(n_q: int) -> str:
+    """Return a grasp of which only the joint compliance is wrong, and only by its eigenvalues."""
+    rows = np.random.default_rng(0).normal(size=(n_q, n_q))
+    C_q = np.round(rows + rows.T, 6) + np.eye(n_q)
+    np.fill_diagonal(C_q, 1.0)
+    return _data(J=rows[:9].tolist(), S=rows[:, :2].tolist(), C_q=C_q.tolist())
+
+
 def _changed(old: str, new: str) -> str:
     if HAND.count(old) != 1:
         raise ValueError(f"{old!r} must stand once in the problem")
@@ -139,9 +147,13 @@ add("link-to-a-folder", link("problem.toml", "."), PLAN, "is a directory", "prob
 add("memory-of-the-process", link("problem.toml", "/proc/self/mem"), PLAN, "cannot be read", "problem.toml")
 add("file-of-the-system", link("problem.toml", "/proc/self/environ"), PLAN, "", "problem.toml")
 add("size-0-in-proc", link("postures.csv", "/proc/self/maps"), FIT, "", "postures.csv")
+add("long-name-of-a-problem", text("x", lambda: ""), ("plan", "x" * 5000), "no such file")
 add("long-name", text("x.toml", lambda: ""), ("plan", "@/" + "x" * 5000 + ".toml"), "File name too long")
 add(
-    "long-name-of-a-plan", text("x", lambda: ""), ("check", "@/" + "x" * 5000 + ".npz", "barrett-ball-hold"), "too long"
+    "long-name-of-a-plan",
+    text("x", lambda: ""),
+    ("check", "@/" + "x" * 5000 + ".npz", "barrett-ball-hold"),
+    "there is no file",
 )
 
 
@@ -189,7 +201,7 @@ _problem("nested-tables", lambda: HAND + "[more]\nx = " + "{a=" * 20_000, "neste
 _problem("long-line", lambda: HAND + "[more]\n" + "x" * 900_000 + " = 1\n", "unknown key")
 _problem("long-value", lambda: _changed('"0.5 N"', '"' + "x" * 900_000 + '"'), "is not a force")
 _problem("blank-quantity", lambda: _changed('"0.5 N"', '"1' + " " * 900_000 + 'x"'), "is not a force")
-_problem("long-pad", lambda: _changed('"finger2/tip"', '"' + "x" * 900_000 + '"'), "is not one of")
+_problem("long-pad", lambda: _changed('"finger2/tip"', '"' + "x" * 900_000 + '"'), "a name has at most 500 characters")
 _problem("long-hand", lambda: _changed('"barrett"', '"' + "x/" * 400_000 + '"'), "neither a bundled hand")
 _problem("hand-of-dots", lambda: _changed('"barrett"', '"' + "../" * 300_000 + 'hand.xml"'), "")
 _problem("integer", lambda: _changed("knots = 11", "knots = " + "1" * 100_000), "too many digits")
@@ -239,6 +251,8 @@ _grasp(
 )
 _grasp("1500-by-1500", lambda: '{"G": [' + ",".join(["[" + "0," * 1499 + "0]"] * 1500) + "]}", "schema")
 _grasp("wide-text-in-a-row", lambda: _data(G=[["é", "\U0001f600"] * 5000] * 2), "G")
+_grasp("largest-indefinite", lambda: _large(1000), "is not positive semidefinite")
+_grasp("too-large", lambda: _large(1001), "is larger than 1000 rows or columns")
 _grasp("many-numbers", lambda: '{"G": [' + "0," * 8_000_000 + "0]}", "more than 3,000,000 numbers")
 _grasp("many-empty-lists", lambda: '{"G": [' + "[]," * 2_900_000 + "0]}", "500,000 lists")
 _grasp("many-keys", lambda: "{" + ",".join(f'"k{i}":0' for i in range(200_000)) + "}", "50,000 keys")

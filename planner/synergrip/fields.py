@@ -28,6 +28,7 @@ from synergrip.validation import MOST_JUDGED, refusing, shown
 
 Schema = dict[str, Any]
 
+LONGEST_NAME = 500  # characters
 SCHEMA_VERSION = 1  # of problem and grasp files
 
 NUMBER: Schema = {"type": "number"}
@@ -192,6 +193,8 @@ def _version(value: object) -> int:
 
 def _plain_name(value: str) -> str:
     """Return a name that can stand in the header of a CSV file."""
+    if len(value) > LONGEST_NAME:
+        raise InputError.at("", f"a name has at most {LONGEST_NAME} characters, got {len(value):,}")
     if any(mark in ',"\u2028\u2029' or unicodedata.category(mark).startswith("C") for mark in value):
         raise InputError.at("", f"a name may not hold commas, quotes or control characters, got {shown(value)}")
     return value

@@ -20,7 +20,7 @@ from synergrip.grasps.matrix_reading import Count, MatrixReader
 from synergrip.linalg import Array, frozen
 from synergrip.validation import shown
 
-MOST_CONTACTS = 500
+MOST_CONTACTS = 250
 UNIT = 1e-6  # how far the length of a normal may be from 1
 NO_LOAD = 1e-12  # N: a wrench that counts as none
 BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from os.path import isdir  # unlike that of Path, no error for a name that is too long
+from os.path import exists, isdir  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +48,8 @@ def read_references(path: Path, n_z: int) -> References:
     readers = {".json": _from_json, ".npz": _from_npz, ".csv": _from_csv}
     if path.suffix not in readers:
         raise InputError.at(KEY, f"'{path}' is no plan; expected a folder, or a file .json, .npz or .csv")
+    if not exists(path):
+        raise InputError.at(KEY, f"there is no file '{path}'")
     table = readers[path.suffix](path)
     if table.values.shape[1] != n_z:
         raise InputError.at(KEY, f"'{path}' has {table.values.shape[1]} synergy references, the grasp has n_z = {n_z}")
