@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -23,10 +24,11 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
-from synergrip.validation import refusing, shown
+from synergrip.validation import MOST_JUDGED, refusing, shown
 
 Schema = dict[str, Any]
 
+LONGEST_NAME = 500  # characters
 SCHEMA_VERSION = 1  # of problem and grasp files
 
 NUMBER: Schema = {"type": "number"}
@@ -44,7 +46,7 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _judge(self) -> Table:
-        found = tuple(self.issues())
+        found = tuple(islice(self.issues(), MOST_JUDGED))
         if found:
             raise PydanticCustomError("issues", "see issues", {"issues": found})
         return self
@@ -220,6 +222,8 @@ def _version(value: object) -> int:
 
 def _plain_name(value: str) -> str:
     """Return a name that can stand in the header of a CSV file."""
+    if len(value) > LONGEST_NAME:
+        raise InputError.at("", f"a name has at most {LONGEST_NAME} characters, got {len(value):,}")
     if any(mark in ',"\u2028\u2029' or unicodedata.category(mark).startswith("C") for mark in value):
         raise InputError.at("", f"a name may not hold commas, quotes or control characters, got {shown(value)}")
     return value

@@ -11,6 +11,7 @@ from typing import Any
 
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.positions import KeyPath, dotted, enclosing
+from synergrip.syntax import LONGEST_KEY, check_keys
 
 _PART = re.compile(r"""(?:"([^"]+)"|'([^']+)'|([^.\[\]"'\s=]+))((?:\[\d{1,9}\])*)(\.(?=.)|\Z)""")
 _BARE = re.compile(r"""[^.\[\]"'\s=]+""")
@@ -58,6 +59,8 @@ def parse_override(text: str) -> Override:
         path.append(part[1] or part[2] or part[3])
         path.extend(int(index) for index in re.findall(r"\d+", part[4]))
         position = part.end()
+    if len(path) > LONGEST_KEY:
+        raise _refuse(text, f"a key has at most {LONGEST_KEY} parts, got {len(path)}")
     return Override(text, tuple(path), _value(value.strip()))
 
 
@@ -89,6 +92,7 @@ def _split(text: str) -> tuple[str, str, str]:
 
 def _value(text: str) -> Any:
     try:
+        check_keys(text)
         table = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         return text

@@ -11,7 +11,7 @@ import re
 import sys
 from collections.abc import Sequence
 
-from synergrip.errors import InputError, suggest
+from synergrip.errors import InputError, shortened, suggest
 
 UNITS: dict[str, dict[str, float]] = {
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
@@ -45,7 +45,7 @@ EXAMPLES = {
 }  # fmt: skip
 
 LONGEST = 400
-"""Characters of a number; the pattern takes time that grows with the square of their count."""
+"""Characters of a number with its unit; the pattern takes time that grows with their square."""
 
 _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*\Z")
 
@@ -68,10 +68,11 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         plain = isinstance(text, int | float) and not isinstance(text, bool)
         wrote, shown = f"{text!r} has no unit; " if plain else "", without_unit(text, kind)
         raise InputError.at(key, f"{wrote}expected {article} {kind} such as {shown} (units: {listed})")
-    match = _NUMBER.match(text)
+    match = _NUMBER.match(text) if len(text) <= LONGEST else None
     if match is None:
         raise InputError.at(
-            key, f'{text!r} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})'
+            key,
+            f'{shortened(repr(text))} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})',
         )
     number, unit = float(match[1]), " ".join(match[2].split())
     if not unit:
@@ -82,7 +83,7 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         raise InputError.at(key, f"{why}; expected {article} {kind} (units: {listed}){suggest(unit, units)}")
     value = number * units[unit]
     if not math.isfinite(value):
-        raise InputError.at(key, f"{text!r} is not finite")
+        raise InputError.at(key, f"{shortened(text)!r} is not finite")
     return value
 
 
@@ -106,7 +107,7 @@ def without_unit(value: object, kind: str) -> str:
 
 def kind_of(text: object, kinds: Sequence[str]) -> str | None:
     """Return the one of `kinds` that has the unit of a quantity such as ``"10 mm"``; None if none of them has."""
-    match = _NUMBER.match(text) if isinstance(text, str) else None
+    match = _NUMBER.match(text) if isinstance(text, str) and len(text) <= LONGEST else None
     unit = " ".join(match[2].split()) if match else ""
     return next((kind for kind in kinds if unit in UNITS[kind]), None)
 
@@ -119,13 +120,13 @@ def ratio(value: object, key: str = "") -> float:
         try:
             result = float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(text)
         except (ValueError, ZeroDivisionError):
-            raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"') from None
+            raise InputError.at(key, f'{shortened(repr(value))} is not a number or a fraction such as "1/3"') from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
         result = float(value) if abs(value) < sys.float_info.max else math.inf
     else:
-        raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"')
+        raise InputError.at(key, f'{shortened(repr(value))} is not a number or a fraction such as "1/3"')
     if not math.isfinite(result):
-        raise InputError.at(key, f"{value!r} is not finite")
+        raise InputError.at(key, f"{shortened(repr(value))} is not finite")
     return result
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
-import zlib
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -13,6 +11,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from synergrip.archives import NoArchiveError, read_arrays
 from synergrip.conic.rows import Item, Kind
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
@@ -110,7 +109,7 @@ class Program:
         Raises:
             InputError: there is no such file, or something else is in it.
         """
-        unreadable = (OSError, EOFError, LookupError, ValueError, TypeError, zipfile.BadZipFile, zlib.error)
+        unreadable = (InputError, NoArchiveError, LookupError, ValueError, TypeError)
         try:
             return cls._read(Path(path))
         except unreadable as error:
@@ -119,22 +118,22 @@ class Program:
 
     @classmethod
     def _read(cls, path: Path) -> Program:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            header: dict[str, Any] = json.loads(str(stored["header"]))
-            n, m = len(stored["q"]), len(stored["b"])
-            blocks = tuple(
-                Block(
-                    b["limit"], Kind(b["kind"]), b["dim"], tuple(Item(*pair) for pair in b["items"]),
-                    b["first_knot"], b["knots"],
-                )
-                for b in header["blocks"]
-            )  # fmt: skip
-            matrices = [
-                sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
-                for k, shape in (("P", (n, n)), ("A", (m, n)))
-            ]
-            return cls(
-                matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
-                header["knots"], header["n_v"], frozen(stored["box"]),
-                frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
-            )  # fmt: skip
+        stored = read_arrays(path, None, "program")
+        header: dict[str, Any] = json.loads(str(stored["header"]))
+        n, m = len(stored["q"]), len(stored["b"])
+        blocks = tuple(
+            Block(
+                b["limit"], Kind(b["kind"]), b["dim"], tuple(Item(*pair) for pair in b["items"]),
+                b["first_knot"], b["knots"],
+            )
+            for b in header["blocks"]
+        )  # fmt: skip
+        matrices = [
+            sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
+            for k, shape in (("P", (n, n)), ("A", (m, n)))
+        ]
+        return cls(
+            matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
+            header["knots"], header["n_v"], frozen(stored["box"]),
+            frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
+        )  # fmt: skip

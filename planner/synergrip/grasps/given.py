@@ -37,7 +37,7 @@ def read_given(path: Path, key: str = "") -> Grasp:
     try:
         return given(matrices)
     except InputError as error:
-        raise error.located(read_document(path).locate) from None
+        raise error.located(read_document(path, numbers=True).locate) from None
 
 
 def given(matrices: Matrices) -> Grasp:

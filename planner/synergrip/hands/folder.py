@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
+from synergrip.errors import InputError, Issue, one_of, raise_issues, repeated, suggest
 from synergrip.files import bundled
 from synergrip.hands.bare import bare_hand
 from synergrip.hands.follower_ranges import FollowerRanges, led
@@ -192,8 +192,9 @@ def _hand(
 
 def _check_names(tree: LinkTree, names: Sequence[str]) -> None:
     issues = []
+    twice = set(repeated(names))
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if index in twice:
             issues.append(Issue(f"'{name}' is listed twice", key=f"joint[{index}].name"))
         elif name not in tree.moving:
             issues.append(Issue(f"moving joint {one_of(name, tree.moving)}", key=f"joint[{index}].name"))

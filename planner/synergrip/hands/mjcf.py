@@ -16,6 +16,9 @@ from synergrip.hands.mjcf_springs import Spring, joint_springs, tendon_springs
 from synergrip.hands.xml_elements import Element
 from synergrip.linalg import Array, frozen
 
+MOST_RELATIONS = 500
+"""Equalities, actuators or tendons."""
+
 _SPRINGDAMPER = re.compile(r' springdamper="[^"]*"')
 _LINE = re.compile(r"\bline (\d+)")
 _FRAME = re.compile(r"^(XML )?Error: |^Schema violation: |\s*Element( name)? '.*$", re.DOTALL)
@@ -108,13 +111,15 @@ def compiled(root: Element) -> Mjcf:
 
     source = kinematic_source(root)
     try:
-        model = mujoco.MjModel.from_xml_string(source.text)
+        model = mujoco.MjModel.from_xml_string(source.text, dict(source.files))
     except (ValueError, mujoco.FatalError) as error:
-        found = _LINE.search(str(error))
-        number = int(found[1]) if found else 0
-        element = source.lines[number - 1] if 1 <= number <= len(source.lines) else source.lines[0]
-        said = " ".join(_FRAME.sub("", _FRAME.sub("", str(error).strip())).split())
+        element = source.at([int(number) for number in reversed(_LINE.findall(str(error)))])
+        inmost = str(error).strip().rpartition("model file with error: ")[2]
+        said = " ".join(_FRAME.sub("", _FRAME.sub("", inmost)).split())
         raise element.refused(f"<{element.tag}>: MuJoCo says: {said}") from None
+    for count, what in ((model.neq, "equalities"), (model.nu, "actuators"), (model.ntendon, "tendons")):
+        if count > MOST_RELATIONS:
+            raise root.refused(f"the file has {count} {what}, and a hand has at most {MOST_RELATIONS}")
     kinds = tuple(mujoco.mjtJoint(kind).name.removeprefix("mjJNT_").lower() for kind in model.jnt_type)
     q = tuple(number for number, kind in enumerate(kinds) if kind in ("hinge", "slide"))
     spatial = tuple(number for number in range(model.ntendon) if not _fixed(model, number))
@@ -126,7 +131,7 @@ def compiled(root: Element) -> Mjcf:
         tuple(_equality(model, number, q, element) for number, element in _active(model, source)),
         _coefficients(model, q), spatial,
         tuple(_actuator(model, number, q) for number in range(model.nu)),
-        (*joint_springs(model, q, joints, _tuned(model, source.text)), *tendon_springs(model)),
+        (*joint_springs(model, q, joints, _tuned(model, source)), *tendon_springs(model)),
     )  # fmt: skip
 
 
@@ -201,11 +206,12 @@ def _actuator(model: Any, number: int, q: tuple[int, ...]) -> Actuator:
     )
 
 
-def _tuned(model: Any, text: str) -> NDArray[np.bool_]:
+def _tuned(model: Any, source: Source) -> NDArray[np.bool_]:
     """Return (n_j,) whether the stiffness is made from a springdamper: it is another one without."""
     import mujoco
 
-    without = _SPRINGDAMPER.sub("", text)
-    if without == text:
+    without = _SPRINGDAMPER.sub("", source.text)
+    files = {name: _SPRINGDAMPER.sub("", text.decode()).encode() for name, text in source.files.items()}
+    if (without, files) == (source.text, dict(source.files)):
         return np.zeros(model.njnt, dtype=bool)
-    return np.asarray(mujoco.MjModel.from_xml_string(without).jnt_stiffness != model.jnt_stiffness)
+    return np.asarray(mujoco.MjModel.from_xml_string(without, files).jnt_stiffness != model.jnt_stiffness)

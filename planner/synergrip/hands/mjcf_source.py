@@ -1,20 +1,21 @@
 """The part of an MJCF file that says how it moves, as one text for MuJoCo, with the place of every line.
 
 Everything else is left out before MuJoCo sees it, so that no missing mesh, texture or plugin can stop a hand from
-loading. Included files are put in where they are named.
+loading. Included files are put in where they are named, and attached models are read like the file itself: MuJoCo gets
+texts and opens no file.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os.path import isfile  # unlike Path.is_file, no error for a name that is too long
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from synergrip.documents import LARGEST_NUMBER
-from synergrip.hands.xml_elements import DEEPEST, Element, read_xml
+from synergrip.hands.mjcf_files import Amount, ModelFiles, expanded, real
+from synergrip.hands.xml_elements import LARGEST_MODEL, Element
 
 LEFT_OUT = {
     "camera", "config", "contact", "custom", "deformable", "extension", "flex", "flexcomp", "flexstrain", "flexvert",
@@ -39,6 +40,12 @@ ARMATURE = "1"
 BOUNDED = ("coef", "gear", "polycoef", "pos", "ref")
 LARGEST = 1e6
 """[m, rad or 1] Larger numbers are no place or ratio of a joint, and overflow in MuJoCo."""
+MOST_ATTRIBUTES = 100
+"""Of an element; MuJoCo knows some forty."""
+MOST_MODELS = 50
+"""To attach in one file; MuJoCo holds a copy of each."""
+MOST_ATTACHED = 10
+"""Models that attach models that attach models, and so on."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +57,21 @@ class Source:
     """The element of each line, as it stands in the user's file."""
     equalities: tuple[Element, ...]
     """In the order in which MuJoCo numbers them."""
-    actuators_left_out: tuple[str, ...] = ()
+    files: Mapping[str, bytes]
+    """Texts of all attached models, by the names that stand in `text` and in each other."""
+    attached: Mapping[str, Source]
+    """Those that this text names itself."""
+    actuators_left_out: tuple[str, ...]
     """Names of those that move joints in a way that is not read."""
+    amount: Amount
+    """What MuJoCo makes of it, once every replicate and attached model is put in."""
+
+    def at(self, lines: Sequence[int]) -> Element:
+        """Return the element at a line of the text, at a line of the model that is attached there, and so on."""
+        first, rest = (lines[0], lines[1:]) if lines else (0, ())
+        element = self.lines[first - 1] if 1 <= first <= len(self.lines) else self.lines[0]
+        model = self.attached.get(element.attributes.get("file", "")) if element.tag == "model" else None
+        return model.at(rest) if model and rest else element
 
     def place(self, tag: str, name: str) -> Element:
         """Return the element of that tag and name, or the outermost one."""
@@ -66,9 +86,27 @@ def kinematic_source(root: Element) -> Source:
         root: the element <mujoco> of the file.
 
     Raises:
-        InputError: an included file that cannot be read, a number that is not finite; with file and line.
+        InputError: an included or attached file that cannot be read, a model that attaches itself, too many elements, a
+            number that is not finite; with file and line.
     """
-    whole = replace(root, children=list(_with_includes(root, root.path.parent, [root.path.resolve()], 1)))
+    return _source(root, ModelFiles(max(LARGEST_MODEL - root.length, 0)), {}, ())
+
+
+def _source(root: Element, files: ModelFiles, done: dict[Path, tuple[str, Source]], above: tuple[Path, ...]) -> Source:
+    """Return the text for a file that the files `above` attach; `done` are all attached models, by their files."""
+    path = real(root.path)
+    whole = replace(root, children=list(files.with_includes(root, root.path.parent, [path])))
+    attached: dict[str, Source] = {}
+    named: dict[str, Amount] = {}
+    models = [model for asset in whole.all("asset") for model in asset.all("model")]
+    if len(models) > MOST_MODELS:
+        raise root.refused(f"the file names {len(models)} models to attach; expected at most {MOST_MODELS}")
+    for model in models:
+        name, child = _attached(model, files, done, (*above, path))
+        attached[name] = child
+        named[model.attributes.get("name") or child.lines[0].attributes.get("model", "")] = child.amount
+        model.attributes = {**model.attributes, "file": name}
+    amount = expanded(whole, named, LEFT_OUT | {"geom"})
     spatial = [tendon for part in whole.all("tendon") for tendon in part.all("spatial")]
     wrapped = {geom.attributes.get("geom", "") for tendon in spatial for geom in tendon.all("geom")}
     parts = list(_written(whole, "", wrapped))
@@ -76,25 +114,27 @@ def kinematic_source(root: Element) -> Source:
     equalities = [element for _, parent, element in parts if element is not None and parent == "equality"]
     actuators = [actuator for part in whole.all("actuator") for actuator in part.children]
     unread = [each.attributes.get("name", each.tag) for each in actuators if {*AT_A_PLACE} & {*each.attributes}]
-    return Source("".join(text for text, _, _ in parts), tuple(kept), tuple(equalities), tuple(unread))
+    text = "".join(text for text, _, _ in parts)
+    texts = {name: child.text.encode() for name, child in done.values()}
+    return Source(text, tuple(kept), tuple(equalities), texts, attached, tuple(unread), amount)
 
 
-def _with_includes(element: Element, folder: Path, opened: list[Path], depth: int) -> Iterator[Element]:
-    """Yield the children of `element`, with those of the included files (relative to `folder`) in their place."""
-    if depth > DEEPEST:
-        raise element.refused(f"elements are nested more than {DEEPEST} deep")
-    for child in element.children:
-        if child.tag != "include":
-            yield replace(child, children=list(_with_includes(child, folder, opened, depth + 1)))
-            continue
-        name = child.required("file")
-        path = next((p for p in (folder / name, child.path.parent / name) if isfile(p)), None)
-        if path is None:
-            raise child.refused(f"the included file '{folder / name}' is not there")
-        if path.resolve() in opened:
-            raise child.refused(f"'{name}' is included twice")
-        opened.append(path.resolve())
-        yield from _with_includes(read_xml(path, "MJCF file"), folder, opened, depth + 1)
+def _attached(
+    model: Element, files: ModelFiles, done: dict[Path, tuple[str, Source]], above: tuple[Path, ...]
+) -> tuple[str, Source]:
+    """Return the name that MuJoCo is to know the file of an element <model> by, and the text for it."""
+    path = model.path.parent / model.required("file")
+    if real(path) in above:
+        raise model.refused(f"the file '{path}' attaches itself" + (" through others" if len(above) > 1 else ""))
+    if len(above) > MOST_ATTACHED:
+        raise model.refused(f"attached models attach others more than {MOST_ATTACHED} deep")
+    if real(path) not in done:
+        root = files.read(model, path, "attached model")
+        if root.tag != "mujoco":
+            raise root.refused(f"an attached model is a <mujoco> (MJCF), not a <{root.tag}>")
+        source = _source(root, files, done, above)
+        done[real(path)] = f"{len(done)}.xml", source
+    return done[real(path)]
 
 
 def _written(element: Element, parent: str, wrapped: set[str]) -> Iterator[tuple[str, str, Element | None]]:
@@ -135,8 +175,6 @@ def _kept(element: Element, parent: str, wrapped: set[str]) -> tuple[str, dict[s
         return tag, {name: attributes[name] for name in COMPILER if name in attributes}
     if tag == "joint" and parent in ("body", "frame"):
         attributes["armature"] = ARMATURE
-    if parent == "asset" and "file" in attributes:
-        attributes["file"] = str((element.path.parent / attributes["file"]).resolve())
     return tag, attributes
 
 
@@ -151,8 +189,11 @@ def _wrapping(element: Element, parent: str, wrapped: set[str]) -> tuple[str, di
 
 
 def _check_numbers(element: Element, attributes: dict[str, str]) -> None:
-    """Refuse the numbers at which MuJoCo writes a log file beside its answer."""
+    """Refuse the numbers at which MuJoCo writes a log file beside its answer, and what has no end."""
+    if len(attributes) > MOST_ATTRIBUTES:
+        raise element.refused(f"<{element.tag}> has {len(attributes):,} attributes; expected at most {MOST_ATTRIBUTES}")
     for name, text in attributes.items():
+        element.check_length(name)
         for part in text.split():
             try:
                 value = float(part)

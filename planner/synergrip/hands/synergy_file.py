@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues
+from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues, repeated
 from synergrip.fields import Name, Number, Table, Version
 from synergrip.files import IMPOSSIBLE, atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
@@ -20,6 +20,8 @@ from synergrip.linalg import Array, frozen
 
 SUFFIX = ".toml"
 """What the name of a synergy file ends in."""
+MOST = 1000
+"""Joints, or synergies."""
 AGREEMENT = 1e-6
 """How far the row of a follower may be from what its coupling says, relative to the largest entry of S."""
 
@@ -29,8 +31,10 @@ class SynergyFile(Table):
 
     version: Version = Field(alias="schema", description="1")
     title: str = Field(default="", description="what it is, for people")
-    joints: tuple[Name, ...] = Field(min_length=1, description="names of the joints, one for each row")
-    synergies: tuple[Name, ...] = Field(min_length=1, description="names of the synergies, one for each column")
+    joints: tuple[Name, ...] = Field(min_length=1, max_length=MOST, description="names of the joints, one for each row")
+    synergies: tuple[Name, ...] = Field(
+        min_length=1, max_length=MOST, description="names of the synergies, one for each column"
+    )
     S: tuple[tuple[Number, ...], ...] = Field(description="synergy matrix, a row for each joint")
     offset: tuple[Number, ...] | None = Field(default=None, description="joint values at z = 0; 0 when absent")
     explained_variance: tuple[Number, ...] | None = Field(
@@ -44,9 +48,8 @@ class SynergyFile(Table):
         """Refuse names that stand twice and lists that do not fit each other."""
         for key in ("joints", "synergies"):
             names = getattr(self, key)
-            for index, name in enumerate(names):
-                if name in names[:index]:
-                    yield Issue(f"'{name}' is listed twice", key=f"{key}[{index}]")
+            for index in repeated(names):
+                yield Issue(f"'{names[index]}' is listed twice", key=f"{key}[{index}]")
         if len(self.S) != len(self.joints):
             yield Issue(f"{len(self.S)} rows for {len(self.joints)} joints", key="S")
         for index, row in enumerate(self.S):

@@ -70,7 +70,10 @@ class LinkTree:
 
 def order_of_links(root: str, joints: Mapping[str, TreeJoint]) -> Iterator[str]:
     """Yield the links that hang on `root`, parents before their children."""
+    children: dict[str, list[str]] = {}
+    for joint in joints.values():
+        children.setdefault(joint.parent, []).append(joint.child)
     waiting = [root]
     for link in waiting:
         yield link
-        waiting += [joint.child for joint in joints.values() if joint.parent == link]
+        waiting += children.pop(link, [])  # each link once, also where joints form a loop

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from synergrip.documents import LARGEST_NUMBER
-from synergrip.errors import InputError, one_of
+from synergrip.errors import MOST_NAMES, InputError, one_of, shortened
 from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling
 from synergrip.hands.synergies import coupling_map
@@ -81,6 +81,7 @@ def _plain(root: Element) -> None:
 
 
 def _numbers(element: Element, attribute: str, default: str, below: float = LARGEST_NUMBER) -> tuple[float, ...]:
+    element.check_length(attribute)
     text = element.attributes.get(attribute, default)
     count = len(default.split())
     try:
@@ -148,21 +149,28 @@ def _effort(limit: Element) -> float:
 def _order(root: Element, names: list[str], joints: dict[str, TreeJoint]) -> list[str]:
     """Return the links, parents before their children."""
     parents: dict[str, str] = {}
+    there = set(names)
     for element, joint in zip(root.all("joint"), joints.values(), strict=True):
         for end in (joint.parent, joint.child):
-            if end not in names:
+            if end not in there:
                 raise element.refused(f"joint '{joint.name}': link {one_of(end, names)}")
         if joint.child in parents:
             raise element.refused(f"link '{joint.child}' is the child of two joints")
         parents[joint.child] = joint.parent
     roots = [name for name in names if name not in parents]
     if len(roots) > 1:
-        raise root.refused(f"one link is the palm, but {', '.join(map(repr, roots))} are no child of a joint")
+        raise root.refused(f"one link is the palm, but {_listed(roots)} are no child of a joint")
     order = list(order_of_links(roots[0], joints)) if roots else []
     if len(order) < len(names):
-        rest = ", ".join(repr(name) for name in names if name not in order)
-        raise root.refused(f"the links {rest} form a loop; a hand is a tree")
+        reached = set(order)
+        rest = [name for name in names if name not in reached]
+        raise root.refused(f"the links {_listed(rest)} form a loop; a hand is a tree")
     return order
+
+
+def _listed(names: Sequence[str]) -> str:
+    some = ", ".join(repr(shortened(name)) for name in names[:MOST_NAMES])
+    return some if len(names) <= MOST_NAMES else f"{some}, ... ({len(names)} links)"
 
 
 def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str]) -> dict[str, Coupling]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os.path import exists, isdir  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 
 import numpy as np
 
+from synergrip.archives import NoArchiveError, read_arrays
 from synergrip.documents import read_document
-from synergrip.errors import InputError
+from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.tables import REFERENCES, read_table
 
@@ -42,12 +43,12 @@ def read_references(path: Path, n_z: int) -> References:
     Raises:
         InputError: no such file, no plan in it, or another number of synergies.
     """
-    if path.is_dir():
+    if isdir(path):
         path = path / "plan.json"
     readers = {".json": _from_json, ".npz": _from_npz, ".csv": _from_csv}
     if path.suffix not in readers:
         raise InputError.at(KEY, f"'{path}' is no plan; expected a folder, or a file .json, .npz or .csv")
-    if not path.is_file():
+    if not exists(path):
         raise InputError.at(KEY, f"there is no file '{path}'")
     table = readers[path.suffix](path)
     if table.values.shape[1] != n_z:
@@ -61,22 +62,22 @@ def _from_csv(path: Path) -> References:
 
 
 def _from_json(path: Path) -> References:
-    data = read_document(path, "plan", KEY).data
+    data = read_document(path, "plan", KEY, numbers=True).data
     if "dz_r" not in data or "time_s" not in data:
         verdict = data.get("verdict")
-        why = f"its verdict is '{verdict}'" if verdict else "dz_r and time_s are missing"
+        why = f"its verdict is '{shortened(str(verdict))}'" if verdict else "dz_r and time_s are missing"
         raise InputError.at(KEY, f"'{path}' holds no plan: {why}")
     return _references(path, data)
 
 
 def _from_npz(path: Path) -> References:
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            if "dz_r" not in stored or "time_s" not in stored:
-                raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
-            return _references(path, dict(stored))
-    except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
+        stored = read_arrays(path, ("dz_r", "time_s", *STORED), "plan", KEY)
+    except NoArchiveError as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
+    if "dz_r" not in stored or "time_s" not in stored:
+        raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
+    return _references(path, stored)
 
 
 def _references(path: Path, data: Mapping[str, object]) -> References:

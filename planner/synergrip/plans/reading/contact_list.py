@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from synergrip.errors import Issue, raise_issues
+from synergrip.errors import Issue, raise_issues, repeated
 from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
 
 
@@ -136,12 +136,11 @@ def _judge(shared: ContactsTable, entry: ContactEntry, table: str) -> Iterator[I
 
 
 def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[Issue]:
-    for index, pad in enumerate(shared.at):
-        if pad in shared.at[:index]:
-            yield Issue(f"pad '{pad}' is named twice", f"contacts.at[{index}]")
+    for index in repeated(shared.at):
+        yield Issue(f"pad '{shared.at[index]}' is named twice", f"contacts.at[{index}]")
     pads = [entry.at for entry in entries]
-    for index, at in enumerate(pads):
-        if at is not None and at in pads[:index]:
+    for index in repeated(pads):
+        if (at := pads[index]) is not None:
             yield Issue(f"pad '{at}' is named twice (first in contact[{pads.index(at)}])", f"contact[{index}].at")
 
 

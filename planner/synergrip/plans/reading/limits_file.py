@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import ConfigDict, Field
 
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.fields import (
     POSITIVE,
     Force,
@@ -212,9 +212,9 @@ class GoalTable(Table):
 
 def _order_issues(order: Sequence[str]) -> Iterator[Issue]:
     """Yield what is wrong with goals in order."""
-    settled = ""
+    settled, twice = "", set(repeated(order))
     for index, name in enumerate(order):
-        if name in order[:index]:
+        if index in twice:
             yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
         elif settled and name in FORCE_GOALS:
             yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.errors import InputError, Issue
+from synergrip.errors import InputError, Issue, repeated
 from synergrip.fields import (
     NUMBER,
     Size,
@@ -38,6 +38,7 @@ from synergrip.validation import shown
 _COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 _COMPONENT = {"anyOf": [NUMBER, unit_schema("force", "torque")]}
 _ACCELERATION = {"anyOf": [NUMBER, unit_schema("acceleration")]}
+MOST_KNOTS = 100_000
 
 
 def _wrench(value: object) -> str | tuple[float, ...]:
@@ -63,7 +64,7 @@ class TaskTable(Table):
     """What is to happen."""
 
     duration: Time = Field(default="1 s", validate_default=True, description="duration of the task")
-    knots: Annotated[Whole, Field(ge=1, le=100_000)] | None = Field(
+    knots: Annotated[Whole, Field(ge=1, le=MOST_KNOTS)] | None = Field(
         default=None, description="number of instants at which the plan is made, evenly spaced"
     )
     gravity: Annotated[tuple[float, ...] | None, Written(_gravity, array_of(_ACCELERATION, 3))] = Field(
@@ -145,8 +146,7 @@ class TaskTable(Table):
         if self.tracking == "compliant" and self.tolerance is None:
             message = "compliant tracking needs 'tolerance', how far the object may be from where it is wanted: "
             yield Issue(message + 'write for example tolerance = "0.5 mm"', key="tracking")
-        for index, axis in enumerate(self.axes):
-            if axis in self.axes[:index]:
-                yield Issue(f"'{axis}' is listed twice", key=f"axes[{index}]")
+        for index in repeated(self.axes):
+            yield Issue(f"'{self.axes[index]}' is listed twice", key=f"axes[{index}]")
         if self.drift is not None and len(self.axes) == len(AXES):
             yield Issue("'drift' is for the axes that 'axes' leaves out, and it leaves none", key="drift", on_key=True)
