@@ -100,7 +100,7 @@ class Program:
         for name, matrix in (("P", self.P), ("A", self.A)):
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
         with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
-            np.savez_compressed(stream, allow_pickle=False, **arrays)
+            np.savez_compressed(stream, **arrays)  # type: ignore[arg-type]
 
     @classmethod
     def load(cls, path: str | Path) -> Program:
@@ -113,7 +113,8 @@ class Program:
         try:
             return cls._read(Path(path))
         except unreadable as error:
-            reason = str(error) or type(error).__name__
+            said = error.issues[0].message if isinstance(error, InputError) else str(error)
+            reason = said or type(error).__name__
             raise InputError.at("", f"'{path}' holds no saved program ({reason})") from error
 
     @classmethod

@@ -86,4 +86,4 @@ def _write_npz(path: Path, plan: Plan) -> None:
         "contacts": np.array([contact.name for contact in grasp.contacts]),
     }  # fmt: skip
     with path.open("wb") as stream:
-        np.savez(stream, allow_pickle=False, **arrays)
+        np.savez(stream, **arrays)  # type: ignore[arg-type]
