@@ -49,7 +49,7 @@ def test_every_kind_has_an_si_unit(kind):
         ("10", "length", 'missing unit; write "10 mm"'),
         (10, "length", '10 has no unit; expected a length such as "10 mm"'),
         (40, "force", 'such as "40 N" (units: N, mN, kN)'),
-        (0.2, "mass", 'such as "0.2 g"'),
+        (0.2, "mass", 'such as "0.2 kg" (units'),
         (8, "stiffness", 'such as "8 N/mm"'),
         ("2", "joint compliance", 'write "2 rad/(N m)"'),
         ("\u0661\u0660 mm", "length", "is not a length"),

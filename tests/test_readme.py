@@ -30,13 +30,31 @@ def following(language: str) -> list[tuple[str, str]]:
     return [(code, shown) for (kind, code), (after, shown) in pairs if kind == language and after == "text"]
 
 
+def words(text: str) -> list[str]:
+    """The text without its numbers and the spaces that align it."""
+    return re.sub(NUMBER, "#", text).split()
+
+
+def numbers(text: str) -> list[str]:
+    return re.findall(NUMBER, text)
+
+
+def last_digit(number: str) -> float:
+    """What one more in the last digit is worth; nothing in a number without a fraction, which counts or names."""
+    digits = len(number.partition(".")[2])
+    return 10.0**-digits if digits else 0.0
+
+
 @pytest.mark.parametrize(("code", "shown"), following("bash"), ids=["plan", "no", "analyse", "trajectory", "table"])
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
     arguments = code.split(".venv/bin/synergrip ")[-1].split()
     run = subprocess.run(
         [sys.executable, "-m", "synergrip", *arguments], capture_output=True, text=True, cwd=tmp_path, check=False
     )
-    assert VOLATILE.sub("#", run.stdout.rstrip("\n")) == VOLATILE.sub("#", shown), run.stderr
+    printed, expected = (VOLATILE.sub("#", text.rstrip("\n")) for text in (run.stdout, shown))
+    assert words(printed) == words(expected), run.stderr
+    for number, other in zip(numbers(printed), numbers(expected), strict=True):
+        assert abs(float(number) - float(other)) <= 1.01 * last_digit(other), (number, other)
 
 
 @pytest.mark.parametrize(("code", "shown"), following("python"))
@@ -44,7 +62,9 @@ def test_python_prints_what_is_shown(code: str, shown: str) -> None:
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec(compile(code, "README.md", "exec"), {})
-    assert printed.getvalue().rstrip("\n") == shown
+    assert words(printed.getvalue()) == words(shown)
+    for number, other in zip(numbers(printed.getvalue()), numbers(shown), strict=True):
+        assert abs(float(number) - float(other)) <= 1.01 * last_digit(other), (number, other)
 
 
 def test_every_block_is_run() -> None:

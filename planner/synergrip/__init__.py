@@ -5,10 +5,10 @@ The public names, in the order of the pipeline; each is loaded when it is first 
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # that of typing, which the command line has no time to import before it hears Ctrl-C
 if TYPE_CHECKING:
+    from typing import Any
+
     from synergrip.conic.certificate import Certificate as Certificate
     from synergrip.conic.program import Program as Program
     from synergrip.errors import InputError as InputError
@@ -59,4 +59,6 @@ def __getattr__(name: str) -> Any:
     """Import a public name from its home on first use."""
     if name not in _HOME_OF:
         raise AttributeError(f"module 'synergrip' has no attribute {name!r}")
+    from importlib import import_module
+
     return getattr(import_module(f"synergrip.{_HOME_OF[name]}"), name)

@@ -7,13 +7,20 @@ that explains them (a free twist, a contact component, a direction).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import numpy as np
+
+MOST_ISSUES = 20
+"""Of one error; more than that nobody reads."""
+MOST_NAMES = 60
+"""Names that a message lists."""
+LONGEST_NAME = 80
+"""Characters of a name that a message shows."""
 
 
 @dataclass(frozen=True)
@@ -52,8 +59,8 @@ class InputError(SynergripError):
     """Bad input: nothing was solved. Carries every issue found, in file order."""
 
     def __init__(self, issues: Sequence[Issue]) -> None:
-        """Carry `issues`, of which there is at least one."""
-        self.issues = tuple(issues)
+        """Carry `issues`, of which there is at least one; of very many the first ones, and how many more there are."""
+        self.issues = _first(issues)
         super().__init__("\n".join(str(issue) for issue in self.issues))
 
     @classmethod
@@ -68,6 +75,14 @@ class InputError(SynergripError):
     def under(self, prefix: str) -> InputError:
         """Return the same error with `prefix` in front of every key; issues that have their place already keep it."""
         return type(self)([i if i.file else replace(i, key=_joined(prefix, i.key)) for i in self.issues])
+
+
+def _first(issues: Sequence[Issue]) -> tuple[Issue, ...]:
+    if len(issues) <= MOST_ISSUES:
+        return tuple(issues)
+    last = issues[MOST_ISSUES - 1]
+    more = f"{last.message} (and {len(issues) - MOST_ISSUES} more in this file)"
+    return (*issues[: MOST_ISSUES - 1], replace(last, message=more))
 
 
 def _joined(prefix: str, key: str) -> str:
@@ -134,6 +149,17 @@ class InterruptError(SynergripError):
     exit_code = 130
 
 
+class OutputError(SynergripError):
+    """What was found could not be written or printed. What was written before stands."""
+
+    exit_code = 5
+
+    def __init__(self, message: str, key: str = "") -> None:
+        """Say what could not be written, and the option that names it."""
+        super().__init__(message)
+        self.key = key
+
+
 class SelfCheckError(SynergripError):
     """The program's own answer failed the program's own check: a defect of synergrip."""
 
@@ -148,13 +174,34 @@ def raise_issues(issues: Sequence[Issue]) -> None:
 
 def suggest(word: str, valid: Iterable[str]) -> str:
     """Return ``; did you mean 'x'?`` for the nearest valid word, or an empty string."""
-    close = get_close_matches(str(word), list(valid), n=1, cutoff=0.6)
+    if len(word) > LONGEST_NAME:
+        return ""  # no misspelling of anything, and slow to compare
+    near = [name for name in valid if len(name) <= 2 * LONGEST_NAME]
+    close = get_close_matches(str(word), near, n=1, cutoff=0.6)
     return f"; did you mean '{close[0]}'?" if close else ""
 
 
 def one_of(word: object, valid: Iterable[str]) -> str:
     """Return the message for a word that is none of the `valid` ones."""
     names = list(valid)
-    listed = ", ".join(f"'{name}'" for name in names[:-1])
-    listed = f"{listed} or '{names[-1]}'" if listed else f"'{names[-1]}'" if names else "(none)"
-    return f"{word!r} is not {'one of ' if len(names) > 1 else ''}{listed}{suggest(str(word), names)}"
+    listed = ", ".join(f"'{shortened(name)}'" for name in names[: min(len(names) - 1, MOST_NAMES)])
+    last = f"'{shortened(names[-1])}'" if names else "(none)"
+    if len(names) > MOST_NAMES + 1:
+        listed, last = f"{listed}, ...", f"{last} ({len(names)} names)"
+    listed = f"{listed} or {last}" if listed else last
+    told = shortened(repr(word)) if isinstance(word, str | int | float) else repr(word)
+    return f"{told} is not {'one of ' if len(names) > 1 else ''}{listed}{suggest(str(word), names)}"
+
+
+def repeated(names: Iterable[Hashable]) -> Iterator[int]:
+    """Yield the indices of names that stood before."""
+    seen: set[Hashable] = set()
+    for index, name in enumerate(names):
+        if name in seen:
+            yield index
+        seen.add(name)
+
+
+def shortened(text: str, most: int = LONGEST_NAME) -> str:
+    """Return a text as a message shows it: its beginning when it is very long."""
+    return text if len(text) <= most else f"{text[: most - 3]}..."

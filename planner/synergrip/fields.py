@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -22,11 +23,12 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import InputError, Issue, raise_issues
-from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio
-from synergrip.validation import refusing, shown
+from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
+from synergrip.validation import MOST_JUDGED, refusing, shown
 
 Schema = dict[str, Any]
 
+LONGEST_NAME = 500  # characters
 SCHEMA_VERSION = 1  # of problem and grasp files
 
 NUMBER: Schema = {"type": "number"}
@@ -44,7 +46,7 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _judge(self) -> Table:
-        found = tuple(self.issues())
+        found = tuple(islice(self.issues(), MOST_JUDGED))
         if found:
             raise PydanticCustomError("issues", "see issues", {"issues": found})
         return self
@@ -73,12 +75,35 @@ def number(value: object, *, above: float = -math.inf, at_least: float = -math.i
         InputError: no number, not finite, not greater than `above` or less than `at_least`.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
-        plain = re.match(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\b", value.strip()) if isinstance(value, str) else None
-        advice = f"; there is no unit here, write {plain[0]}" if plain else ""
-        raise InputError.at("", f"expected a number, got {shown(value)}{advice}")
+        raise InputError.at("", f"expected a number, got {shown(value)}{_as_number(value)}")
     if not math.isfinite(value):
         raise InputError.at("", f"{value} is not a finite number")
     return bounded(float(value), shown(value), above=above, at_least=at_least)
+
+
+def _as_number(value: object) -> str:
+    """Return the advice how a text with a number in it is written where no unit stands: in SI, and of the same size."""
+    kind = kind_of(value, tuple(UNITS))
+    try:
+        size = quantity(value, kind) if kind else ratio(value.strip() if isinstance(value, str) else None)
+    except InputError:
+        return ""
+    return f"; there is no unit here, write {size:.12g}"
+
+
+def number_or(kind: str) -> Callable[[Any], float]:
+    """Return the function that reads a quantity of `kind` with its unit, or a plain number in SI."""
+
+    def read(value: object) -> float:
+        if not isinstance(value, str):
+            return number(value)
+        if not any(mark.isdigit() for mark in value):
+            raise InputError.at(
+                "", f'expected a number, got {shown(value)}; or with a unit, such as "{EXAMPLES[kind]}"'
+            )
+        return bounded(quantity(value, kind), shown(value))
+
+    return read
 
 
 def bounded(value: float, text: str, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
@@ -100,17 +125,23 @@ def listed(
         raise InputError.at("", f"expected a list of {length or 'one or more'} {of}, got {shown(value)}")
     if (len(value) != length) if length is not None else not value:
         raise InputError.at("", f"expected {length or 'one or more'} {of}, got {len(value)}")
-    return _each(read, [(f"[{index}]", entry) for index, entry in enumerate(value)])
+    return _each([(f"[{index}]", read, entry) for index, entry in enumerate(value)])
+
+
+def listed_by(reads: Sequence[Callable[[Any], Any]], value: object, of: str) -> tuple[Any, ...]:
+    """Return the entries of a list, each read by its own function, with all their issues at once."""
+    entries = listed(lambda entry: entry, value, len(reads), of)
+    return _each([(f"[{index}]", *pair) for index, pair in enumerate(zip(reads, entries, strict=True))])
 
 
 def named(read: Callable[[Any], Any], value: dict[str, Any]) -> dict[str, Any]:
     """Return a table of names, each value read by `read`, with all their issues at once."""
-    return dict(zip(value, _each(read, list(value.items())), strict=True))
+    return dict(zip(value, _each([(key, read, entry) for key, entry in value.items()]), strict=True))
 
 
-def _each(read: Callable[[Any], Any], entries: list[tuple[str, Any]]) -> tuple[Any, ...]:
+def _each(entries: list[tuple[str, Callable[[Any], Any], Any]]) -> tuple[Any, ...]:
     results, issues = [], list[Issue]()
-    for key, entry in entries:
+    for key, read, entry in entries:
         try:
             results.append(read(entry))
         except InputError as error:
@@ -151,7 +182,7 @@ def either(
             try:
                 quantity(value, turning)
             except InputError as error:
-                message = f'{error.issues[0].message}; a slide takes a {sliding} such as "{EXAMPLES[sliding]}"'
+                message = f"{error.issues[0].message}; a slide takes a {sliding} such as {without_unit(value, sliding)}"
                 raise InputError.at("", message) from None
         found = kind or turning
         return Measured(
@@ -191,6 +222,8 @@ def _version(value: object) -> int:
 
 def _plain_name(value: str) -> str:
     """Return a name that can stand in the header of a CSV file."""
+    if len(value) > LONGEST_NAME:
+        raise InputError.at("", f"a name has at most {LONGEST_NAME} characters, got {len(value):,}")
     if any(mark in ',"\u2028\u2029' or unicodedata.category(mark).startswith("C") for mark in value):
         raise InputError.at("", f"a name may not hold commas, quotes or control characters, got {shown(value)}")
     return value

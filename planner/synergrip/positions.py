@@ -94,16 +94,23 @@ def positions(text: str, suffix: str) -> Positions:
     return walk.found
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Walk:
     lines: list[bytes]
     found: Positions
+    reached: tuple[int, int, int] = (0, 0, 0)
+    """Row, bytes and characters up to the last place: lines may be long, and places come mostly in order."""
 
     def span(self, node: Node) -> Span:
         (row, start), (last, end) = node.start_point, node.end_point
         line = self.lines[row]
         stop = end if last == row else len(line)
-        return Span(row + 1, len(line[:start].decode()) + 1, max(len(line[start:stop].decode()), 1))
+        last_row, last_byte, characters = self.reached
+        if row != last_row or start < last_byte:
+            last_byte, characters = 0, 0
+        characters += len(line[last_byte:start].decode())
+        self.reached = row, start, characters
+        return Span(row + 1, characters + 1, max(len(line[start:stop].decode()), 1))
 
     def toml(self, root: Node) -> None:
         counts: dict[str, int] = {}

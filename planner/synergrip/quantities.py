@@ -11,7 +11,7 @@ import re
 import sys
 from collections.abc import Sequence
 
-from synergrip.errors import InputError, suggest
+from synergrip.errors import InputError, shortened, suggest
 
 UNITS: dict[str, dict[str, float]] = {
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6},
@@ -24,8 +24,16 @@ UNITS: dict[str, dict[str, float]] = {
     "spin stiffness": {"N m/rad": 1.0, "N mm/rad": 1e-3},
     "joint compliance": {"rad/(N m)": 1.0, "deg/(N m)": math.pi / 180, "mrad/(N m)": 1e-3},
     "slide compliance": {"m/N": 1.0, "mm/N": 1e-3},
+    "acceleration": {"m/s^2": 1.0, "m/s²": 1.0, "mm/s^2": 1e-3},
 }
-"""Unit -> factor to SI, for each kind of quantity."""
+"""Unit -> factor to SI, for each kind of quantity; the SI unit first."""
+
+USUAL: dict[str, tuple[float, float]] = {
+    "length": (1e-6, 3.0), "angle": (1e-3, 7.0), "mass": (1e-4, 50.0), "time": (1e-4, 3600.0), "force": (1e-4, 1e4),
+    "torque": (1e-5, 1e3), "stiffness": (50.0, 1e9), "spin stiffness": (1e-3, 1e5), "joint compliance": (1e-6, 10.0),
+    "slide compliance": (1e-9, 0.1), "acceleration": (1e-2, 1e3),
+}  # fmt: skip
+"""Sizes in SI that a hand and what it holds have. A number without a unit beyond them is hardly meant in SI."""
 
 SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N m": (1.0, "N m")}
 """SI unit -> the factor and the unit in which people read it."""
@@ -33,8 +41,11 @@ SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N
 EXAMPLES = {
     "length": "10 mm", "angle": "5 deg", "mass": "200 g", "time": "2 s", "force": "0.5 N", "torque": "1.5 N m",
     "stiffness": "8 N/mm", "spin stiffness": "2 N m/rad", "joint compliance": "0.025 rad/(N m)",
-    "slide compliance": "0.1 mm/N",
+    "slide compliance": "0.1 mm/N", "acceleration": "9.81 m/s^2",
 }  # fmt: skip
+
+LONGEST = 400
+"""Characters of a number with its unit; the pattern takes time that grows with their square."""
 
 _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*\Z")
 
@@ -51,33 +62,52 @@ def quantity(text: object, kind: str, key: str = "") -> float:
         InputError: no number, no unit, an unknown unit or a unit of another kind.
     """
     units = UNITS[kind]
-    listed, usual = ", ".join(units), EXAMPLES[kind].partition(" ")[2]
+    listed = ", ".join(units)
     article = "an" if kind[0] in "aeiou" else "a"
     if isinstance(text, bool) or not isinstance(text, str):
-        wrote = f"{text!r} has no unit; " if isinstance(text, int | float) and not isinstance(text, bool) else ""
-        shown = f"{text:g} {usual}" if wrote else EXAMPLES[kind]
-        raise InputError.at(key, f'{wrote}expected {article} {kind} such as "{shown}" (units: {listed})')
-    match = _NUMBER.match(text)
+        plain = isinstance(text, int | float) and not isinstance(text, bool)
+        wrote, shown = f"{text!r} has no unit; " if plain else "", without_unit(text, kind)
+        raise InputError.at(key, f"{wrote}expected {article} {kind} such as {shown} (units: {listed})")
+    match = _NUMBER.match(text) if len(text) <= LONGEST else None
     if match is None:
         raise InputError.at(
-            key, f'{text!r} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})'
+            key,
+            f'{shortened(repr(text))} is not {article} {kind}; write for example "{EXAMPLES[kind]}" (units: {listed})',
         )
     number, unit = float(match[1]), " ".join(match[2].split())
     if not unit:
-        raise InputError.at(key, f'missing unit; write "{match[1]} {usual}" (units: {listed})')
+        raise InputError.at(key, f"missing unit; write {without_unit(match[1], kind)} (units: {listed})")
     if unit not in units:
         other = next((name for name, table in UNITS.items() if unit in table), "")
         why = f"'{unit}' is a unit of {other}" if other else f"unknown unit '{unit}'"
         raise InputError.at(key, f"{why}; expected {article} {kind} (units: {listed}){suggest(unit, units)}")
     value = number * units[unit]
     if not math.isfinite(value):
-        raise InputError.at(key, f"{text!r} is not finite")
+        raise InputError.at(key, f"{shortened(text)!r} is not finite")
     return value
+
+
+def without_unit(value: object, kind: str) -> str:
+    """Return how a number without a unit is written as a quantity, in quotes; an example of the kind for anything else.
+
+    A plain number is one in SI. When that is no usual size of the kind, a unit in which the same number is one comes
+    before it.
+    """
+    text = "" if isinstance(value, bool) or not isinstance(value, int | float | str) else str(value)
+    match = _NUMBER.match(text) if len(text) <= LONGEST else None
+    if match is None or match[2]:
+        return f'"{EXAMPLES[kind]}"'
+    units = UNITS[kind]
+    size, (least, most) = abs(float(match[1])), USUAL[kind]
+    example = EXAMPLES[kind].partition(" ")[2]
+    others = [unit for unit in (example, *units) if least <= size * units[unit] <= most]
+    meant = [*([] if size == 0 or least <= size <= most else others[:1]), next(iter(units))]
+    return " or ".join(f'"{match[1]} {unit}"' for unit in meant)
 
 
 def kind_of(text: object, kinds: Sequence[str]) -> str | None:
     """Return the one of `kinds` that has the unit of a quantity such as ``"10 mm"``; None if none of them has."""
-    match = _NUMBER.match(text) if isinstance(text, str) else None
+    match = _NUMBER.match(text) if isinstance(text, str) and len(text) <= LONGEST else None
     unit = " ".join(match[2].split()) if match else ""
     return next((kind for kind in kinds if unit in UNITS[kind]), None)
 
@@ -90,13 +120,13 @@ def ratio(value: object, key: str = "") -> float:
         try:
             result = float(parts[0]) / float(parts[1]) if len(parts) == 2 else float(text)
         except (ValueError, ZeroDivisionError):
-            raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"') from None
+            raise InputError.at(key, f'{shortened(repr(value))} is not a number or a fraction such as "1/3"') from None
     elif isinstance(value, int | float) and not isinstance(value, bool):
         result = float(value) if abs(value) < sys.float_info.max else math.inf
     else:
-        raise InputError.at(key, f'{value!r} is not a number or a fraction such as "1/3"')
+        raise InputError.at(key, f'{shortened(repr(value))} is not a number or a fraction such as "1/3"')
     if not math.isfinite(result):
-        raise InputError.at(key, f"{value!r} is not finite")
+        raise InputError.at(key, f"{shortened(repr(value))} is not finite")
     return result
 
 

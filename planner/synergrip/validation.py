@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -12,6 +13,9 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.positions import dotted, enclosing
+
+MOST_JUDGED = 200
+"""Issues of a file that are looked at; more than that is another kind of file."""
 
 Value = TypeVar("Value")
 
@@ -34,7 +38,8 @@ def translate(error: ValidationError, model: type[BaseModel]) -> list[Issue]:
 
     Of a file written for a newer schema nothing else is said: the rest may mean something else there.
     """
-    found = [issue for detail in error.errors(include_url=False) for issue in _issues(detail, model)]
+    every = (issue for detail in error.errors(include_url=False) for issue in _issues(detail, model))
+    found = list(islice(every, MOST_JUDGED))
     newer = [issue for issue in found if issue.key == "schema" and "upgrade" in issue.message]
     return newer or [issue for issue in found if not _explained(issue, found)]
 
@@ -97,7 +102,10 @@ def _issues(detail: ErrorDetails, model: type[BaseModel]) -> Iterator[Issue]:
         meaning = f" ({field.description})" if field and field.description else ""
         yield Issue(f"missing key '{name}'{meaning}", key=key, on_key=True)
     else:
-        yield Issue(_message(kind, detail["input"], context), key=key)
+        advice = ""
+        if kind == "tuple_type" and isinstance(detail["input"], Mapping) and _model_at(model, detail["loc"]):
+            advice = f"; its entries are written [[{key}]] in TOML, --set {key}=[{{...}}] gives all of them"
+        yield Issue(_message(kind, detail["input"], context) + advice, key=key)
 
 
 def _message(kind: str, value: object, context: Mapping[str, Any]) -> str:
@@ -111,6 +119,8 @@ def _message(kind: str, value: object, context: Mapping[str, Any]) -> str:
         limit = context["min_length" if few else "max_length"]
         bound = f"{'least' if few else 'most'} {limit} entr{'y' if limit == 1 else 'ies'}"
         return f"expected at {bound}, got {context['actual_length']}"
+    if kind == "string_unicode":
+        return f"expected text, got {shown(value)}, in which a character is cut in half"
     if kind == "string_too_short":
         return "must not be empty"
     return _expected(value, _WANTED.get(kind.removesuffix("_type").removesuffix("_parsing"), "another value"))

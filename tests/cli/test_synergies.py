@@ -96,7 +96,7 @@ def test_fit_in_degrees_is_fit_in_radians() -> None:
         found = document("fit", *arguments, "-n", "2")
         np.testing.assert_allclose(found["S"], expected["S"], atol=1e-12)
         np.testing.assert_allclose(found["standard_deviation"], expected["standard_deviation"], rtol=1e-12)
-    assert "if they are degrees, say --degrees" in run("fit", "bare.csv", "-n", "2").stdout
+    assert "if they are degrees, say --degrees" in " ".join(run("fit", "bare.csv", "-n", "2").stdout.split())
     assert "--degrees" not in run("fit", "postures.csv", "-n", "2").stdout
 
 
@@ -170,7 +170,7 @@ def test_fits_that_cannot_be(arguments: tuple[str, ...], key: str, fragment: str
     assert "exit code 2" in text.stderr
 
 
-def test_a_picture_that_cannot_be_written_is_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_picture_that_cannot_be_written_is_exit_code_5_beside_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     record()
 
     def full(*_: object) -> None:
@@ -179,7 +179,9 @@ def test_a_picture_that_cannot_be_written_is_bad_input(monkeypatch: pytest.Monke
     monkeypatch.setattr(drawn_variance, "draw_variance", full)
     monkeypatch.setattr(drawn_synergies, "draw_synergies", full)
     for arguments in (("fit", "postures.csv", "-n", "1"), ("show", "barrett")):
-        error = document(*arguments, "--picture", "p.svg", code=2)["error"]
+        found = document(*arguments, "--picture", "p.svg", code=5)
+        error, answer = found["error"], found["answer"]
+        assert answer | {"picture": None} == document(*arguments) | {"picture": None}
         assert (error["key"], error["message"]) == ("--picture", "cannot write 'p.svg': No space left on device")
 
 

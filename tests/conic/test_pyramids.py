@@ -24,7 +24,7 @@ from synergrip.conic.pyramids import (
     limit_in_pyramids,
     pyramid,
 )
-from synergrip.conic.rows import Kind
+from synergrip.conic.rows import Item, Kind
 from synergrip.conic.situation import Situation, Units, situate
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_, qpsolvers_
@@ -99,7 +99,7 @@ def held(grasp: Grasp) -> Situation:
 
 
 def least_effort(grasp: Grasp, cone: FrictionCone) -> float:
-    decision = ask(Question(held(grasp), (cone,), LeastEffort()), SOLVERS["clarabel"])
+    decision = ask(Question(held(grasp), (cone,), LeastEffort()), SOLVERS["clarabel"]).decision
     assert decision.optimal
     return decision.program.objective(decision.solution.x)
 
@@ -111,7 +111,7 @@ def grasp_of(seed: int, kinds: tuple[str, ...] = ("hard", "soft", "frictionless"
         grasp = hand_like_grasp(rng)
         if {c.kind.name for c in grasp.contacts} <= {*kinds}:
             question = Question(held(grasp), (FrictionPyramid(0.1, facets=4),), LeastEffort())
-            if ask(question, SOLVERS["clarabel"]).optimal:
+            if ask(question, SOLVERS["clarabel"]).decision.optimal:
                 return grasp
 
 
@@ -162,7 +162,7 @@ def test_only_the_cones_of_contacts_are_replaced() -> None:
         made = inscribed(rows, names, 8)
         assert made.kind is Kind.NONNEGATIVE
         assert made.dim == 1
-        assert {item.partition(" (")[0] for item in made.items} == {*rows.items}
+        assert {Item(item.name) for item in made.items} == {*rows.items}
         assert inscribed(rows, ["another"], 8) is rows
     torque = JointTorque(frozen(np.ones(grasp.n_q)))
     wrapped = limit_in_pyramids(torque, 8)
@@ -208,7 +208,9 @@ def test_backends_find_the_optimum_that_clarabel_finds_and_its_multipliers(seed:
 def small_program() -> Program:
     """Least ||x||^2 / 2 with x_1 + x_2 + x_3 = 1 and x_1 >= 0.6: x = (0.6, 0.2, 0.2)."""
     A = np.array([[-1.0, 0, 0], [1, 1, 1], [0, -1.0, 0]])
-    blocks = tuple(Block("test", kind, 1, ("i",), 0, 1) for kind in (Kind.NONNEGATIVE, Kind.ZERO, Kind.NONNEGATIVE))
+    blocks = tuple(
+        Block("test", kind, 1, (Item("i"),), 0, 1) for kind in (Kind.NONNEGATIVE, Kind.ZERO, Kind.NONNEGATIVE)
+    )
     return Program(
         sparse.csc_matrix(np.eye(3)), frozen(np.zeros(3)), sparse.csc_matrix(A), frozen([-0.6, 1.0, 5.0]), blocks, 1, 3,
         frozen(np.full(3, 1e6)),

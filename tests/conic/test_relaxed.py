@@ -11,7 +11,7 @@ from scipy import sparse
 from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.program import Block, Program
 from synergrip.conic.relaxed import proven, relaxed
-from synergrip.conic.rows import Kind
+from synergrip.conic.rows import Kind, items_of
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
@@ -21,7 +21,7 @@ from synergrip.plans.problem import load_problem
 
 
 def program_of(A: list[list[float]], b: list[float], *cones: tuple[Kind, int]) -> Program:
-    blocks = tuple(Block("test", kind, dim, ("item",), 0, 1) for kind, dim in cones)
+    blocks = tuple(Block("test", kind, dim, items_of(["item"]), 0, 1) for kind, dim in cones)
     n = len(A[0])
     return Program(
         sparse.csc_matrix((n, n)), frozen(np.zeros(n)), sparse.csc_matrix(A), frozen(b), blocks, 1, n,

@@ -131,7 +131,7 @@ def test_paths_are_relative_to_the_problem(tmp_path):
     with pytest.raises(InputError, match=r"not found; did you mean 'pincer\.urdf'") as caught:
         load_hand("pincr.urdf", relative_to=tmp_path)
     assert (caught.value.issues[0].key, caught.value.issues[0].file) == ("hand.model", "")
-    with pytest.raises(InputError, match=r"nor a folder with hand\.toml nor a \.urdf or \.xml file"):
+    with pytest.raises(InputError, match=r"nor a folder with hand\.toml nor a \.urdf, \.xml or \.mjcf file"):
         load_hand("pincer", relative_to=tmp_path)
     (tmp_path / "odd.urdf").mkdir()
     with pytest.raises(InputError, match="neither a bundled hand"):

@@ -105,7 +105,8 @@ def test_what_does_not_bear_on_kinematics_need_not_exist(tmp_path):
       <worldbody>
         <light pos="0 0 1"/><camera name="c" mode="targetbody" target="palm"/><geom type="hfield" hfield="h"/>
         <body name="palm"><geom mesh="m"/>
-          <body name="finger"><joint name="j" springdamper="0.1 1"/><geom name="g"/><site name="s" material="a"/>
+          <body name="finger"><joint name="j" springdamper="0.1 1"/><geom name="g" type="sphere" size="0.01"/>
+            <site name="s" material="a"/>
             <plugin instance="p"/><camera name="d"/></body>
         </body>
       </worldbody>

@@ -153,10 +153,14 @@ CONTRADICTIONS = [
 
 @pytest.mark.parametrize(("equalities", "fragment", "lines"), CONTRADICTIONS)
 def test_relations_that_cannot_be_are_refused(tmp_path, equalities, fragment, lines):
-    rope = '<spatial name="rope"><site site="s"/><site site="s"/></spatial>'
+    rope = '<spatial name="rope"><site site="s"/><site site="u"/></spatial>'
     same = "".join(f'<fixed name="{name}"><joint joint="a" coef="1"/></fixed>' for name in "tu")
     after = f"<equality>\n{equalities}</equality><tendon>{rope}{same}</tendon>"
-    issue = refused(tmp_path, plain("a", "b", after=after))
+    text = plain("a", "b", after=after)
+    text = text.replace('"palm">', '"palm"><site name="s" pos="1 0 0"/>').replace(
+        'name="b">', 'name="b"><site name="u" pos="0 1 0"/>', 1
+    )
+    issue = refused(tmp_path, text)
     assert fragment in issue.message
     assert issue.line in lines
 

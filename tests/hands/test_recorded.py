@@ -63,7 +63,7 @@ def test_degrees_are_what_the_header_leaves_open(read):
 
 
 def test_columns_find_their_joints_in_any_order(read, barrett):
-    rows = np.arange(10.0).reshape(2, 5)
+    rows = np.arange(10.0).reshape(2, 5) / 10
     given = read(",".join(FREE) + "".join("\n" + ",".join(map(str, row)) for row in rows), barrett)
     assert given.joints == FREE
     order = [3, 0, 4, 1, 2]
@@ -112,7 +112,6 @@ def test_a_joint_that_is_named_like_a_unit_is_that_joint(read, tmp_path):
 
 BAD = [
     ("", 1, 1, "the file is empty"),
-    ("a;b\n1;2\n", 1, 1, "separated by commas"),
     ("a,b\n", 1, 1, "at least 2 postures below the header, got 0"),
     ("a,b\n1,2\n", 1, 1, "at least 2 postures below the header, got 1"),
     ("t_s\n1\n2\n", 1, 1, "names no joint"),
@@ -147,7 +146,7 @@ def test_all_cells_that_are_wrong_are_told_at_once_and_not_more_than_anybody_rea
         read("a,b\nx,1\n2,y\n")
     assert [(issue.line, issue.column) for issue in caught.value.issues] == [(2, 1), (3, 3)]
     with pytest.raises(InputError) as caught:
-        read("a,b\n" + "x,1\n" * 100)
+        read("a,b\n0,1\n" + "x,1\n" * 100)
     assert len(caught.value.issues) == 20
     assert "and 80 more" in caught.value.issues[-1].message
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from synergrip.documents import Document, parse
-from synergrip.errors import InputError
+from synergrip.errors import InputError, OutputError
 from synergrip.files import bundled
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling
@@ -178,8 +178,9 @@ def test_a_disk_that_is_full_leaves_the_old_file(path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(type(path), "write_text", full)
-    with pytest.raises(InputError, match="No space left on device"):
+    with pytest.raises(OutputError, match="No space left on device") as caught:
         write_synergy_file(path, file, "-o")
+    assert (caught.value.key, caught.value.exit_code) == ("-o", 5)
     assert path.read_text(encoding="utf-8") == TEXT
     assert len(list(path.parent.iterdir())) == 1
 

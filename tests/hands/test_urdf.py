@@ -109,7 +109,7 @@ SECOND = '<joint name="other" type="fixed"><parent link="palm"/><child link="fin
         ('upper="2"', 'upper="1e200"', "expected numbers below 1e+100", 8),
         ('xyz="1 2 3"', 'xyz="1 2e7 3"', "expected numbers below 1e+06", 7),
         ('upper="2"', 'upper="2" effort="nan"', "expected a finite number", 8),
-        ('<link name="palm"/>', '<xacro:macro name="m"/><link name="palm"/>', "expand the file", 3),
+        ('<link name="palm"/>', '<xacro:macro name="m"/><link name="palm"/>', "expand it first", 3),
         ('upper="2"', 'upper="-2"', "lower limit -1 is above", 8),
         ('<limit lower="-1" upper="2"/>', "", "needs <limit", 5),
         ('axis xyz="0 0 2"', 'axis xyz="0 0 0"', "no direction", 5),

@@ -42,6 +42,28 @@ def test_a_hopeless_geometry_is_told_from_a_limit() -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "limit"),
+    [
+        ("robonaut-handle", "limits.normal_force=0.1 N"),
+        ("robonaut-handle", "limits.joint_torque=0.001"),
+        ("human-glass", "limits.joint_torque=0.001"),
+        ("gripper-peg", "limits.synergy_reference=0.0001"),
+    ],
+)
+def test_the_reason_names_the_limit_that_clashes_most_and_not_friction_alone(name: str, limit: str) -> None:
+    outcome = refused(name, limit)
+    chief = outcome.clashes[0]
+    assert chief.key != "limits.margin"
+    assert f"{chief.key} ({chief.items[0]})" in outcome.why
+
+
+def test_the_reason_names_no_limit_where_friction_clashes_most() -> None:
+    outcome = refused("barrett-ball-hold", "contacts.friction=0.3")
+    assert outcome.clashes[0].key == "limits.margin"
+    assert outcome.why.startswith("within these limits some contact slips")
+
+
+@pytest.mark.parametrize(
     ("one", "other", "texts"),
     [
         (12.2963, 12.3, ("12.296", "12.3")),

@@ -120,7 +120,7 @@ def _compared(seed: int) -> bool:
         assert one.certificate.verified
     if not (isinstance(one, Plan) and isinstance(two, Plan)):
         return False
-    units = one.situation.units
+    units = one.situation.stated
     first, second = (
         goal_value(
             task.goal, grasp, task, course(grasp, task.times, each.motion.dz_r, task.wrench),

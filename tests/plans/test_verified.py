@@ -48,3 +48,18 @@ def test_a_plan_that_breaks_a_limit_never_gets_out() -> None:
     task: Task = replace(outcome.task, margin=outcome.margins.min() + 0.1)
     with pytest.raises(SelfCheckError, match="slip margin"):
         verified_plan(task, outcome.analysis, Stage(outcome.situation, (), LeastEffort(), outcome.decisions), None)
+
+
+@pytest.mark.parametrize(("share", "passes"), [(0.5e-6, True), (3e-6, False)])
+def test_the_plans_own_tolerance_is_a_millionth_of_what_a_contact_carries(share: float, passes: bool) -> None:
+    outcome = tripod()
+    k, i = np.unravel_index(outcome.margins.argmin(), outcome.margins.shape)
+    rows = outcome.analysis.grasp.rows[i]
+    carried = max(float(np.abs(outcome.motion.forces[k, rows]).max()), outcome.situation.load_size)
+    asked = replace(outcome.task, margin=float(outcome.margins.min()) + share * carried)
+    stage = Stage(outcome.situation, (), LeastEffort(), outcome.decisions)
+    if passes:
+        assert verified_plan(asked, outcome.analysis, stage, None).verdict == "feasible"
+    else:
+        with pytest.raises(SelfCheckError, match="slip margin"):
+            verified_plan(asked, outcome.analysis, stage, None)

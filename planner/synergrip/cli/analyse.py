@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from synergrip.cli import ending
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -15,8 +16,9 @@ from synergrip.cli.running import (
     SetOption,
     answering,
     color,
-    picture_format,
+    picture_place,
     show,
+    shown_anyway,
     writing,
 )
 
@@ -49,7 +51,7 @@ def analyse(
         from synergrip.plans.dimensions import dimension_table
         from synergrip.plans.problem import load_problem, located
 
-        picture_format(picture)
+        picture_place(picture)
         loaded = load_problem(problem, overrides or [])
         found: Analysis | NotRestrainedError
         try:
@@ -59,8 +61,11 @@ def analyse(
         except SynergripError as error:
             raise located(loaded, error) from None
         columns = dimension_table(loaded) if table else None
-        written = _drawn(loaded, found, picture) if picture else None
+        written = None
         try:
+            with shown_anyway(form, lambda: _text(loaded, found, columns, None),
+                              lambda: _document(loaded, found, columns)):  # fmt: skip
+                written = _drawn(loaded, found, picture) if picture else None
             show(form, lambda: _text(loaded, found, columns, written),
                  lambda: _document(loaded, found, columns) | ({"picture": written} if picture else {}))  # fmt: skip
         except SynergripError as error:
@@ -113,4 +118,5 @@ def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path
             draw_grasp_synergies(problem, found, picture)
         except InputError as error:
             raise error.under("--picture") from None
+    ending.keep(picture)
     return str(picture)

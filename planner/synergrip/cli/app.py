@@ -17,7 +17,7 @@ app = typer.Typer(
     name="synergrip",
     help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers.",
     epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
-    "130 interrupted.",
+    "5 the answer could not be printed or written, 130 interrupted.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

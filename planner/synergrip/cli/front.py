@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from synergrip.cli.progress import counted, telling
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, heard, show
 
 
 def front(
@@ -30,7 +30,8 @@ def front(
 
         solver, loaded = telling(SOLVERS["clarabel"]), load_problem(problem, overrides or [])
         try:
-            best = largest(loaded.grasp, loaded.task, solver)
+            with heard():
+                best = largest(loaded.grasp, loaded.task, solver)
         except SynergripError as error:
             raise located(loaded, error) from None
         if not isinstance(best, Plan):
@@ -39,9 +40,10 @@ def front(
             raise typer.Exit(best.exit_code)
         points, interrupted = [], best.interrupted
         try:
-            for point in points_of(best, count, solver) if not interrupted else ():
-                points.append(point)  # one by one, so that an interrupt keeps the finished ones
-                counted(len(points), count, "points")
+            with heard():
+                for point in points_of(best, count, solver) if not interrupted else ():
+                    points.append(point)  # one by one, so that an interrupt keeps the finished ones
+                    counted(len(points), count, "points")
         except KeyboardInterrupt:
             interrupted = True
         show(form, lambda: front_text(loaded, points, interrupted), lambda: front_document(points, interrupted))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from synergrip.cli import ending
 from synergrip.cli.progress import telling
 from synergrip.cli.running import (
     Format,
@@ -16,13 +18,20 @@ from synergrip.cli.running import (
     SetOption,
     answering,
     color,
-    picture_format,
+    heard,
+    picture_place,
+    possible,
     show,
+    shown_anyway,
     writing,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from synergrip.plans.outcome import Outcome
+    from synergrip.plans.problem import Problem
+    from synergrip.plans.solvers import Answerer
 
 
 def plan(
@@ -52,36 +61,54 @@ def plan(
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
         from synergrip.cli.pyramids import asked, compared
-        from synergrip.errors import SynergripError
+        from synergrip.files import refuse_unwritable
         from synergrip.plans.planning import plan as make
-        from synergrip.plans.problem import load_problem, located
+        from synergrip.plans.problem import load_problem
         from synergrip.plans.solvers import answerer
         from synergrip.reports.json_plan import outcome_document
-        from synergrip.reports.plan_files import FORMATS, write_outcome
+        from synergrip.reports.plan_files import FORMATS, refuse_place, write_outcome
         from synergrip.reports.text_plan import outcome_text
+        from synergrip.signals import held_back
 
-        picture_format(picture)
+        picture_place(picture)
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
         loaded = load_problem(problem, overrides or [])
-        folder = output or Path("out") / loaded.name
-        with writing("--output", folder):
-            folder.mkdir(parents=True, exist_ok=True)
-        try:
-            outcome = make(loaded.grasp, loaded.task, answers)
-        except SynergripError as error:
-            raise located(loaded, error) from None
-        document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
-        cost = compared(outcome, request, document)
-        with writing("--output", folder):
-            written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
+        folder, drawn = output or Path("out") / loaded.name, ""
+        written: list[str] | None = None
+        possible("--output", folder, refuse_place)
         if save_program:
-            with writing("--save-program", save_program):
-                _save(outcome, save_program)
-        drawn = ""
-        if picture and _drawn(outcome, loaded.title, picture):
-            document["picture"], drawn = str(picture), f"\nwrote {picture}"
-        show(form, lambda: outcome_text(loaded, outcome, folder, written, color()) + cost + drawn, lambda: document)
+            possible("--save-program", save_program, refuse_unwritable)
+
+        def text() -> str:
+            return outcome_text(loaded, outcome, folder, written, color()) + cost + drawn
+
+        with shown_anyway(form, text, lambda: document):
+            with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
+                outcome = _found(make, loaded, answers)
+                document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
+                cost = compared(outcome, request, document)
+                with writing("--output", folder):
+                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
+                ending.keep(*(folder / name for name in written))
+            if save_program:
+                with writing("--save-program", save_program):
+                    _save(outcome, save_program)
+            if picture and _drawn(outcome, loaded.title, picture):
+                document["picture"], drawn = str(picture), f"\nwrote {picture}"
+        show(form, text, lambda: document)
     raise typer.Exit(outcome.exit_code)
+
+
+def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
+    """Plan; an interrupt keeps what the goals so far have led to."""
+    from synergrip.errors import SynergripError
+    from synergrip.plans.problem import located
+
+    try:
+        with heard():
+            return make(problem.grasp, problem.task, answers)
+    except SynergripError as error:
+        raise located(problem, error) from None
 
 
 def _save(outcome: Outcome, path: Path) -> None:
@@ -93,6 +120,7 @@ def _save(outcome: Outcome, path: Path) -> None:
         print(f"no program was solved, so '{path}' was not written", file=sys.stderr)
     else:
         program.save(path)
+        ending.keep(path)
 
 
 def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
@@ -105,4 +133,5 @@ def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
         return False
     with writing("--picture", picture):
         draw_plan(outcome, title, picture)
+    ending.keep(picture)
     return True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from synergrip.cli.running import heard
 from synergrip.errors import InputError
 
 if TYPE_CHECKING:
@@ -33,7 +34,8 @@ def compared(outcome: Outcome, request: Request | None, document: dict[str, Any]
     comparison, stopped = None, isinstance(outcome, Plan) and outcome.interrupted
     if isinstance(outcome, Plan) and not stopped:
         try:
-            comparison = compare(outcome, request)
+            with heard():
+                comparison = compare(outcome, request)
         except KeyboardInterrupt:  # the plan is there and stays
             stopped = True
     document["pyramids"] = comparison_document(comparison)

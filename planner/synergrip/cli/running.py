@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterator
@@ -14,7 +15,9 @@ from typing import Annotated, Any
 
 import typer
 
-from synergrip.errors import InputError, InterruptError, SelfCheckError, SynergripError
+from synergrip.cli import ending
+from synergrip.cli.streams import PrintError
+from synergrip.errors import InputError, InterruptError, OutputError, SelfCheckError, SynergripError
 
 
 class Format(StrEnum):
@@ -37,17 +40,21 @@ ProblemArgument = Annotated[
 @contextmanager
 def answering(form: Format) -> Iterator[None]:
     """Turn errors into their text or document and their exit code; an interrupt into 130, a defect into 4."""
+    ending.begin(_interrupted if form is Format.JSON else None)
     try:
         yield
     except SynergripError as error:
         _print_error(error, form)
         raise typer.Exit(error.exit_code) from None
     except KeyboardInterrupt:
-        _print_error(InterruptError("interrupted; nothing was half-written"), form)
-        raise typer.Exit(130) from None
+        _print_error(InterruptError(f"interrupted; {ending.standing()}"), form)
+        raise typer.Exit(InterruptError.exit_code) from None
     except (typer.Exit, typer.Abort):
         raise
     except Exception as defect:  # must not leave with 1, which would say "proven infeasible"
+        if _of_an_interrupt(defect):
+            _print_error(InterruptError(f"interrupted; {ending.standing()}"), form)
+            raise typer.Exit(InterruptError.exit_code) from None
         traceback.print_exc()
         message = f"{type(defect).__name__}: {defect}; this is a defect of synergrip, please report it with the problem"
         _print_error(SelfCheckError(message), form)
@@ -55,20 +62,74 @@ def answering(form: Format) -> Iterator[None]:
 
 
 @contextmanager
+def heard() -> Iterator[None]:
+    """Let an interrupt be a KeyboardInterrupt in this block, for those who keep what is finished.
+
+    Elsewhere the command line leaves at once. A program that handles signals itself is left alone.
+    """
+    outside = signal.getsignal(signal.SIGINT)
+    if not ending.watching() or outside == signal.SIG_IGN:
+        yield
+        return
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, outside)
+
+
+@contextmanager
 def writing(option: str, path: Path) -> Iterator[None]:
-    """Turn what the file system refuses into bad input at an option."""
+    """Turn what the file system refuses into an error at an option."""
     try:
         yield
     except OSError as error:
-        raise InputError.at(option, f"cannot write '{path}': {error.strerror or error}") from None
+        raise OutputError(_unwritable(path, error), option) from None
 
 
-def picture_format(picture: Path | None) -> None:
-    """Refuse a picture whose suffix says no format before anything is done."""
+def possible(option: str, path: Path, refuse: Callable[[Path], None]) -> None:
+    """Refuse a place where nothing can be written, which `refuse` finds, before anything is solved.
+
+    Raises:
+        InputError: no file can have that name.
+        OutputError: it could, but not now.
+    """
+    from synergrip.files import IMPOSSIBLE
+
+    try:
+        refuse(path)
+    except OSError as error:
+        if error.errno in IMPOSSIBLE:
+            raise InputError.at(option, _unwritable(path, error)) from None
+        raise OutputError(_unwritable(path, error), option) from None
+
+
+@contextmanager
+def shown_anyway(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> Iterator[None]:
+    """Print an answer also when it cannot be written; in JSON beside the error."""
+    try:
+        yield
+    except OutputError as error:
+        if form is Format.JSON:
+            say(json.dumps(_plain(error) | {"answer": document()}, allow_nan=False))
+        else:
+            say(text())
+            _print_error(error, form)
+        raise typer.Exit(error.exit_code) from None
+
+
+def _unwritable(path: Path, error: OSError) -> str:
+    return f"cannot write '{path}': {error.strerror or error}"
+
+
+def picture_place(picture: Path | None) -> None:
+    """Refuse a picture whose suffix says no format, or that cannot be written, before anything is done."""
     if picture is not None:
+        from synergrip.files import refuse_unwritable
         from synergrip.reports.pictures.sheet import picture_suffix
 
         picture_suffix(picture, "--picture")
+        possible("--picture", picture, refuse_unwritable)
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
@@ -77,11 +138,9 @@ def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str,
 
 
 def say(text: str) -> None:
-    """Print on standard output; a reader who has gone (``| head``) changes nothing about the exit code."""
-    try:
-        print(text, flush=True)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    """Print on standard output."""
+    ending.printing()
+    print(text, flush=True)
 
 
 def color() -> bool:
@@ -92,15 +151,34 @@ def color() -> bool:
 def _print_error(error: SynergripError, form: Format) -> None:
     from synergrip.reports.refusal_text import error_json, error_text
 
-    if form is Format.JSON:
+    if form is Format.JSON and not isinstance(error, PrintError):
         document = error_json(error) if isinstance(error, InputError) else _plain(error)
         say(json.dumps(document, allow_nan=False))
     else:
         wants = sys.stderr.isatty() and "NO_COLOR" not in os.environ
-        text = error_text(error, wants) if isinstance(error, InputError) else f"error: {error}"
+        text = error_text(error, wants) if isinstance(error, InputError) else _line(error)
         print(text, file=sys.stderr)
 
 
+def _line(error: SynergripError) -> str:
+    """Return an error without a place in a file as text; one of output says what stands."""
+    if isinstance(error, OutputError):
+        key = f" {error.key}" if error.key else ""
+        return f"error{key}: {error}\n\n{ending.standing()}      exit code {error.exit_code}"
+    return str(error) if isinstance(error, InterruptError) else f"error: {error}"
+
+
 def _plain(error: SynergripError) -> dict[str, Any]:
-    place = {"file": None, "line": None, "column": None, "key": None}
+    place = {"file": None, "line": None, "column": None, "key": getattr(error, "key", None) or None}
     return {"error": {"type": type(error).__name__, "message": str(error), **place}}
+
+
+def _interrupted(message: str) -> str:
+    return json.dumps(_plain(InterruptError(message)))
+
+
+def _of_an_interrupt(error: BaseException | None) -> bool:
+    """Return whether an interrupt was turned into this error on its way, as some libraries do while they load."""
+    return error is not None and (
+        isinstance(error, KeyboardInterrupt) or _of_an_interrupt(error.__cause__ or error.__context__)
+    )

@@ -7,7 +7,8 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, answering, picture_format, show, writing
+from synergrip.cli import ending
+from synergrip.cli.running import Format, FormatOption, answering, picture_place, show, shown_anyway, writing
 
 synergies = typer.Typer(
     help="Synergy sets: fit to recorded postures, list, show, compare.", no_args_is_help=True, add_completion=False
@@ -37,16 +38,19 @@ def fit(
         from synergrip.reports.json_synergies import fit_document
         from synergrip.reports.text_fit import fit_text
 
-        picture_format(picture)
+        picture_place(picture)
         loaded = load_hand(hand, key="--hand") if hand is not None else None
         made = make(postures, count, loaded, title=name, degrees=degrees, key="-n")
-        if output is not None:
-            write_synergy_file(output, made.file, "--output")
-        if picture is not None:
-            from synergrip.reports.pictures.variance import draw_variance
+        with shown_anyway(form, lambda: fit_text(made, None, None), lambda: fit_document(made, None, None)):
+            if output is not None:
+                write_synergy_file(output, made.file, "--output")
+                ending.keep(output)
+            if picture is not None:
+                from synergrip.reports.pictures.variance import draw_variance
 
-            with writing("--picture", picture):
-                draw_variance(made.principal.shares[: made.principal.decision.rank], picture, made.file.title)
+                with writing("--picture", picture):
+                    draw_variance(made.principal.shares[: made.principal.decision.rank], picture, made.file.title)
+                ending.keep(picture)
         show(form, lambda: fit_text(made, output, picture), lambda: fit_document(made, output, picture))
 
 
@@ -57,7 +61,8 @@ def list_(
 ) -> None:
     """List synergy sets with the number of synergies, the rank and the length of the columns."""
     with answering(form):
-        from synergrip.hands.folder import FILE, bundled_hands, load_hand
+        from synergrip.hands.folder import bundled_hands, load_hand
+        from synergrip.hands.hand_file import FILE
         from synergrip.hands.synergy_file import SUFFIX, read_synergies, read_synergy_file
         from synergrip.reports.json_synergies import list_document
         from synergrip.reports.text_synergies import list_text
@@ -89,16 +94,20 @@ def show_(
         from synergrip.reports.json_synergies import show_document
         from synergrip.reports.text_synergies import show_text
 
-        picture_format(picture)
+        picture_place(picture)
         loaded = load_hand(hand, key="HAND")
         whole = select(loaded, chosen, "--set")
         shown = whole if first is None else first_of(whole, first, "--first")
         q = None if posture is None else take(loaded, shown, posture, "--posture")
-        if picture is not None:
-            from synergrip.reports.pictures.synergies import draw_synergies
+        with shown_anyway(
+            form, lambda: show_text(loaded, shown, q, None), lambda: show_document(loaded, shown, q, None)
+        ):
+            if picture is not None:
+                from synergrip.reports.pictures.synergies import draw_synergies
 
-            with writing("--picture", picture):
-                draw_synergies(loaded, shown, resting(loaded.joints, shown) if q is None else q, picture)
+                with writing("--picture", picture):
+                    draw_synergies(loaded, shown, resting(loaded.joints, shown) if q is None else q, picture)
+                ending.keep(picture)
         show(form, lambda: show_text(loaded, shown, q, picture), lambda: show_document(loaded, shown, q, picture))
 
 

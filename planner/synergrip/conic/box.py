@@ -18,6 +18,9 @@ from synergrip.linalg import Array, split
 LARGEST = 1e6
 """In normalised units. The bound where no limit gives one, and part of the program's meaning."""
 
+FARTHEST = 1e12
+"""A limit that is farther away than this is none, but the rounding of what it looks at."""
+
 
 def box(situation: Situation, limits: Sequence[Limit]) -> Array:
     """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
@@ -27,7 +30,7 @@ def box(situation: Situation, limits: Sequence[Limit]) -> Array:
         pair = limit.bounded(situation, cones_hold=cones_hold)
         if pair is not None:
             result = np.minimum(result, _implied(*pair))
-    return np.where(np.isfinite(result), result, LARGEST)
+    return np.where(result < FARTHEST, result, LARGEST)
 
 
 def _implied(value: Affine, limit: Array) -> Array:

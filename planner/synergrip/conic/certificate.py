@@ -24,7 +24,7 @@ GAP_TOLERANCE = 1e-8
 NEARLY = 1e-4
 """Gap within which a plan that holds is still of use, although it is not the best to all digits."""
 SHARP = 1e-7
-"""A violation below this is not worth another attempt."""
+"""A violation below this is not worth another attempt, when nothing smaller hangs on it."""
 UNBOUNDED_GAIN = 1e-5
 """Least improvement along a ray of size 1, and share of it by which a cone may be left."""
 ROUNDING = 1e-12
@@ -52,10 +52,9 @@ class Certificate:
         """True for an x that keeps every row and is the best to some digits, verified or not."""
         return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= NEARLY
 
-    @property
-    def sharp(self) -> bool:
-        """True for a verified claim that another attempt could hardly better."""
-        return self.verified and (self.kind != "optimal" or self.primal_residual <= SHARP)
+    def sharp(self, violation: float = SHARP) -> bool:
+        """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
+        return self.verified and (self.kind != "optimal" or self.primal_residual <= violation)
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from synergrip.conic.certificate import Certificate, judge_infeasible, judge_optimal, judge_unbounded
+from synergrip.conic.certificate import SHARP, Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 
@@ -55,11 +55,12 @@ class Decision:
         return self.certificate.verified and self.certificate.kind == "infeasible"
 
 
-def decide(goal: str, program: Program, solver: Solver) -> Decision:
+def decide(goal: str, program: Program, solver: Solver, violation: float = SHARP) -> Decision:
     """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
 
-    The best is the verified one with the smallest violation. When none verifies, neither does the decision; it is
-    then, if there is one, the claim that keeps every row and has the smallest gap.
+    Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
+    violation. When none verifies, neither does the decision; it is then, if there is one, the claim that keeps every
+    row and has the smallest gap.
     """
     best, seconds = None, 0.0
     for attempt, settings in enumerate(ATTEMPTS, start=1):
@@ -68,7 +69,7 @@ def decide(goal: str, program: Program, solver: Solver) -> Decision:
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
         if best is None or rank(decision) < rank(best):
             best = decision
-        if decision.certificate.sharp:
+        if decision.certificate.sharp(violation):
             return decision
     if best is None:
         raise ValueError("the retry chain is empty")

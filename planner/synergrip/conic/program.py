@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
-import zlib
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -13,7 +11,8 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.rows import Kind
+from synergrip.archives import NoArchiveError, read_arrays
+from synergrip.conic.rows import Item, Kind
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
@@ -26,7 +25,7 @@ class Block:
     limit: str
     kind: Kind
     dim: int
-    items: tuple[str, ...]
+    items: tuple[Item, ...]
     first_knot: int
     knots: int
     """How many; of instants between the knots, how many of these."""
@@ -104,7 +103,7 @@ class Program:
         for name, matrix in (("P", self.P), ("A", self.A)):
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
         with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
-            np.savez_compressed(stream, allow_pickle=False, **arrays)
+            np.savez_compressed(stream, **arrays)  # type: ignore[arg-type]
 
     @classmethod
     def load(cls, path: str | Path) -> Program:
@@ -113,27 +112,32 @@ class Program:
         Raises:
             InputError: there is no such file, or something else is in it.
         """
-        unreadable = (OSError, EOFError, LookupError, ValueError, TypeError, zipfile.BadZipFile, zlib.error)
+        unreadable = (InputError, NoArchiveError, LookupError, ValueError, TypeError)
         try:
             return cls._read(Path(path))
         except unreadable as error:
-            reason = str(error) or type(error).__name__
+            said = error.issues[0].message if isinstance(error, InputError) else str(error)
+            reason = said or type(error).__name__
             raise InputError.at("", f"'{path}' holds no saved program ({reason})") from error
 
     @classmethod
     def _read(cls, path: Path) -> Program:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            header: dict[str, Any] = json.loads(str(stored["header"]))
-            n, m = len(stored["q"]), len(stored["b"])
-            blocks = tuple(
-                Block(**(b | {"kind": Kind(b["kind"]), "items": tuple(b["items"])})) for b in header["blocks"]
+        stored = read_arrays(path, None, "program")
+        header: dict[str, Any] = json.loads(str(stored["header"]))
+        n, m = len(stored["q"]), len(stored["b"])
+        blocks = tuple(
+            Block(
+                b["limit"], Kind(b["kind"]), b["dim"], tuple(Item(*pair) for pair in b["items"]),
+                b["first_knot"], b["knots"], b.get("between", False),
             )
-            matrices = [
-                sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
-                for k, shape in (("P", (n, n)), ("A", (m, n)))
-            ]
-            return cls(
-                matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
-                header["knots"], header["n_v"], frozen(stored["box"]),
-                frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
-            )  # fmt: skip
+            for b in header["blocks"]
+        )  # fmt: skip
+        matrices = [
+            sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
+            for k, shape in (("P", (n, n)), ("A", (m, n)))
+        ]
+        return cls(
+            matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
+            header["knots"], header["n_v"], frozen(stored["box"]),
+            frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
+        )  # fmt: skip

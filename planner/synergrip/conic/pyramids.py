@@ -11,7 +11,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit, Usage, Watches
-from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.rows import Item, Kind, Rows, items_of
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -71,11 +71,11 @@ def inscribed(rows: Rows, contacts: Collection[str], facets: int) -> Rows:
         contacts: names of the contacts.
         facets: of the pyramid of a hard finger (see `pyramid`).
     """
-    if rows.kind is not Kind.SECOND_ORDER or not {*rows.items} <= {*contacts} or rows.dim not in (3, 4):
+    if rows.kind is not Kind.SECOND_ORDER or not {*rows.items} <= {*items_of(contacts)} or rows.dim not in (3, 4):
         return rows
     H = pyramid(facets, rows.dim)
     whole = np.kron(np.eye(len(rows.items)), H)
-    items = tuple(f"{item} (facet {i + 1})" for item in rows.items for i in range(len(H)))
+    items = tuple(Item(item.name, f"facet {i + 1}") for item in rows.items for i in range(len(H)))
     earlier = tuple(replace(part, matrix=frozen(whole @ part.matrix)) for part in rows.earlier)
     return Rows(
         rows.limit, Kind.NONNEGATIVE, 1, items, frozen(whole @ rows.matrix), frozen(rows.constant @ whole.T),

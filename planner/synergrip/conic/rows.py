@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -18,6 +20,29 @@ class Kind(StrEnum):
     ZERO = "zero"
     NONNEGATIVE = "nonnegative"
     SECOND_ORDER = "second-order"
+
+
+class Item(NamedTuple):
+    """What one cone is about. Names are the user's and may hold anything; nothing is ever read out of them."""
+
+    name: str
+    """A contact, joint or synergy, or "object"."""
+    side: str = ""
+    """"lowest" or "highest" of a range, "falling" or "rising" of a change, "norm" of a size, "facet 3" of a pyramid,
+    "pushing" where a cone hardly says so; empty for a cone that is all there is."""
+
+    def __str__(self) -> str:
+        """Return both for people."""
+        return f"{self.name} ({self.side})" if self.side else self.name
+
+
+LOWER_SIDES = frozenset({"lowest", "falling"})
+"""Sides whose multipliers push a value up; those of the opposite side push it down."""
+
+
+def items_of(names: Iterable[str], side: str = "") -> tuple[Item, ...]:
+    """Return the items of cones on one side of each name."""
+    return tuple(Item(name, side) for name in names)
 
 
 @dataclass(frozen=True)
@@ -39,8 +64,8 @@ class Rows:
     kind: Kind
     dim: int
     """Rows of each cone."""
-    items: tuple[str, ...]
-    """Names of the cones of one knot: contacts, joints, synergies."""
+    items: tuple[Item, ...]
+    """What the cones of one knot are about."""
     matrix: Array  # (len(items) * dim, n_v)
     constant: Array
     """(K, len(items) * dim); K = T, or T - lag for rows that couple a knot to one that is `lag` earlier."""
@@ -51,7 +76,7 @@ class Rows:
     The value is then ``matrix (inside v)_k + ...``."""
 
 
-def nonnegative(limit: str, items: tuple[str, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
+def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
     """Return rows ``value >= 0``, with what earlier knots add to the value."""
     return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, frozen(np.zeros(len(items))), earlier)
 
@@ -68,27 +93,27 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
     matrix = np.vstack([np.zeros(value.matrix.shape[1]), value.matrix / bound])
     constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
     zero = frozen(np.zeros(len(matrix)))
-    return Rows(limit, Kind.SECOND_ORDER, len(matrix), (item,), frozen(matrix), frozen(constant), zero)
+    return Rows(limit, Kind.SECOND_ORDER, len(matrix), (Item(item, "norm"),), frozen(matrix), frozen(constant), zero)
 
 
-def within(limit: str, items: tuple[str, ...], value: Affine, lower: Array, upper: Array, unit: Array) -> list[Rows]:
+def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, upper: Array, unit: Array) -> list[Rows]:
     """Return rows ``lower <= value <= upper``, divided by `unit`; infinite bounds add nothing.
 
     Args:
         limit: key in the problem file.
-        items: (m) names.
+        names: (m) of contacts, joints or synergies.
         value: m affine quantities.
         lower: (m,) or (T, m).
         upper: (m,) or (T, m).
         unit: (m,) size of each quantity.
     """
     result = []
-    for side, bound, sign in ((" (lowest)", lower, 1.0), (" (highest)", upper, -1.0)):
+    for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
         keep = np.all(np.isfinite(np.atleast_2d(bound)), axis=0)
         if not np.any(keep):
             continue
         slack = sign * (value.constant - bound) / unit
         rows = Affine(frozen((sign * value.matrix / unit[:, None])[keep]), frozen(slack[:, keep]))
-        names = tuple(name + side for name, kept in zip(items, keep, strict=True) if kept)
-        result.append(nonnegative(limit, names, rows))
+        items = items_of((name for name, kept in zip(names, keep, strict=True) if kept), side)
+        result.append(nonnegative(limit, items, rows))
     return result

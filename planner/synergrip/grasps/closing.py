@@ -8,17 +8,15 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch
+from synergrip.grasps.stops import Flags, Stop, advice
 from synergrip.hands.hand import Hand
 from synergrip.linalg import Array, frozen
-
-Flags = NDArray[np.bool_]
 
 STEP = {"hinge": float(np.radians(1.0)), "slide": 2e-3}
 """The fastest joint moves this far between two looks at the distances [rad or m]."""
@@ -85,7 +83,7 @@ class _State:
     """(n_q,)"""
     waiting: Flags
     """(n_c,) pads that the closing moves and that have not touched."""
-    reasons: Mapping[int, str]
+    stops: Mapping[int, Stop]
     """Joint that has stopped -> why."""
     trail: tuple[tuple[float, Array], ...]
     """How far the hand was closed, and its joint values, at the start and after each event."""
@@ -114,7 +112,7 @@ class _Closing:
     def of(cls, hand: Hand, direction: Array, gaps: Gaps) -> _Closing:
         """Scale the direction to steps, and read from the hand which joints move and take along what."""
         step = np.array([STEP[joint.kind] for joint in hand.joints])
-        carriers = [set(_carriers(hand, touch.pad.link)) for touch in gaps.touches]
+        carriers = [set(hand.carriers(touch.pad.link)) for touch in gaps.touches]
         movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
         lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
         return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand), _tied(hand))
@@ -137,19 +135,22 @@ class _Closing:
 
     def stopped(self, state: _State) -> _State:
         """Return the state with the joints stopped that are at their limits or carry a pad that touches."""
-        names, reasons, waiting = self.hand.joint_names, dict(state.reasons), state.waiting.copy()
+        names, stops, waiting = self.hand.joint_names, dict(state.stops), state.waiting.copy()
         at_limit = self._at_limit(state)
         for joint in np.flatnonzero(at_limit).tolist():
             for other in np.flatnonzero(self.takes[joint]).tolist():
-                reasons.setdefault(other, "at its limit" if at_limit[other] else f"stopped with {names[joint]}")
+                cause = other if at_limit[other] else joint
+                why = "at its limit" if at_limit[other] else f"stopped with {names[joint]}"
+                stops.setdefault(other, Stop(why, limit=cause))
         for pad, gap in self._waiting_gaps(state):
             if gap <= TOUCHING:
                 waiting[pad] = False
                 for joint in np.flatnonzero(self.tied[self.movers[pad]].any(axis=0)).tolist():
-                    reasons.setdefault(joint, f"stopped when pad '{self.gaps.touches[pad].pad.name}' touched")
+                    why = f"stopped when pad '{self.gaps.touches[pad].pad.name}' touched"
+                    stops.setdefault(joint, Stop(why, pad=pad))
         moving = state.moving.copy()
-        moving[list(reasons)] = False
-        return replace(state, moving=moving, waiting=waiting, reasons=reasons)
+        moving[list(stops)] = False
+        return replace(state, moving=moving, waiting=waiting, stops=stops)
 
     def coming(self, state: _State) -> list[int]:
         """Return the pads that wait and still move."""
@@ -162,12 +163,12 @@ class _Closing:
         rate = scale * moved
         room = float(((self._limit() - state.q)[state.moving] / rate[state.moving]).min())
         event = first_touch(self.gaps, state.q, rate, min(room, MOST_STEPS), pads)
-        steps, reasons = min(room, MOST_STEPS) if event is None else event[0], dict(state.reasons)
+        steps, stops = min(room, MOST_STEPS) if event is None else event[0], dict(state.stops)
         if event is None and room > MOST_STEPS:
-            reasons |= dict.fromkeys(np.flatnonzero(state.moving).tolist(), "moves without end")
+            stops |= dict.fromkeys(np.flatnonzero(state.moving).tolist(), Stop("moves without end"))
         q = np.clip(state.q + steps * rate, self.lower, self.upper)
         closed = state.trail[-1][0] + steps * scale
-        return replace(state, q=q, reasons=reasons, trail=(*state.trail, (closed, q)))
+        return replace(state, q=q, stops=stops, trail=(*state.trail, (closed, q)))
 
     def missed(self, state: _State) -> Iterator[Issue]:
         """Yield one issue for each pad that still waits: how close it came, where, and what stopped it."""
@@ -176,11 +177,12 @@ class _Closing:
                 continue
             touch, movers = self.gaps.touches[pad], self.movers[pad] & (self.direction != 0)
             gap, closed = min(self._seen(state, pad))
-            why = [f"{self.hand.joint_names[j]} {state.reasons[j]}" for j in np.flatnonzero(movers).tolist()]
+            stops = {j: state.stops[j] for j in np.flatnonzero(movers).tolist()}
+            why = [f"{self.hand.joint_names[j]} {stop.text}" for j, stop in stops.items()]
             yield Issue(
                 f"pad '{touch.pad.name}' does not reach the {self.gaps.shape.title}: at its closest, closed by "
                 f"{closed:.4g}, it is {1e3 * gap:.3g} mm away ({', '.join(why)}); "
-                "start from another hand.posture, close along something else, or move the object",
+                f"{advice(self.hand, self.direction, self.movers, pad, stops)}",
                 key=touch.key,
             )
 
@@ -205,14 +207,6 @@ class _Closing:
     def _waiting_gaps(self, state: _State) -> list[tuple[int, float]]:
         pads = [int(pad) for pad in np.flatnonzero(state.waiting)]
         return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
-
-
-def _carriers(hand: Hand, link: str) -> Iterator[str]:
-    """Yield a link and those that carry it, up to the palm."""
-    yield link
-    while link in hand.parents:
-        link = hand.parents[link]
-        yield link
 
 
 def _takes(hand: Hand) -> Flags:

@@ -51,6 +51,8 @@ class Contact:
     """(3,) position from the object frame B, axes of N [m]."""
     frame: Array
     """(3, 3) columns n, t, o."""
+    normal_at: str = ""
+    """Where a user states the normal, for advice; empty when it follows from the object."""
 
     @property
     def n_rows(self) -> int:

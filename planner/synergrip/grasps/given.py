@@ -37,7 +37,7 @@ def read_given(path: Path, key: str = "") -> Grasp:
     try:
         return given(matrices)
     except InputError as error:
-        raise error.located(read_document(path).locate) from None
+        raise error.located(read_document(path, numbers=True).locate) from None
 
 
 def given(matrices: Matrices) -> Grasp:
@@ -55,7 +55,10 @@ def given(matrices: Matrices) -> Grasp:
     if issues := [*_directions(matrices, columns), *_places(matrices, columns)]:
         raise InputError(issues)
     points = _points(matrices, columns)
-    contacts = tuple(_contact(d, c, p) for d, c, p in zip(matrices.contacts, columns, points, strict=True))
+    contacts = tuple(
+        _contact(data, column, point, _normal_at(matrices, k))
+        for k, (data, column, point) in enumerate(zip(matrices.contacts, columns, points, strict=True))
+    )
     return Grasp(
         matrices.title, contacts, matrices.G, matrices.J, matrices.S,
         matrices.C_s, matrices.C_q, matrices.C_z, matrices.lambda_0, frozen(w_0),
@@ -134,7 +137,20 @@ def _moment_system(columns: Array) -> tuple[Array, Array]:
     return np.vstack(blocks), columns[3:].T.ravel()
 
 
-def _contact(data: ContactData, columns: Array, point: Array) -> Contact:
+def _normal_at(matrices: Matrices, k: int) -> str:
+    """Return everything in the file whose sign goes with the normal of contact `k`."""
+    row = sum(len(contact_kind(data.kind).components) for data in matrices.contacts[:k])
+    coupled = np.any(np.delete(matrices.C_s[row], row))
+    places = [
+        *([f"contacts[{k}].normal"] if matrices.contacts[k].normal is not None else []),
+        f"column {row} of G (counted from 0)", f"row {row} of J",
+        *([f"row and column {row} of C_s"] if coupled else []),
+        *([f"lambda_0[{row}]"] if matrices.lambda_0 is not None else []),
+    ]  # fmt: skip
+    return f"{', '.join(places[:-1])} and {places[-1]}"
+
+
+def _contact(data: ContactData, columns: Array, point: Array, normal_at: str) -> Contact:
     """Return a contact; its frame, where not given, is read from its columns of G."""
     force = columns[:3, :3]
     normal = np.array([0.0, 0.0, 1.0])
@@ -144,4 +160,5 @@ def _contact(data: ContactData, columns: Array, point: Array) -> Contact:
         normal = force[:, 0]
     square = force.shape[1] == 3 and np.allclose(force.T @ force, np.eye(3), atol=AGREEMENT)
     frame = frozen(force) if square else contact_frame(normal)
-    return Contact(data.name, contact_kind(data.kind), data.friction, data.spin_friction, frozen(point), frame)
+    kind = contact_kind(data.kind)
+    return Contact(data.name, kind, data.friction, data.spin_friction, frozen(point), frame, normal_at)

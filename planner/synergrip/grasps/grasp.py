@@ -7,13 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.errors import raise_issues
 from synergrip.grasps.contact import Contact
+from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, block_diagonal, frozen
 
 
 @dataclass(frozen=True)
 class Grasp:
-    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moment about n])."""
+    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moment about n]).
+
+    A number in the place of a compliance stands for that times the identity, as in a grasp file.
+    """
 
     title: str
     contacts: tuple[Contact, ...]
@@ -29,6 +34,31 @@ class Grasp:
     """(6,) external wrench on the object at the start."""
     joints: tuple[str, ...]
     synergies: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        """Judge the values as those of a grasp file; a number as a compliance stands for that times the identity.
+
+        Raises:
+            InputError: shapes that do not fit each other, numbers that are not finite, names that stand twice.
+        """
+        judge, n_l = Judge("Grasp"), sum(contact.n_rows for contact in self.contacts)
+        n_q, n_z = (np.shape(matrix)[-1] if np.ndim(matrix) == 2 else 0 for matrix in (self.J, self.S))
+        kept = {
+            "G": judge.array("G", self.G, (6, n_l), ": a column for each force component of the contacts"),
+            "J": judge.array("J", self.J, (n_l, n_q), ": a row for each force component of the contacts"),
+            "S": judge.array("S", self.S, (n_q, n_z), ": a row for each joint, as J has columns"),
+            "C_s": judge.compliance("C_s", self.C_s, n_l),
+            "C_q": judge.compliance("C_q", self.C_q, n_q),
+            "C_z": judge.compliance("C_z", self.C_z, n_z),
+            "lambda_0": None if self.lambda_0 is None else judge.array("lambda_0", self.lambda_0, (n_l,)),
+            "w_0": judge.array("w_0", self.w_0, (6,)),
+        }
+        judge.names("contacts", [contact.name for contact in self.contacts])
+        judge.names("joints", self.joints)
+        judge.names("synergies", self.synergies)
+        raise_issues(judge.issues)
+        for name, value in kept.items():
+            object.__setattr__(self, name, value)
 
     @property
     def n_c(self) -> int:

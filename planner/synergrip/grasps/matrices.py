@@ -13,14 +13,14 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.grasps.kinds import KINDS
 from synergrip.grasps.matrix_reading import Count, MatrixReader
 from synergrip.linalg import Array, frozen
 from synergrip.validation import shown
 
-MOST_CONTACTS = 500
+MOST_CONTACTS = 250
 UNIT = 1e-6  # how far the length of a normal may be from 1
 NO_LOAD = 1e-12  # N: a wrench that counts as none
 BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative
@@ -140,10 +140,10 @@ class GraspFile(Table):
     def issues(self) -> Iterable[Issue]:
         """Refuse a name that two contacts have."""
         names = [contact.name for contact in self.contacts]
-        for index, name in enumerate(names):
-            if name in names[:index]:
-                first = names.index(name)
-                yield Issue(f"two contacts have the name '{name}' (first contacts[{first}])", f"contacts[{index}].name")
+        for index in repeated(names):
+            first = names.index(names[index])
+            message = f"two contacts have the name '{names[index]}' (first contacts[{first}])"
+            yield Issue(message, f"contacts[{index}].name")
 
 
 def read_matrices(path: Path, key: str = "") -> Matrices:
@@ -157,7 +157,7 @@ def read_matrices(path: Path, key: str = "") -> Matrices:
     Raises:
         InputError: all the issues of the file, each with its place.
     """
-    document = read_document(path, "grasp file", key)
+    document = read_document(path, "grasp file", key, numbers=True)
     issues: list[Issue] = []
     contacts: tuple[ContactFile, ...] | None = None
     try:

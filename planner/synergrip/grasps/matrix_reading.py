@@ -12,7 +12,7 @@ from synergrip.errors import Issue
 from synergrip.linalg import Array, frozen
 from synergrip.validation import shown
 
-LARGEST_SIDE = 2000  # rows or columns
+LARGEST_SIDE = 1000  # rows or columns
 MOST_ISSUES = 20  # of one matrix
 LARGEST_COMPLIANCE = 1e9  # m/N, rad/(N m): nothing that yields more holds anything
 SYMMETRY = 1e-9  # relative to the largest entry

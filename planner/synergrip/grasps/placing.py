@@ -38,6 +38,13 @@ class Touch:
     aimed: bool = True
     """False for a pad without a normal of its own: it pushes toward the object, and its `normal` is 0."""
 
+    normal_at: str = ""
+    """Where the normal of the pad is stated, for advice."""
+
+    def alone(self, thing: Object) -> bool:
+        """Tell whether nothing but the pad says where it pushes: a bare mass is a load, and may be anywhere."""
+        return thing.shape is None and self.normals == "pad"
+
 
 @dataclass(frozen=True)
 class Placed:
@@ -147,12 +154,16 @@ def _contact(thing: Object, touch: Touch, motion: PointMotion) -> tuple[Contact,
         raise InputError.at(touch.key, message)
     to_surface = inward if thing.shape is not None or not touch.aimed else pushing
     normal = pushing if touch.normals == "pad" else inward
-    if touch.aimed and (normal @ pushing <= 0 or normal @ inward <= 0):
+    if touch.aimed and not touch.alone(thing) and (normal @ pushing <= 0 or normal @ inward <= 0):
         angle = np.degrees(np.arccos(np.clip(inward @ pushing, -1, 1)))
         message = f"pad '{touch.pad.name}' faces away from the object ({angle:.0f} deg from the inward normal)"
+        if thing.shape is None:
+            message += '; if the mass is beyond the pads, write normals = "pad": then each pushes as the pad says'
         raise InputError.at(touch.key, message)
     spot = frozen(point + touch.pad.radius * to_surface)
-    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, contact_frame(normal)), gap
+    stated = touch.normal_at if touch.alone(thing) and not touch.pad.radius else ""  # a round one would touch elsewhere
+    frame = contact_frame(normal)
+    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, frame, stated), gap
 
 
 def _reached(title: str, touch: Touch, gap: float) -> float:

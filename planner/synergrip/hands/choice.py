@@ -8,7 +8,7 @@ from pathlib import Path
 
 from synergrip.errors import InputError, one_of
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import ALL, JOINTS, columns_of
+from synergrip.hands.synergies import ALL, JOINTS, columns_of, stands_still
 from synergrip.hands.synergy_file import SUFFIX, read_synergies
 
 
@@ -82,7 +82,7 @@ def _named(hand: Hand, names: Sequence[str], key: str) -> SynergySet:
             raise InputError.at(f"{key}[{index}]", f"'{name}' is listed twice")
         if not any(name in synergies.synergies for synergies in hand.synergy_sets.values()):
             known = dict.fromkeys(n for synergies in hand.synergy_sets.values() for n in synergies.synergies)
-            raise InputError.at(f"{key}[{index}]", one_of(name, known))
+            raise InputError.at(f"{key}[{index}]", stands_still(hand, name) or one_of(name, known))
     for synergies in hand.synergy_sets.values():
         if all(name in synergies.synergies for name in names):
             return columns_of(synergies, names)

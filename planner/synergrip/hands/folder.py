@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from os.path import isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents import parse, read_document
-from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
+from synergrip.documents import Document, parse, read_document
+from synergrip.errors import InputError, Issue, one_of, raise_issues, repeated, suggest
 from synergrip.files import bundled
 from synergrip.hands.bare import bare_hand
+from synergrip.hands.follower_ranges import FollowerRanges, led
+from synergrip.hands.foreign_files import XACRO
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
-from synergrip.hands.hand_file import HandFile, JointTable, PadTable, PostureTable
+from synergrip.hands.hand_drives import told_drives
+from synergrip.hands.hand_file import FILE, HandFile, JointTable, PadTable, PostureTable
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.model_file import SUFFIXES, read_model
 from synergrip.hands.sets import each_of, synergy_sets
 from synergrip.hands.synergies import (
+    coupling_map,
     joint_posture,
     joint_values,
     outside_limits,
@@ -30,7 +34,8 @@ from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 from synergrip.quantities import quantity
 
-FILE = "hand.toml"
+FOLDERS = ("urdf", "mjcf", "xml")
+"""Where the packages of robots keep their model files."""
 
 
 def bundled_hands() -> tuple[str, ...]:
@@ -44,42 +49,63 @@ def load_hand(
     *,
     relative_to: Path | None = None,
     coupling: Mapping[str, float] | float | None = None,
+    palm: str = "",
+    follower_ranges: FollowerRanges | None = None,
     key: str = "hand.model",
 ) -> Hand:
     """Return a hand by the name of a bundled one, or by a path.
 
     Args:
         name_or_path: a name of `bundled_hands`, or the path of a folder that holds hand.toml, of a hand.toml, or of a
-            URDF or MJCF file (``.urdf``, ``.xml``) that stands for itself, see `bare_hand`.
+            URDF or MJCF file (``.urdf``, ``.xml``, ``.mjcf``) that stands for itself, see `bare_hand`.
         relative_to: the folder a path is relative to; the current one when absent.
         coupling: ratios that replace those of the hand: one for all followers, or by follower.
-        key: where the name stands, for the error; the coupling stands beside it.
+        follower_ranges: whether the ranges that the model file states for followers count ("keep"), or what their
+            couplings make of the ranges of their drivers ("ignore"); as the hand has it when absent.
+        palm: the link of a URDF or MJCF file that is the palm, when it is not the outermost one. What it does not carry
+            stands still and is left out.
+        key: where the name stands, for the error; coupling, follower ranges and palm stand beside it.
 
     Raises:
-        InputError: no such hand, a file that cannot be used (located in that file), or a coupling that the hand does
-            not have (at the key of the coupling).
+        InputError: no such hand, a file that cannot be used (located in that file), or a coupling or palm that the hand
+            does not have (at their keys).
     """
     path = _find(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]
     at = f"{beside}.coupling" if beside else "coupling"
     if path.name != FILE:
-        tree = read_model(path, key)
+        tree = _model(path, key, palm=palm, palm_key=f"{beside}.palm" if beside else "palm")
         try:
-            return bare_hand(path.stem, tree, override(tree.couplings, coupling, at))
+            chosen = override(tree.couplings, coupling, at)
+            _any_follower(chosen, follower_ranges, beside)
+            return bare_hand(path.stem, tree, chosen, follower_ranges or "keep")
         except InputError as error:
             raise error.located(lambda issue: issue if issue.key else replace(issue, key=key)) from None
     document = read_document(path, "hand file")
     file = parse(document, HandFile)
     try:
-        tree = read_model(path.parent / file.model, "model", file.couplings)
+        tree = _model(path.parent / file.model, "model", file.couplings, file.palm or "")
     except InputError as error:
         raise error.located(document.locate) from None
-    told = {name: Coupling({each.joint: each.ratio}, each.offset, each.rigid) for name, each in file.couplings.items()}
-    chosen = override({**tree.couplings, **told}, coupling, at)
+    if palm and palm != tree.root:
+        message = f"'{tree.root}' is the palm of this hand, as its {FILE} has it; name another one there, in 'palm'"
+        raise InputError.at(f"{beside}.palm" if beside else "palm", message)
+    chosen = override({**tree.couplings, **_told(document, file)}, coupling, at)
+    _any_follower(chosen, follower_ranges, beside)
+    if follower_ranges is not None:
+        file = file.model_copy(update={"follower_ranges": follower_ranges})
     try:
         return _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
     except InputError as error:
         raise error.located(document.locate) from None
+
+
+def _model(path: Path, key: str, told: Collection[str] = (), palm: str = "", palm_key: str = "palm") -> LinkTree:
+    """Return what `read_model` does, with the palm at `palm_key` in errors."""
+    try:
+        return read_model(path, key, told, palm)
+    except InputError as error:
+        raise error.located(lambda issue: replace(issue, key=palm_key) if issue.key == "palm" else issue) from None
 
 
 def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
@@ -89,17 +115,46 @@ def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
     if name in names:
         return bundled("models") / "hands" / name / FILE
     path = (relative_to or Path()) / name
-    if path.suffix in SUFFIXES and not isdir(path):
-        return path
     folder = path.parent if path.name == FILE else path
     if name and isfile(folder / FILE):
         return (folder / FILE).resolve()
+    if path.name != FILE and (isfile(path) or (path.suffix.lower() in (*SUFFIXES, XACRO) and not isdir(path))):
+        return path
     listed = ", ".join(names)
     raise InputError.at(
         key,
-        f"{name!r} is neither a bundled hand ({listed}) nor a folder with {FILE} nor a .urdf or .xml file"
-        f"{suggest(name, names)}",
+        f"{name!r} is neither a bundled hand ({listed}) nor a folder with {FILE} nor a .urdf, .xml or .mjcf file"
+        f"{_models_near(path, name) or suggest(name, names)}",
     )
+
+
+def _models_near(path: Path, name: str) -> str:
+    """Return the model files that may be meant by a folder without hand.toml, or by a name without its suffix."""
+    if isdir(path):
+        entries = [
+            each for under in ("", *FOLDERS) for suffix in SUFFIXES for each in (path / under).glob(f"*{suffix}")
+        ]
+        found = sorted(str(Path(name) / entry.relative_to(path)) for entry in entries if isfile(entry))
+    else:
+        found = [f"{name}{suffix}" for suffix in SUFFIXES if name and isfile(f"{path}{suffix}")]
+    listed = " or ".join(f"'{each}'" for each in found[:3])
+    return f"; did you mean the model file {listed}?" if found else ""
+
+
+def _told(document: Document, file: HandFile) -> dict[str, Coupling]:
+    """Return the couplings of a hand.toml, each with its place."""
+    places = {name: document.locate(Issue("", key=f"couplings.{name}")) for name in file.couplings}
+    return {
+        name: Coupling({each.joint: each.ratio}, each.offset, each.rigid, f"{places[name].file}:{places[name].line}")
+        for name, each in file.couplings.items()
+    }
+
+
+def _any_follower(couplings: Mapping[str, Coupling], wish: FollowerRanges | None, beside: str) -> None:
+    """Refuse a wish about followers when the hand has none."""
+    if wish is not None and not couplings:
+        key = f"{beside}.follower_ranges" if beside else "follower_ranges"
+        raise InputError.at(key, "no joint of this hand follows another one; leave it out", on_key=True)
 
 
 def _hand(
@@ -109,6 +164,8 @@ def _hand(
     _check_names(tree, names)
     rows = {f"joint[{index}]": table for index, table in enumerate(file.joint)}
     joints = tuple(each_of("", rows, lambda _, table: _joint(tree, table)).values())
+    if file.follower_ranges == "ignore":
+        joints = led(joints, couplings, *coupling_map(names, couplings))
     compliance = each_of("", rows, lambda _, table: _compliance(tree, table)).values()
     kinds = joint_kinds(joints)
     offsets = [(f"couplings.{follower}.offset", follower, each.offset) for follower, each in file.couplings.items()]
@@ -116,7 +173,7 @@ def _hand(
     sets = synergy_sets(file, folder, kinds, couplings)
     postures = each_of("postures", file.postures, lambda _, table: _posture(table, sets, kinds, couplings))
     if judge_postures:
-        each_of("postures", postures, lambda _, q: _within_limits(joints, q))
+        each_of("postures", postures, lambda _, q: _within_limits(joints, q, couplings))
     return Hand(
         name=folder.name,
         title=file.title,
@@ -128,13 +185,16 @@ def _hand(
         kinematics=kinematics(tree, names),
         couplings=couplings,
         parents=tree.parents,
+        drives=told_drives(tree, couplings, file),
+        still=tree.still,
     )
 
 
 def _check_names(tree: LinkTree, names: Sequence[str]) -> None:
     issues = []
+    twice = set(repeated(names))
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if index in twice:
             issues.append(Issue(f"'{name}' is listed twice", key=f"joint[{index}].name"))
         elif name not in tree.moving:
             issues.append(Issue(f"moving joint {one_of(name, tree.moving)}", key=f"joint[{index}].name"))
@@ -152,7 +212,7 @@ def _joint(tree: LinkTree, table: JointTable) -> Joint:
         limit = quantity(table.torque_limit, "torque" if joint.kind == "hinge" else "force", "torque_limit")
     if not limit > 0:
         raise InputError.at("torque_limit", f"must be greater than 0, got {table.torque_limit!r}")
-    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit, joint.child)
+    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit, joint.child, joint.place)
 
 
 def _compliance(tree: LinkTree, table: JointTable) -> float:
@@ -192,6 +252,5 @@ def _posture(
     return joint_values(chosen, values)
 
 
-def _within_limits(joints: Sequence[Joint], q: Array) -> None:
-    issues = outside_limits(joints, q, "")
-    raise_issues(issues)
+def _within_limits(joints: Sequence[Joint], q: Array, couplings: Mapping[str, Coupling]) -> None:
+    raise_issues(outside_limits(joints, q, "", couplings))

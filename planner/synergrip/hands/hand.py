@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -42,6 +42,8 @@ class Joint:
     """|tau| allowed [N m] or [N]; infinity when the hand states none."""
     link: str = ""
     """The link that it turns or shifts."""
+    place: str = field(default="", compare=False)
+    """File and line that state the range, for messages."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,31 @@ class Coupling:
     offset: float = 0.0  # [rad] or [m]
     rigid: bool = field(default=False, compare=False)
     """Whether nothing lets the joints part, as a clutch or a tendon does when a link is held by the object."""
+    place: str = field(default="", compare=False)
+    """Where that stands, for messages: file and line, or the key of the problem."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drives:
+    """What a model file says of motors and springs, for the joints that no motor moves."""
+
+    compliance: Array
+    """(n_q, n_q) yield of the joints to torques, by springs that no motor holds [rad/(N m)]."""
+    sprung: Mapping[str, float] = field(default_factory=dict)
+    """Joint that springs alone hold -> where they hold it [rad or m]."""
+    loose: Mapping[str, str] = field(default_factory=dict)
+    """Joint of which the file does not say how it moves, and how far it yields -> why not, as a clause."""
+    notes: tuple[str, ...] = ()
+    """What was taken for something else, or not read, though it is no error."""
+    pulls: Array | None = None
+    """(n_a, n_q) joint torque per force of each actuator; None when nothing says what an effort is."""
+    forces: Array | None = None
+    """(n_a,) largest force of each actuator; infinity when none is stated."""
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """Joints that are no synergies, because no motor of the file is known to move them."""
+        return (*self.sprung, *self.loose)
 
 
 @dataclass(frozen=True)
@@ -102,6 +129,10 @@ class Hand:
     """Follower -> its drivers; already in every synergy set but "joints"."""
     parents: Mapping[str, str] = field(default_factory=dict)
     """Link -> the link that carries it; parents before their children, the palm left out."""
+    drives: Drives | None = None
+    """None when no file says what drives what."""
+    still: tuple[str, ...] = ()
+    """Links and joints of its file that stand still, because the palm is a link that they carry, or hang beside it."""
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -113,6 +144,13 @@ class Hand:
         """Names of the links, the palm first and parents before their children."""
         palm = [link for link in self.parents.values() if link not in self.parents][:1]
         return (*palm, *self.parents)
+
+    def carriers(self, link: str) -> Iterator[str]:
+        """Yield a link and those that carry it, up to the palm."""
+        yield link
+        while link in self.parents:
+            link = self.parents[link]
+            yield link
 
     def pad(self, name: str, key: str = "") -> Pad:
         """Return a pad by name or raise an `InputError` that lists the pads."""

@@ -25,6 +25,9 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.hands.follower_ranges import FollowerRanges
+
+FILE = "hand.toml"
 
 Point = Annotated[
     tuple[float, ...],
@@ -117,10 +120,18 @@ class HandFile(Table):
     version: Version = Field(alias="schema", description="1")
     title: Text = Field(description="name of the hand, for people")
     model: Text = Field(description="URDF or MJCF file, relative to hand.toml")
-    joint: tuple[JointTable, ...] = Field(min_length=1, description="every moving joint, in the order of q")
+    palm: Text | None = Field(default=None, description="link that is the palm; the outermost one when absent")
+    joint: tuple[JointTable, ...] = Field(
+        min_length=1, description="every moving joint that the palm carries, in the order of q"
+    )
     pads: dict[str, PadTable] = Field(default_factory=dict, description="places that are made to touch things")
     couplings: dict[str, CouplingTable] = Field(
         default_factory=dict, description="joints that follow others; before what the model file says of them"
+    )
+    follower_ranges: FollowerRanges = Field(
+        default="keep",
+        description='"ignore": joints that follow others reach as far as their couplings take them, whatever range the '
+        "model file states for them",
     )
     synergies: dict[Text, SynergyTable] = Field(default_factory=dict, description="synergy sets, the default first")
     postures: dict[Text, PostureTable] = Field(default_factory=dict, description="postures with a name")

@@ -5,14 +5,21 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.hands.mjcf_source import Source, kinematic_source
+from synergrip.hands.mjcf_springs import Spring, joint_springs, tendon_springs
 from synergrip.hands.xml_elements import Element
 from synergrip.linalg import Array, frozen
 
+MOST_RELATIONS = 500
+"""Equalities, actuators or tendons."""
+
+_SPRINGDAMPER = re.compile(r' springdamper="[^"]*"')
 _LINE = re.compile(r"\bline (\d+)")
 _FRAME = re.compile(r"^(XML )?Error: |^Schema violation: |\s*Element( name)? '.*$", re.DOTALL)
 
@@ -28,6 +35,19 @@ class Equality:
     polynomial: tuple[float, ...]
     """Coefficients c of e_1 = c_0 + c_1 e_2 + c_2 e_2^2 + ..., where e are the values from their reference."""
     element: Element
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """An actuator that pulls at a joint or at a tendon."""
+
+    name: str
+    joint: int | None
+    """Column of q; None for a tendon, and for a ball or free joint."""
+    tendon: int | None
+    gear: float
+    force: float
+    """The largest [N, N m]; infinity when the file states none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +69,33 @@ class Mjcf:
     """(n_q,) values in the drawing of the file (``ref``) [rad or m]."""
     equalities: tuple[Equality, ...]
     tendons: Array
-    """(n_t, n_q) coefficients of the fixed tendons [m/rad or 1]."""
-    pulls: Array
-    """(n_a, n_q) joint torque per force of each actuator."""
-    forces: Array
-    """(n_a,) largest force of each actuator; infinity when the file states none."""
+    """(n_t, n_q) coefficients of the fixed tendons [m/rad or 1]; zeros for spatial ones."""
+    spatial: tuple[int, ...]
+    """Numbers of the spatial tendons."""
+    actuators: tuple[Actuator, ...]
+    springs: tuple[Spring, ...]
+
+    @cached_property
+    def tendon_names(self) -> tuple[str, ...]:
+        """Names of the tendons; a number for one without."""
+        return tuple(self.model.tendon(number).name or str(number + 1) for number in range(self.model.ntendon))
+
+    def routed(self, postures: Array) -> tuple[Array, Array]:
+        """Return the moment arms (n_p, n_t, n_q) and lengths (n_p, n_t) of all tendons in `postures` (n_p, n_q)."""
+        import mujoco
+
+        model, data = self.model, mujoco.MjData(self.model)
+        joints = list(self.q)
+        columns, places = model.jnt_dofadr[joints], model.jnt_qposadr[joints]
+        arms = np.zeros((len(postures), model.ntendon, len(joints)))
+        lengths = np.zeros((len(postures), model.ntendon))
+        for number, posture in enumerate(postures):
+            data.qpos[places] = posture
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            mujoco.mj_tendon(model, data)
+            arms[number], lengths[number] = _tendon_jacobian(model, data)[:, columns], data.ten_length
+        return arms, lengths
 
 
 def compiled(root: Element) -> Mjcf:
@@ -69,31 +111,28 @@ def compiled(root: Element) -> Mjcf:
 
     source = kinematic_source(root)
     try:
-        model = mujoco.MjModel.from_xml_string(source.text)
+        model = mujoco.MjModel.from_xml_string(source.text, dict(source.files))
     except (ValueError, mujoco.FatalError) as error:
-        found = _LINE.search(str(error))
-        number = int(found[1]) if found else 0
-        element = source.lines[number - 1] if 1 <= number <= len(source.lines) else source.lines[0]
-        said = " ".join(_FRAME.sub("", _FRAME.sub("", str(error).strip())).split())
+        element = source.at([int(number) for number in reversed(_LINE.findall(str(error)))])
+        inmost = str(error).strip().rpartition("model file with error: ")[2]
+        said = " ".join(_FRAME.sub("", _FRAME.sub("", inmost)).split())
         raise element.refused(f"<{element.tag}>: MuJoCo says: {said}") from None
+    for count, what in ((model.neq, "equalities"), (model.nu, "actuators"), (model.ntendon, "tendons")):
+        if count > MOST_RELATIONS:
+            raise root.refused(f"the file has {count} {what}, and a hand has at most {MOST_RELATIONS}")
     kinds = tuple(mujoco.mjtJoint(kind).name.removeprefix("mjJNT_").lower() for kind in model.jnt_type)
     q = tuple(number for number, kind in enumerate(kinds) if kind in ("hinge", "slide"))
-    tendons = _tendons(model, q)
+    spatial = tuple(number for number in range(model.ntendon) if not _fixed(model, number))
     bodies = _named([model.body(number).name or f"body{number}" for number in range(model.nbody)])
     names = [model.joint(number).name or bodies[model.jnt_bodyid[number]] for number in range(model.njnt)]
+    joints = _named(names)
     return Mjcf(
-        model,
-        source,
-        bodies,
-        _named(names),
-        kinds,
-        q,
-        frozen(model.qpos0[model.jnt_qposadr[list(q)]]),
+        model, source, bodies, joints, kinds, q, frozen(model.qpos0[model.jnt_qposadr[list(q)]]),
         tuple(_equality(model, number, q, element) for number, element in _active(model, source)),
-        tendons,
-        _pulls(model, q, tendons),
-        frozen(np.where(model.actuator_forcelimited, np.abs(model.actuator_forcerange).max(axis=1), math.inf)),
-    )
+        _coefficients(model, q), spatial,
+        tuple(_actuator(model, number, q) for number in range(model.nu)),
+        (*joint_springs(model, q, joints, _tuned(model, source)), *tendon_springs(model)),
+    )  # fmt: skip
 
 
 def _named(names: list[str]) -> tuple[str, ...]:
@@ -125,23 +164,54 @@ def _equality(model: Any, number: int, q: tuple[int, ...], element: Element) -> 
     return Equality(kind, tuple(ends), tuple(model.eq_data[number][:5].tolist()), element)
 
 
-def _tendons(model: Any, q: tuple[int, ...]) -> Array:
+def _fixed(model: Any, tendon: int) -> bool:
+    import mujoco
+
+    return bool(model.wrap_type[model.tendon_adr[tendon]] == mujoco.mjtWrap.mjWRAP_JOINT)
+
+
+def _coefficients(model: Any, q: tuple[int, ...]) -> Array:
     coefficients = np.zeros((model.ntendon, len(q)))
-    for number in range(model.ntendon):
+    for number in filter(lambda tendon: _fixed(model, tendon), range(model.ntendon)):
         first = model.tendon_adr[number]
         for wrap in range(first, first + model.tendon_num[number]):
             coefficients[number, q.index(model.wrap_objid[wrap])] += model.wrap_prm[wrap]
     return frozen(coefficients)
 
 
-def _pulls(model: Any, q: tuple[int, ...], tendons: Array) -> Array:
+def _tendon_jacobian(model: Any, data: Any) -> Array:
+    """Return (n_t, n_v); MuJoCo 4 keeps the places of its entries in the model, MuJoCo 3 in the data, if anywhere."""
     import mujoco
 
-    pulls = np.zeros((model.nu, len(q)))
-    for number in range(model.nu):
-        driven, gear = model.actuator_trnid[number, 0], model.actuator_gear[number, 0]
-        if model.actuator_trntype[number] == mujoco.mjtTrn.mjTRN_TENDON:
-            pulls[number] = gear * tendons[driven]
-        elif driven in q:  # an actuator of a ball or free joint drives no column of q
-            pulls[number, q.index(driven)] = gear
-    return frozen(pulls)
+    where = model if hasattr(model, "ten_J_rownnz") else data
+    if where is data and not mujoco.mj_isSparse(model):
+        return np.reshape(data.ten_J, (model.ntendon, model.nv))
+    dense, columns = np.zeros((model.ntendon, model.nv)), where.ten_J_colind.ravel()
+    mujoco.mju_sparse2dense(dense, data.ten_J.ravel(), where.ten_J_rownnz, where.ten_J_rowadr, columns)
+    return dense
+
+
+def _actuator(model: Any, number: int, q: tuple[int, ...]) -> Actuator:
+    import mujoco
+
+    driven = int(model.actuator_trnid[number, 0])
+    on_tendon = model.actuator_trntype[number] == mujoco.mjtTrn.mjTRN_TENDON
+    limited = bool(model.actuator_forcelimited[number])
+    return Actuator(
+        model.actuator(number).name or str(number + 1),
+        q.index(driven) if not on_tendon and driven in q else None,
+        driven if on_tendon else None,
+        float(model.actuator_gear[number, 0]),
+        float(np.abs(model.actuator_forcerange[number]).max()) if limited else math.inf,
+    )
+
+
+def _tuned(model: Any, source: Source) -> NDArray[np.bool_]:
+    """Return (n_j,) whether the stiffness is made from a springdamper: it is another one without."""
+    import mujoco
+
+    without = _SPRINGDAMPER.sub("", source.text)
+    files = {name: _SPRINGDAMPER.sub("", text.decode()).encode() for name, text in source.files.items()}
+    if (without, files) == (source.text, dict(source.files)):
+        return np.zeros(model.njnt, dtype=bool)
+    return np.asarray(mujoco.MjModel.from_xml_string(without, files).jnt_stiffness != model.jnt_stiffness)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from synergrip.errors import InputError, one_of
 from synergrip.hands.mjcf import Mjcf, compiled
 from synergrip.hands.mjcf_couplings import mjcf_couplings
+from synergrip.hands.mjcf_palm import carried_by
 from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint
 from synergrip.hands.xml_elements import Element
 from synergrip.linalg import Array
@@ -20,7 +22,7 @@ ROUNDING = 1e-6
 """How far the length of an axis or a quaternion may be from 1."""
 
 
-def mjcf_tree(root: Element) -> LinkTree:
+def mjcf_tree(root: Element, palm: str = "") -> LinkTree:
     """Return the links, joints and couplings of an MJCF file.
 
     The palm is the one body on the world, or the world when several hang there or that one moves. It stands still:
@@ -29,26 +31,40 @@ def mjcf_tree(root: Element) -> LinkTree:
 
     Args:
         root: the element <mujoco> of the file.
+        palm: the body that is the palm instead; what it does not carry stands still and is left out.
 
     Raises:
-        InputError: what `compiled` and `mjcf_couplings` refuse, a ball joint, two hands, no moving joint, a range
-            upside down; with file and line.
+        InputError: what `compiled`, `carried_by` and `mjcf_couplings` refuse, a ball joint, two hands, no moving joint,
+            a range upside down; with file and line. No such palm; at the key ``palm``.
     """
-    file = compiled(root)
+    whole = compiled(root)
+    if palm and palm not in whole.bodies:
+        raise InputError.at("palm", f"link {one_of(palm, whole.bodies)}")
+    top, carried = (whole.bodies.index(palm), []) if palm else _palm(whole)
+    file, carried = carried_by(whole, top) if palm else (whole, carried)
+    _judge(root, file, carried, palm)
+    moves = mjcf_couplings(file)
+    limits = {joint: _torque_limit(file, column, moves.pulls) for column, joint in enumerate(file.q)}
+    joints = [joint for body in carried for joint in _joints(file, body, limits)]
+    names = [joint.name for joint in joints]
+    links = (file.bodies[top], *(joint.child for joint in joints))
+    outside = (whole.bodies[body] for body in range(1, len(whole.bodies)) if body not in (top, *carried))
+    still = (*outside, *(whole.joints[joint] for joint in whole.q if joint not in file.q)) if palm else ()
+    title = root.attributes.get("model", "")
+    return LinkTree(title, links[0], links, dict(zip(names, joints, strict=True)), moves.couplings, moves.drives, still)
+
+
+def _judge(root: Element, file: Mjcf, carried: list[int], palm: str) -> None:
+    """Refuse what is no hand: a ball joint, no joint that moves, too many."""
     for number, kind in enumerate(file.kinds):
-        if kind == "ball":
+        if kind == "ball" and (not palm or int(file.model.jnt_bodyid[number]) in carried):
             name = file.joints[number]
             raise _place(file, number).refused(f"joint '{name}' is a ball joint; write it as three hinges")
+    below = f" below the palm '{palm}'" if palm else ""
     if not file.q:
-        raise root.refused("the file has no joint that moves")
+        raise root.refused(f"the file has no joint that moves{below}")
     if len(file.q) > MOST_MOVING:
         raise root.refused(f"{len(file.q)} joints move, and a hand has at most {MOST_MOVING}")
-    palm, carried = _palm(file)
-    joints = [joint for body in carried for joint in _joints(file, body)]
-    names = [joint.name for joint in joints]
-    links = (file.bodies[palm], *(joint.child for joint in joints))
-    title = root.attributes.get("model", "")
-    return LinkTree(title, links[0], links, dict(zip(names, joints, strict=True)), mjcf_couplings(file))
 
 
 def _place(file: Mjcf, joint: int) -> Element:
@@ -71,7 +87,7 @@ def _palm(file: Mjcf) -> tuple[int, list[int]]:
     return (tops[0], carried[1:]) if len(tops) == 1 and tops[0] not in moves else (WORLD, carried)
 
 
-def _joints(file: Mjcf, body: int) -> Iterator[TreeJoint]:
+def _joints(file: Mjcf, body: int, limits: Mapping[int, float]) -> Iterator[TreeJoint]:
     """Yield what holds a body to its parent: one fixed joint, or its joints as a chain."""
     model, name = file.model, file.bodies[body]
     parent = file.bodies[model.body_parentid[body]]
@@ -83,7 +99,7 @@ def _joints(file: Mjcf, body: int) -> Iterator[TreeJoint]:
         yield TreeJoint(_new(f"{name}/fixed", file.joints), "fixed", parent, name, *_written(*at))
     for joint in numbers:
         child = name if joint == numbers[-1] else _new(f"{name}/{file.joints[joint]}", file.bodies)
-        yield _joint(file, joint, parent, child, *at)
+        yield _joint(file, joint, parent, child, *at, limits[joint])
         parent, at = child, (np.zeros(3), Rotation.identity())
 
 
@@ -91,7 +107,9 @@ def _new(name: str, names: tuple[str, ...]) -> str:
     return _new(f"{name}'", names) if name in names else name
 
 
-def _joint(file: Mjcf, joint: int, parent: str, child: str, xyz: Array, rotation: Rotation) -> TreeJoint:
+def _joint(
+    file: Mjcf, joint: int, parent: str, child: str, xyz: Array, rotation: Rotation, torque_limit: float
+) -> TreeJoint:
     """Return a joint of a body that is drawn at `xyz` (3,) and `rotation` in its parent, with the joint at its ref."""
     model, kind, name = file.model, file.kinds[joint], file.joints[joint]
     axis, anchor, ref = model.jnt_axis[joint], model.jnt_pos[joint], model.qpos0[model.jnt_qposadr[joint]]
@@ -109,7 +127,7 @@ def _joint(file: Mjcf, joint: int, parent: str, child: str, xyz: Array, rotation
         lower, upper = -math.inf, math.inf
     return TreeJoint(
         name, kind, parent, child, *_written(xyz, rotation), tuple(axis.tolist()), tuple(anchor.tolist()),
-        lower, upper, _torque_limit(file, joint),
+        lower, upper, torque_limit, _place(file, joint).place,
     )  # fmt: skip
 
 
@@ -117,11 +135,12 @@ def _written(xyz: Array, rotation: Rotation) -> tuple[tuple[float, ...], tuple[f
     return tuple(xyz.tolist()), tuple(rotation.as_quat()[[3, 0, 1, 2]].tolist())
 
 
-def _torque_limit(file: Mjcf, joint: int) -> float:
+def _torque_limit(file: Mjcf, column: int, pulls: Array) -> float:
     """Return what the joint says, or else its actuators together: the larger of the two directions."""
+    joint = file.q[column]
     if file.model.jnt_actfrclimited[joint]:
         limit = np.abs(file.model.jnt_actfrcrange[joint]).max()
     else:
-        pulls = np.abs(file.pulls[:, file.q.index(joint)])
-        limit = np.sum(pulls[pulls > 0] * file.forces[pulls > 0])
+        arms, forces = np.abs(pulls[:, column]), np.array([actuator.force for actuator in file.actuators])
+        limit = np.sum(arms[arms > 0] * forces[arms > 0])
     return float(limit) if limit > 0 else math.inf

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from synergrip.cells import Cell, CellReader, cells_of
+from synergrip.cells import Cell, CellReader
 from synergrip.errors import one_of
+from synergrip.hands.column_names import UNITS, beside_joints, joint_and_unit, may_count
+from synergrip.hands.doubts import NOTHING, counts, doubts, left_out_notes, refuse_endless, refuse_numbers
 from synergrip.hands.hand import Hand
+from synergrip.hands.meant_units import Column, refuse_unit, unit_notes
+from synergrip.hands.sheet import Sheet, is_number
 from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.hands.units import joint_kinds
 from synergrip.linalg import Array, frozen
 
-TIME = "t_s"
-UNITS = {"hinge": {"_deg": math.pi / 180, "_rad": 1.0}, "slide": {"_mm": 1e-3, "_m": 1.0}}
-"""Ending of a column's name -> factor to SI, for each kind of joint."""
 HEADER = "a header with the names of the joints, then a posture on each line"
 FEWEST = 2
 """Postures: one has no variance."""
@@ -50,48 +51,74 @@ class Recorded:
     kind: str
     """What all the joints are: "hinge" or "slide"."""
     followed: tuple[Followed, ...]
-
-
-@dataclass(frozen=True)
-class _Column:
-    joint: str
-    kind: str
-    factor: float
-    cell: Cell
-    index: int
+    left_out: tuple[str, ...] = ()
+    """Names of the columns that are no joints."""
+    notes: tuple[str, ...] = ()
+    """What is doubtful about the records, or was understood in one of several ways."""
 
 
 def read_postures(path: Path, hand: Hand | None = None, *, degrees: bool = False) -> Recorded:
     """Return the postures of a CSV file.
 
     Args:
-        path: the file. Its header names the joints; a name may end in ``_deg`` (``_mm`` for a sliding joint of
-            the hand), otherwise values are rad (m). A column ``t_s``, blank lines and ``#`` lines are passed over.
+        path: the file. Its header names the joints; a name may end in ``_deg`` or ``[deg]`` (``_mm`` for a sliding
+            joint of the hand), otherwise values are rad (m). Cells are parted as `Sheet` tells. Columns of times,
+            counters and the like are left out; blank lines and comments are passed over.
         hand: whose joints they are. Each must be there, except those that follow others. Without a hand every
             column is a hinge that moves by itself.
         degrees: whether angles are degrees where the header does not say.
 
     Raises:
-        InputError: no such file, a joint that is unknown, missing or there twice, hinges together with sliding
-            joints, cells that are no finite number, ragged lines, fewer than 2 postures; with line and column.
+        InputError: no such file, numbers in place of names, a joint that is unknown, missing or there twice, hinges
+            together with sliding joints, cells that are no finite number, ragged lines, fewer than 2 postures, values
+            whose unit must be another one; with line and column.
     """
-    reader = CellReader.of(path)
-    rows = reader.rows()
-    number, header = next(rows, (1, ""))
-    cells = list(cells_of(header, number))
-    columns = _columns(reader, cells, hand, degrees) if reader.is_header(cells, HEADER) else []
-    reader.raise_issues()
-    read = [(line, reader.numbers(line, text, len(cells))) for line, text in rows]
-    if len(read) < FEWEST:
-        reader.refuse(f"expected at least {FEWEST} postures below the header, got {len(read)}", cells[0])
-    reader.raise_issues()
-    values = np.array([row for _, row in read])[:, [column.index for column in columns]]
-    return _recorded(path, columns, values * [c.factor for c in columns], tuple(line for line, _ in read), hand)
+    sheet = Sheet.of(path, HEADER)
+    refuse_numbers(sheet, hand)
+    sheet.reader.raise_issues()
+    beside = {index: what for index, cell in enumerate(sheet.header) if (what := _beside(sheet, index, cell, hand))}
+    columns = _columns(sheet, beside, hand, degrees)
+    sheet.reader.raise_issues()
+    rows, lines = _rows(sheet, columns, beside), tuple(number for number, _ in sheet.rows)
+    refuse_unit(sheet.reader, columns, rows, lines, hand)
+    refuse_endless(sheet.reader, columns, rows, hand)
+    sheet.reader.raise_issues()
+    left = {sheet.header[i].text or f"column {i + 1}": what for i, what in beside.items() if what != NOTHING}
+    notes = (*left_out_notes(left), *unit_notes(columns, rows, lines), *doubts(columns, rows, hand))
+    return replace(_recorded(path, columns, rows, lines, hand), left_out=tuple(left), notes=notes)
+
+
+def _rows(sheet: Sheet, columns: Sequence[Column], beside: Mapping[int, str]) -> Array:
+    """Return the (N, n) values of the columns as they are written."""
+    if len(sheet.rows) < FEWEST:
+        message = f"expected at least {FEWEST} postures below the header, got {len(sheet.rows)}"
+        sheet.reader.refuse(message, sheet.header[0])
+    sheet.reader.raise_issues()
+    times = [index for index, what in beside.items() if what == "time"]
+    rows = sheet.numbers([column.index for column in columns], times)
+    sheet.reader.raise_issues()
+    return np.array(rows)
+
+
+def _beside(sheet: Sheet, index: int, cell: Cell, hand: Hand | None) -> str:
+    """Return what a column is that is no joint; empty for a joint."""
+    last = len(sheet.header) - 1
+    if hand is not None and joint_and_unit(cell.text, joint_kinds(hand.joints))[0] in hand.joint_names:
+        return ""
+    if what := beside_joints(cell.text):
+        return what
+    if sheet.rows and not any(sheet.column(index)):
+        return "empty" if cell.text or index < last else NOTHING  # which each line has that ends in a delimiter
+    texts = list(sheet.column(index)) if may_count(cell.text) and (cell.text or index == 0) else []
+    if len(texts) >= FEWEST and counts(texts):
+        return "a counter"
+    return "a label" if not cell.text and index == 0 and texts and not any(map(is_number, texts)) else ""
 
 
 def _recorded(
-    path: Path, columns: Sequence[_Column], values: Array, lines: tuple[int, ...], hand: Hand | None
+    path: Path, columns: Sequence[Column], rows: Array, lines: tuple[int, ...], hand: Hand | None
 ) -> Recorded:
+    values = rows * [column.factor for column in columns]
     free = [i for i, column in enumerate(columns) if hand is None or column.joint not in hand.couplings]
     joints, kind = tuple(columns[i].joint for i in free), columns[free[0]].kind
     followed: tuple[Followed, ...] = ()
@@ -110,11 +137,12 @@ def _followed(hand: Hand, joint: str, known: dict[str, Array], lines: tuple[int,
     return Followed(joint, drivers(hand.couplings[joint]), float(apart.max()), lines[int(np.argmax(apart))])
 
 
-def _columns(reader: CellReader, header: Sequence[Cell], hand: Hand | None, degrees: bool) -> list[_Column]:
+def _columns(sheet: Sheet, beside: Mapping[int, str], hand: Hand | None, degrees: bool) -> list[Column]:
     """Return a column for each joint, in the order of the hand; what is wrong is noted in the reader."""
-    found: dict[str, _Column] = {}
+    found: dict[str, Column] = {}
+    reader, header = sheet.reader, sheet.header
     for index, cell in enumerate(header):
-        column = None if cell.text == TIME else _column(reader, cell, index, hand, degrees)
+        column = None if index in beside else _column(reader, cell, index, hand, degrees)
         if column is not None and column.joint in found:
             reader.refuse(f"joint '{column.joint}' is there twice", cell)
         elif column is not None:
@@ -134,34 +162,25 @@ def _columns(reader: CellReader, header: Sequence[Cell], hand: Hand | None, degr
     return [found[name] for name in hand.joint_names if name in found]
 
 
-def _column(reader: CellReader, cell: Cell, index: int, hand: Hand | None, degrees: bool) -> _Column | None:
-    kinds = {joint.name: joint.kind for joint in hand.joints} if hand is not None else None
-    name, ending = _split(cell.text, kinds)
+def _column(reader: CellReader, cell: Cell, index: int, hand: Hand | None, degrees: bool) -> Column | None:
+    kinds = joint_kinds(hand.joints) if hand is not None else None
+    name, unit = joint_and_unit(cell.text, kinds)
     if kinds is not None and name not in kinds:
         reader.refuse(f"joint {one_of(name, kinds)}", cell)
         return None
-    if not name or '"' in name or not name.isprintable():
-        reader.refuse("expected the name of a joint, without quotes and control characters", cell)
+    if not name or any(mark in name for mark in '",') or not name.isprintable():
+        reader.refuse("expected the name of a joint, without commas, quotes and control characters", cell)
         return None
     kind = kinds[name] if kinds is not None else "hinge"
-    if ending and ending not in UNITS[kind]:
+    if unit and unit not in UNITS[kind]:
         takes = "turns: give it in rad or deg" if kind == "hinge" else "slides: give it in m or mm"
         reader.refuse(f"joint '{name}' {takes}", cell)
         return None
-    usual = {"hinge": "_deg" if degrees else "_rad", "slide": "_m"}[kind]
-    return _Column(name, kind, UNITS[kind][ending or usual], cell, index)
+    usual = {"hinge": "deg" if degrees else "rad", "slide": "m"}[kind]
+    return Column(name, kind, unit or usual, bool(unit), cell, index)
 
 
-def _split(text: str, known: dict[str, str] | None) -> tuple[str, str]:
-    """Return a column's joint and its unit, as in ``index_pip`` and ``_deg``; a joint may itself be so named."""
-    if known is not None and text in known:
-        return text, ""
-    kinds = UNITS if known is not None else ("hinge",)
-    ending = next((each for kind in kinds for each in UNITS[kind] if text.endswith(each)), "")
-    return text.removesuffix(ending), ending
-
-
-def _judge_kinds(reader: CellReader, columns: Sequence[_Column]) -> None:
+def _judge_kinds(reader: CellReader, columns: Sequence[Column]) -> None:
     """Refuse hinges together with sliding joints: their principal directions would depend on the units."""
     slides = [column for column in columns if column.kind == "slide"]
     if slides and len(slides) < len(columns):

@@ -38,7 +38,7 @@ class Relations:
         Raises:
             InputError: it depends on the last digits of A how many of the relations are independent.
         """
-        rows = _clear(split(self.A)).row_space
+        rows = clear_cut(split(self.A)).row_space
         if rows.shape[1] == 0:
             return q
         return q + rows @ np.linalg.lstsq(self.A @ rows, self.b - self.A @ q, rcond=None)[0]
@@ -48,47 +48,12 @@ class Relations:
         return np.abs(self.A @ q - self.b)
 
 
-def with_pulls(relations: Relations, pulls: Array, q_0: Array) -> Relations:
-    """Return the relations that also hold when joints that share an actuator yield alike.
-
-    An actuator that pulls at several joints sets one number, not the share of each. With equal compliances c the
-    joints give way by dq = c P m f, where m are the coefficients of the tendon, f is its pull, and P projects on the
-    motions that A dq = 0 allows: without relations, in proportion to the coefficients.
-
-    Args:
-        relations: those that hold in any case, with rows of norm 1.
-        pulls: (n_a, n_q) one row m for each actuator.
-        q_0: (n_q,) where no actuator pulls.
-
-    Raises:
-        InputError: it depends on the last digits how many of the pulls are independent.
-    """
-    shared = _shared(relations.A, pulls)
-    if not shared:
-        return relations
-    acting = pulls[np.any(pulls[:, shared] != 0, axis=1)]
-    alone = np.delete(np.eye(len(q_0)), shared, axis=0)
-    free = split(relations.A).null_space
-    directions = np.vstack([acting / np.linalg.norm(acting, axis=1, keepdims=True), alone])
-    A = _clear(split(directions @ free @ free.T, reference=1.0)).null_space.T
-    return Relations(A, A @ relations.nearest(q_0))
-
-
-def _clear(parts: Split) -> Split:
+def clear_cut(parts: Split) -> Split:
+    """Return `parts`, or refuse relations or pulls of which it depends on the last digits how many are independent."""
     if parts.decision.ambiguous:
         message = "some equalities or tendons nearly repeat each other; remove one of them, or write it exactly"
         raise InputError.at("", message)
     return parts
-
-
-def _shared(A: Array, pulls: Array) -> list[int]:
-    """Return the columns of joints that share an actuator, and of those tied to them."""
-    several = pulls[np.count_nonzero(pulls, axis=1) > 1]
-    ties = [set(np.flatnonzero(row).tolist()) for row in (*several, *A)]
-    shared = set[int]().union(*ties[: len(several)])
-    for _ in ties:
-        shared = shared.union(*(tie for tie in ties if tie & shared))
-    return sorted(shared)
 
 
 def couplings(

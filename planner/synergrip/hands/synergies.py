@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
+from synergrip.hands.follower_ranges import FollowerRange, follower_ranges, why_outside
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
 from synergrip.hands.units import SI_UNITS, joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
@@ -109,7 +110,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
         hand: the hand.
         synergies: the chosen set; its names are looked up first.
         wish: the name of a posture of the hand, or values [rad or m] by synergy or joint name. Names left
-            out are 0; a joint that follows another one follows unless it is named.
+            out are 0, or where springs alone hold them; a joint that follows another one follows unless it is named.
         key: where it stands, for the error.
 
     Raises:
@@ -122,7 +123,7 @@ def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], 
         q = hand.postures[wish]
     else:
         q = _values(hand, synergies, wish, key)
-    issues = outside_limits(hand.joints, q, key)
+    issues = outside_limits(hand.joints, q, key, hand.couplings)
     raise_issues(issues)
     return frozen(q)
 
@@ -137,7 +138,13 @@ def _values(hand: Hand, synergies: SynergySet, wish: Mapping[str, float], key: s
         raise_issues(misfits(given, synergy_kinds(chosen, kinds.values()), "synergy"))
         return joint_values(chosen, wish)
     raise_issues(misfits(given, kinds))
-    return joint_posture(hand.joint_names, wish, hand.couplings)
+    return joint_posture(hand.joint_names, {**_resting(hand), **wish}, hand.couplings)
+
+
+def _resting(hand: Hand) -> dict[str, float]:
+    """Return where springs hold the joints that nothing else moves."""
+    sprung = hand.drives.sprung if hand.drives else {}
+    return {name: rest for name, rest in sprung.items() if name not in hand.couplings}
 
 
 def names_known(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
@@ -160,13 +167,20 @@ def set_named(hand: Hand, synergies: SynergySet, names: Mapping[str, str], key: 
     known = names_known(hand, synergies)
     for name, at in names.items():
         if name not in known:
-            raise InputError.at(at, f"synergy or joint {one_of(name, known)}", on_key=at != key)
+            raise InputError.at(
+                at, stands_still(hand, name) or f"synergy or joint {one_of(name, known)}", on_key=at != key
+            )
     for each in _sets(hand, synergies):
         if each.name != JOINTS and all(name in each.synergies for name in names):
             return each
     if not all(name in hand.joint_names for name in names):
         raise InputError.at(key, "some names are of joints, some of synergies, or of two synergy sets; use one kind")
     return None
+
+
+def stands_still(hand: Hand, name: str) -> str:
+    """Return why a link or joint is no part of the hand though its file has it; empty for another name."""
+    return f"'{name}' stands still: the palm '{hand.links[0]}' does not carry it" if name in hand.still else ""
 
 
 def _sets(hand: Hand, synergies: SynergySet) -> tuple[SynergySet, ...]:
@@ -181,14 +195,25 @@ def joint_posture(joints: Sequence[str], values: Mapping[str, float], couplings:
     return frozen(E @ joint_vector(joints, values, {}) + e)
 
 
-def outside_limits(joints: Sequence[Joint], q: Array, key: str) -> list[Issue]:
-    """Return one issue for each joint that `q` (n_q,) puts outside its range."""
+def ranges_of_followers(hand: Hand) -> list[FollowerRange]:
+    """Return, for each follower, its own range and what its coupling makes of the range of its driver."""
+    return follower_ranges(hand.joints, hand.couplings, *coupling_map(hand.joint_names, hand.couplings))
+
+
+def outside_limits(
+    joints: Sequence[Joint], q: Array, key: str, couplings: Mapping[str, Coupling] | None = None
+) -> list[Issue]:
+    """Return one issue for each joint that `q` (n_q,) puts outside its range; why, when `couplings` do it."""
     issues = []
+    told = couplings or {}
+    because = why_outside(joints, told, *coupling_map([joint.name for joint in joints], told), q)
     for joint, value in zip(joints, q, strict=True):
         if not joint.lower - LIMIT_SLACK <= value <= joint.upper + LIMIT_SLACK:
             factor, unit = SHOWN_IN[SI_UNITS[joint.kind]]
             lower, upper, found = joint.lower * factor, joint.upper * factor, value * factor
             message = f"joint '{joint.name}' would be at {found:.4g} {unit}, outside {lower:.4g} to {upper:.4g} {unit}"
+            if joint.name in because:
+                message += f"; {because[joint.name]}"
             issues.append(Issue(message, key=key))
     return issues
 
@@ -219,7 +244,7 @@ def override(
 def _with_ratio(name: str, coupling: Coupling, ratio: float, key: str) -> Coupling:
     if len(coupling.ratios) != 1:
         raise InputError.at(key, f"'{name}' follows {drivers(coupling)}; one ratio does not say how")
-    return replace(coupling, ratios=dict.fromkeys(coupling.ratios, float(ratio)))
+    return replace(coupling, ratios=dict.fromkeys(coupling.ratios, float(ratio)), place=key)
 
 
 def drivers(coupling: Coupling) -> str:

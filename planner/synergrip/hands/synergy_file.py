@@ -11,15 +11,17 @@ import numpy as np
 from pydantic import Field
 
 from synergrip.documents import Document, parse, read_document
-from synergrip.errors import InputError, Issue, one_of, raise_issues
+from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues, repeated
 from synergrip.fields import Name, Number, Table, Version
-from synergrip.files import atomic_path
+from synergrip.files import IMPOSSIBLE, atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.synergies import coupling_map, drivers
 from synergrip.linalg import Array, frozen
 
 SUFFIX = ".toml"
 """What the name of a synergy file ends in."""
+MOST = 1000
+"""Joints, or synergies."""
 AGREEMENT = 1e-6
 """How far the row of a follower may be from what its coupling says, relative to the largest entry of S."""
 
@@ -29,8 +31,10 @@ class SynergyFile(Table):
 
     version: Version = Field(alias="schema", description="1")
     title: str = Field(default="", description="what it is, for people")
-    joints: tuple[Name, ...] = Field(min_length=1, description="names of the joints, one for each row")
-    synergies: tuple[Name, ...] = Field(min_length=1, description="names of the synergies, one for each column")
+    joints: tuple[Name, ...] = Field(min_length=1, max_length=MOST, description="names of the joints, one for each row")
+    synergies: tuple[Name, ...] = Field(
+        min_length=1, max_length=MOST, description="names of the synergies, one for each column"
+    )
     S: tuple[tuple[Number, ...], ...] = Field(description="synergy matrix, a row for each joint")
     offset: tuple[Number, ...] | None = Field(default=None, description="joint values at z = 0; 0 when absent")
     explained_variance: tuple[Number, ...] | None = Field(
@@ -44,9 +48,8 @@ class SynergyFile(Table):
         """Refuse names that stand twice and lists that do not fit each other."""
         for key in ("joints", "synergies"):
             names = getattr(self, key)
-            for index, name in enumerate(names):
-                if name in names[:index]:
-                    yield Issue(f"'{name}' is listed twice", key=f"{key}[{index}]")
+            for index in repeated(names):
+                yield Issue(f"'{names[index]}' is listed twice", key=f"{key}[{index}]")
         if len(self.S) != len(self.joints):
             yield Issue(f"{len(self.S)} rows for {len(self.joints)} joints", key="S")
         for index, row in enumerate(self.S):
@@ -105,7 +108,8 @@ def write_synergy_file(path: Path, file: SynergyFile, key: str = "") -> None:
         key: what names the path, for the error.
 
     Raises:
-        InputError: another name, something else stands there, or it cannot be written.
+        InputError: another name, something else stands there, or no file can have that name.
+        OutputError: it cannot be written.
     """
     if path.suffix != SUFFIX:
         raise InputError.at(key, f"the name of a synergy file ends in {SUFFIX}, got '{path}'")
@@ -118,7 +122,10 @@ def write_synergy_file(path: Path, file: SynergyFile, key: str = "") -> None:
         message = f"'{path}' is there and is no synergy file ({error.issues[0].message}); choose another name"
         raise InputError.at(key, message) from None
     except OSError as error:
-        raise InputError.at(key, f"cannot write '{path}': {error.strerror or error}") from None
+        message = f"cannot write '{path}': {error.strerror or error}"
+        if error.errno in IMPOSSIBLE:
+            raise InputError.at(key, message) from None
+        raise OutputError(message, key) from None
 
 
 def synergy_text(file: SynergyFile) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from synergrip.hands.hand import Coupling
+from synergrip.hands.hand import Coupling, Drives
 
 MOST_MOVING = 200
 """Joints that move; a file with more is no hand."""
@@ -33,6 +33,8 @@ class TreeJoint:
     upper: float = math.inf  # [rad] or [m]
     torque_limit: float = math.inf
     """|tau| that the file allows [N m] or [N]; infinity when it states none."""
+    place: str = field(default="", compare=False)
+    """File and line that state the range, for messages."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,10 @@ class LinkTree:
     """By name, in file order."""
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
     """Moving joints that the file makes followers of others."""
+    drives: Drives | None = None
+    """What it says of motors and springs, with the moving joints in file order; None when it has no motors."""
+    still: tuple[str, ...] = ()
+    """Links and joints that were left out because they stand still: the palm is a link below or beside them."""
 
     @property
     def moving(self) -> tuple[str, ...]:
@@ -64,7 +70,10 @@ class LinkTree:
 
 def order_of_links(root: str, joints: Mapping[str, TreeJoint]) -> Iterator[str]:
     """Yield the links that hang on `root`, parents before their children."""
+    children: dict[str, list[str]] = {}
+    for joint in joints.values():
+        children.setdefault(joint.parent, []).append(joint.child)
     waiting = [root]
     for link in waiting:
         yield link
-        waiting += [joint.child for joint in joints.values() if joint.parent == link]
+        waiting += children.pop(link, [])  # each link once, also where joints form a loop

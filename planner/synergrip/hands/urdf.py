@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from synergrip.documents import LARGEST_NUMBER
-from synergrip.errors import InputError, one_of
+from synergrip.errors import MOST_NAMES, InputError, one_of, shortened
+from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling
 from synergrip.hands.synergies import coupling_map
 from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
+from synergrip.hands.urdf_palm import carried_by
 from synergrip.hands.xml_elements import Element, read_xml
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
@@ -33,17 +36,21 @@ def read_urdf(path: Path, key: str = "", told: Collection[str] = ()) -> LinkTree
     return urdf_tree(root, told)
 
 
-def urdf_tree(root: Element, told: Collection[str] = ()) -> LinkTree:
+def urdf_tree(root: Element, told: Collection[str] = (), palm: str = "") -> LinkTree:
     """Return the links and joints of a URDF.
 
     Args:
         root: its element <robot>.
         told: joints whose <mimic> is passed over, because another file says what they follow.
+        palm: the link that is the palm, when it is not the outermost one; what it does not carry is left out.
 
     Raises:
         InputError: no moving joint, no tree, a joint without what its type needs, a <mimic> that cannot be; with
-            file and line.
+            file and line. What `carried_by` refuses.
     """
+    if palm:
+        part, still = carried_by(root, palm, told)
+        return replace(urdf_tree(part, told), still=still)
     _plain(root)
     joints: dict[str, TreeJoint] = {}
     for element in root.all("joint"):
@@ -68,14 +75,13 @@ def urdf_tree(root: Element, told: Collection[str] = ()) -> LinkTree:
 
 def _plain(root: Element) -> None:
     """Refuse macros, and files that would take minutes."""
-    for element in root.children:
-        if element.tag.startswith("xacro:"):
-            raise element.refused(f"<{element.tag}> is a xacro macro; expand the file (xacro hand.xacro > hand.urdf)")
+    refuse_macros(root)
     if len(root.children) > MOST_ELEMENTS:
         raise root.refused(f"the file has {len(root.children)} links, joints and the like; give the hand alone")
 
 
 def _numbers(element: Element, attribute: str, default: str, below: float = LARGEST_NUMBER) -> tuple[float, ...]:
+    element.check_length(attribute)
     text = element.attributes.get(attribute, default)
     count = len(default.split())
     try:
@@ -116,6 +122,7 @@ def _joint(element: Element) -> TreeJoint:
         lower=lower,
         upper=upper,
         torque_limit=_effort(element.child("limit")),
+        place=element.child("limit").place,
     )
 
 
@@ -142,21 +149,28 @@ def _effort(limit: Element) -> float:
 def _order(root: Element, names: list[str], joints: dict[str, TreeJoint]) -> list[str]:
     """Return the links, parents before their children."""
     parents: dict[str, str] = {}
+    there = set(names)
     for element, joint in zip(root.all("joint"), joints.values(), strict=True):
         for end in (joint.parent, joint.child):
-            if end not in names:
+            if end not in there:
                 raise element.refused(f"joint '{joint.name}': link {one_of(end, names)}")
         if joint.child in parents:
             raise element.refused(f"link '{joint.child}' is the child of two joints")
         parents[joint.child] = joint.parent
     roots = [name for name in names if name not in parents]
     if len(roots) > 1:
-        raise root.refused(f"one link is the palm, but {', '.join(map(repr, roots))} are no child of a joint")
+        raise root.refused(f"one link is the palm, but {_listed(roots)} are no child of a joint")
     order = list(order_of_links(roots[0], joints)) if roots else []
     if len(order) < len(names):
-        rest = ", ".join(repr(name) for name in names if name not in order)
-        raise root.refused(f"the links {rest} form a loop; a hand is a tree")
+        reached = set(order)
+        rest = [name for name in names if name not in reached]
+        raise root.refused(f"the links {_listed(rest)} form a loop; a hand is a tree")
     return order
+
+
+def _listed(names: Sequence[str]) -> str:
+    some = ", ".join(repr(shortened(name)) for name in names[:MOST_NAMES])
+    return some if len(names) <= MOST_NAMES else f"{some}, ... ({len(names)} links)"
 
 
 def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str]) -> dict[str, Coupling]:
@@ -177,7 +191,7 @@ def _couplings(root: Element, joints: dict[str, TreeJoint], told: Collection[str
         if driver not in moving:
             raise mimic.refused(f"joint '{name}' mimics a joint that is not there: {one_of(driver, moving)}")
         (ratio,), (offset,) = _numbers(mimic, "multiplier", "1", LARGEST), _numbers(mimic, "offset", "0", LARGEST)
-        couplings[name] = Coupling({driver: ratio}, offset, rigid=True)
+        couplings[name] = Coupling({driver: ratio}, offset, rigid=True, place=mimic.place)
     try:
         coupling_map(moving, couplings)
     except InputError as error:  # nothing but a loop is left to refuse

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from synergrip.conic.program import Program
+from synergrip.conic.rows import LOWER_SIDES
 from synergrip.linalg import Array
 
 COUNTS = 0.005
 """Share of the proof below which a limit plays no part."""
 HEAVY = 0.2
 """Items that carry less than this share of what the heaviest item of their limit carries are not named."""
+
+
+FRICTION = frozenset({"limits.margin", "limits.margin_angle", "limits.safety_factor"})
+"""Limits whose multipliers say that contacts slip."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +33,12 @@ class Clash:
     """Contacts, joints or synergies, the heaviest first."""
 
 
+def beside_friction(found: Sequence[Clash]) -> str:
+    """Return the limit that carries most of a proof, with its heaviest item; empty when that is friction itself."""
+    chief = max(found, key=lambda clash: clash.share, default=None)
+    return "" if chief is None or chief.key in FRICTION else f"{chief.key} ({chief.items[0]})"
+
+
 def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
     """Return the limits that a proof of infeasibility y (m,) rests on, the heaviest first.
 
@@ -37,9 +49,9 @@ def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
         sizes = np.linalg.norm(y[rows].reshape(block.knots, len(block.items), block.dim), axis=2)
         of_limit = sums.setdefault(block.limit, {})
         for item, size in zip(block.items, sizes.T, strict=True):
-            name, _, side = item.partition(" (")
-            signed = -size if side in ("lowest)", "falling)") else size
-            of_limit[name, block.between] = of_limit.get((name, block.between), np.zeros(block.knots)) + signed
+            signed = -size if item.side in LOWER_SIDES else size
+            place = item.name, block.between
+            of_limit[place] = of_limit.get(place, np.zeros(block.knots)) + signed
     weights = {key: _weights(items) for key, items in sums.items()}
     total = sum(sum(items.values()) for items in weights.values())
     found = []

@@ -16,7 +16,7 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.plans.problem import Problem
 from synergrip.statics import respond, subspaces
 
@@ -97,7 +97,7 @@ def _reduced(grasp: Grasp, kind: ContactKind) -> Grasp:
     """Return the grasp with those force components only that the `kind` has; all contacts have them."""
     kept = [i for i, (_, component) in enumerate(grasp.components) if component in kind.components]
     contacts = tuple(replace(contact, kind=kind) for contact in grasp.contacts)
-    return replace(grasp, contacts=contacts, G=frozen(grasp.G[:, kept]), J=frozen(grasp.J[kept]))
+    return _with(grasp, contacts, frozen(grasp.G[:, kept]), frozen(grasp.J[kept]))
 
 
 def _reformed(problem: Problem, kind: ContactKind) -> Grasp | None:
@@ -109,7 +109,12 @@ def _reformed(problem: Problem, kind: ContactKind) -> Grasp | None:
     motions = held.hand.kinematics.at(held.q, [(touch.pad.link, touch.pad.point) for touch in held.touches])
     places = [contact.point + held.thing.position for contact in contacts]
     moved = [moved_to(motion, place).jacobian for motion, place in zip(motions, places, strict=True)]
-    return replace(grasp, contacts=contacts, G=grasp_matrix(contacts), J=hand_jacobian(contacts, moved))
+    return _with(grasp, contacts, grasp_matrix(contacts), hand_jacobian(contacts, moved))
+
+
+def _with(grasp: Grasp, contacts: tuple[Contact, ...], G: Array, J: Array) -> Grasp:
+    """Return the grasp with other force components, whose stiffness is for the caller to say."""
+    return replace(grasp, contacts=contacts, G=G, J=J, C_s=frozen(np.eye(G.shape[1])), lambda_0=None)
 
 
 def _dimensions(grasp: Grasp) -> Dimensions:

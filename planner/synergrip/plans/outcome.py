@@ -89,6 +89,8 @@ class Infeasible:
     """The largest margin [N] that the other limits allow, when that is what falls short."""
     clashes: tuple[Clash, ...] = ()
     """The limits that the proof rests on, when the program itself is infeasible."""
+    hints: tuple[str, ...] = ()
+    """What in the problem may not say what its author means, and what would come of it; computed, not guessed."""
 
     verdict = "infeasible"
     exit_code = 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from synergrip.conic.certificate import judge_infeasible
@@ -14,14 +15,16 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
+from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.plans.analysis import Analysis, analyse
-from synergrip.plans.clash import clashes
+from synergrip.plans.clash import Clash, beside_friction, clashes
 from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.holding import held
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
+from synergrip.plans.reversed_normals import with_hint
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.plans.stages import Stage, not_the_best, through
@@ -46,7 +49,18 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         situation = situated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
-    return held(task, analysis, situation, lambda each: _Planner(task, analysis, each, solver).outcome())
+    planners: list[_Planner] = []
+
+    def answer(each: Situation) -> Outcome:
+        planners.append(_Planner(task, analysis, each, solver))
+        return planners[-1].outcome()
+
+    try:
+        refuse_doubtful_response(analysis.response)
+        return with_hint(held(task, analysis, situation, answer), plan)
+    except InDoubtError as doubt:
+        decisions = tuple(decision for planner in planners for decision in planner.decisions)
+        return Unknown(task, analysis, str(doubt), decisions)
 
 
 def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
@@ -128,17 +142,20 @@ class _Planner:
 
     def _infeasible(self, proof: Decision, largest: float | None) -> Infeasible:
         ray = proof.certificate.y
+        found = clashes(proof.program, ray) if ray is not None else ()
         return Infeasible(
-            self.task, self.analysis, "magnitude", f"{self._shortfall(largest)}; {self._without_limits()}", None,
-            proof.certificate, proof.program, tuple(self.decisions), largest,
-            clashes(proof.program, ray) if ray is not None else (),
+            self.task, self.analysis, "magnitude", f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
+            proof.certificate, proof.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 
-    def _shortfall(self, largest: float | None) -> str:
+    def _shortfall(self, largest: float | None, found: Sequence[Clash]) -> str:
+        chief = beside_friction(found)
         if largest is None:
-            return "nothing that the synergies control keeps all limits at once"
+            named = f"; {chief} is what clashes most" if chief else ""
+            return f"nothing that the synergies control keeps all limits at once{named}"
         if largest < 0:
-            return f"within these limits some contact slips: its friction cone is missed by {-largest:.4g} N or more"
+            kept = f"as long as {chief} holds" if chief else "within these limits"
+            return f"{kept} some contact slips: its friction cone is missed by {-largest:.4g} N or more"
         most, asked = apart(largest, self.task.margin)
         return f"these limits allow a slip margin of {most} N at most, the task asks for {asked} N"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from os.path import isfile  # unlike Path.is_file, no error for a name that is too long
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -12,6 +13,7 @@ import numpy as np
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.reading.limits_table import MAXIMISED, HandLimits, limits_of
@@ -58,10 +60,10 @@ def find_problem(name_or_path: str) -> Path:
         InputError: there is neither such a file nor a bundled problem of that name.
     """
     path = Path(name_or_path)
-    if path.suffix or path.is_file():
+    if path.suffix or isfile(path):
         return path
     inside = bundled("problems") / f"{name_or_path}.toml"
-    if not inside.is_file():
+    if not isfile(inside):
         raise InputError.at(
             "PROBLEM", f"no such file, and no such bundled problem: {one_of(name_or_path, bundled_problems())}"
         )
@@ -114,7 +116,7 @@ class _Touching:
 def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
     """Read a problem file; a bare grasp file stands for the problem of holding it."""
     if path.suffix == ".json":
-        document = read_document(path, "problem file")
+        document = read_document(path, "problem file", numbers=True)
         if {"G", "J", "S"} & document.data.keys():
             bare = Document(path, {"schema": 1, "grasp": {"file": path.name}}).with_overrides(overrides)
             return parse(bare, ProblemFile), bare
@@ -135,18 +137,21 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
         from synergrip.grasps.given import read_given
 
         matrices = path.parent / file.grasp.file
-        return _Touching(read_given(matrices, "grasp.file"), None, _spot_notes(matrices))
+        grasp = read_given(matrices, "grasp.file")
+        return _Touching(grasp, None, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
     from synergrip.plans.reading.setup import hand_grasp
 
     grasp, held = hand_grasp(file, path.parent)
-    return _Touching(grasp, held, held.notes)
+    return _Touching(grasp, held, (*held.notes, *facing_notes(grasp.contacts)))
 
 
 def _spot_notes(matrices: Path) -> tuple[str, ...]:
     """Return a note for each contact of a grasp file whose point is that of another one."""
     from synergrip.grasps.placing import same_spots
 
-    contacts = [data for data in read_document(matrices).data["contacts"] if data.get("point_m")]
+    contacts = [
+        data for data in read_document(matrices, "grasp file", numbers=True).data["contacts"] if data.get("point_m")
+    ]
     points = [np.array(data["point_m"], dtype=float) for data in contacts]
     return tuple(message for _, message in same_spots([data["name"] for data in contacts], points))
 
@@ -190,7 +195,7 @@ def located(problem: Problem, error: SynergripError) -> SynergripError:
 def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactError:
     """Return the error at the compliance of the grasp file, or at the stiffness of the problem file."""
     if problem.file.grasp is not None:
-        return error.located(read_document(problem.path.parent / problem.file.grasp.file).locate)
+        return error.located(read_document(problem.path.parent / problem.file.grasp.file, numbers=True).locate)
     key = _stiffness_key(problem.file, error)
     return error.located(lambda issue: problem.document.locate(replace(issue, key=key)))
 

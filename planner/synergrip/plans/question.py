@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.conic.build import build
+from synergrip.conic.certificate import SHARP
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
@@ -18,6 +19,8 @@ class Question:
     situation: Situation
     limits: tuple[Limit, ...]
     goal: Goal
+    violation: float = SHARP
+    """Of a cone, below which an answer is not tried to be bettered."""
     worth: float = 1.0
     """What sums of squares are divided by, so that their value is near 1; it changes no answer."""
 

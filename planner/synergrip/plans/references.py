@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os.path import exists, isdir  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from synergrip.archives import NoArchiveError, read_arrays
 from synergrip.cells import CellReader, cells_of
 from synergrip.documents import read_document
-from synergrip.errors import InputError
+from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.plans.digest import KEY as DIGEST
 from synergrip.plans.digest import digest, unchanged
@@ -23,6 +24,8 @@ PER_KNOT = (
     "time_s", "alpha", "beta", "gamma", "lambda", "wrench", "du", "dq", "tau", "sigma", "elastic_motion", "sag",
 )  # fmt: skip
 """What plan.json holds for each knot."""
+WHOLE = ("margin", "joints", "synergies", "contacts")
+"""What plan.npz holds besides."""
 
 
 @dataclass(frozen=True)
@@ -59,12 +62,12 @@ def read_references(path: Path, n_z: int) -> References:
     Raises:
         InputError: no such file, no plan in it, or another number of synergies.
     """
-    if path.is_dir():
+    if isdir(path):
         path = path / "plan.json"
     readers = {".json": _from_json, ".npz": _from_npz, ".csv": _from_csv}
     if path.suffix not in readers:
         raise InputError.at(KEY, f"'{path}' is no plan; expected a folder, or a file .json, .npz or .csv")
-    if not path.is_file():
+    if not exists(path):
         raise InputError.at(KEY, f"there is no file '{path}'")
     table = readers[path.suffix](path)
     if table.values.shape[1] != n_z:
@@ -83,7 +86,7 @@ def _from_csv(path: Path) -> References:
 
 
 def _from_json(path: Path) -> References:
-    data = read_document(path, "plan", KEY).data
+    data = read_document(path, "plan", KEY, numbers=True).data
     if "dz_r" not in data or "time_s" not in data:
         raise InputError.at(KEY, f"'{path}' holds no plan: {_no_plan(data)}")
     return references_of(path, data, unchanged(data))
@@ -94,25 +97,25 @@ def _no_plan(data: Mapping[str, Any]) -> str:
     verdict = data.get("verdict")
     if not verdict:
         return "dz_r and time_s are missing"
-    stage = f" (stage: {data['stage']})" if data.get("stage") else ""
-    why = f": {data['why']}" if isinstance(data.get("why"), str) else ""
+    stage = f" (stage: {shortened(str(data['stage']))})" if data.get("stage") else ""
+    why = f": {data['why'][:400]}" if isinstance(data.get("why"), str) else ""
     return (
-        f"its verdict is '{verdict}'{stage}{why}. Only references can be checked; whether there are none is for "
-        "`synergrip plan PROBLEM` to prove again"
+        f"its verdict is '{shortened(str(verdict))}'{stage}{why}; only references can be checked, and "
+        "a no is proven again by `synergrip plan PROBLEM`"
     )
 
 
 def _from_npz(path: Path) -> References:
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            if "dz_r" not in stored or "time_s" not in stored:
-                raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
-            arrays = dict(stored)
-            told = str(arrays.pop(DIGEST)) if DIGEST in arrays else None
-            same = None if told is None else digest(arrays, sorted(arrays)) == told
-            return references_of(path, _named(arrays), same)
-    except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
+        stored = read_arrays(path, ("dz_r", *PER_KNOT, *WHOLE, DIGEST), "plan", KEY)
+    except NoArchiveError as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
+    if "dz_r" not in stored or "time_s" not in stored:
+        raise InputError.at(KEY, f"'{path}' holds no plan: dz_r and time_s are missing")
+    arrays = dict(stored)
+    told = str(arrays.pop(DIGEST)) if DIGEST in arrays else None
+    same = None if told is None else digest(arrays, sorted(arrays)) == told
+    return references_of(path, _named(arrays), same)
 
 
 def _named(stored: dict[str, Any]) -> dict[str, Any]:

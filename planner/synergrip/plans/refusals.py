@@ -12,7 +12,7 @@ from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
-from synergrip.plans.tracking import RIGID_TOLERANCE
+from synergrip.plans.tracking import RIGID_TOLERANCE, apart_by
 
 
 def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Certificate:
@@ -21,9 +21,11 @@ def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, ref
     if isinstance(refusal, NotRestrainedError):
         return _free(grasp, scale, refusal.free_twists)
     if isinstance(refusal, MotionCountError):
-        sizes = np.linalg.svd(scale.twist(task.wanted.values), compute_uv=False)
-        ratio = float(sizes[refusal.asked - 1] / sizes[0])
-        return Certificate("infeasible", ratio > RANK_TOLERANCE and refusal.asked > grasp.n_z, 0.0, 0.0, -ratio)
+        wish = scale.twist(task.wanted.values)
+        size = float(np.linalg.norm(wish, axis=1).max(initial=0.0))
+        counts = apart_by(wish, refusal.asked) > max(RIGID_TOLERANCE * size, task.tolerance)
+        ratio = apart_by(wish, refusal.asked) / max(size, 1e-300)
+        return Certificate("infeasible", bool(counts and refusal.asked > grasp.n_z), 0.0, 0.0, -ratio)
     if isinstance(refusal, MotionDirectionError) and analysis is not None:
         return _outside(task, analysis, scale, refusal)
     return Certificate("none", False)

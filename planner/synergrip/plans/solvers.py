@@ -46,9 +46,9 @@ def answerer(name: str) -> Answerer:
     return SOLVERS[name]
 
 
-SMALL, NOTHING = 1e-2, 1e-18
+SMALL, NOTHING = 1e-2, 1e-12
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
-and below which the value is the rounding of 0."""
+and below which a sum of squares, which is never less than 0, is as good as 0. A force is the root of that."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
 APART = 3.0
@@ -69,18 +69,34 @@ class Answered:
 
     @property
     def value(self) -> float:
-        """Value of the goal, in the program's units."""
-        return self.decision.program.objective(self.decision.solution.x)
+        """Value of the goal, in the program's units; small squares are added up, so that no terms cancel."""
+        value = self.decision.program.objective(self.decision.solution.x)
+        if value > SMALL:
+            return value
+        cost = self.question.goal.objective(self.question.situation)
+        return value if cost.epigraph is not None else cost.squared(self.v) / self.question.worth
 
     @property
     def small(self) -> bool:
         """True when the value is small beside 1: a margin never is, it is measured against the load."""
-        return not isinstance(self.question.goal, LargestMargin) and NOTHING < self.value < SMALL
+        value = self.value
+        if isinstance(self.question.goal, LargestMargin) or value >= SMALL:
+            return False
+        scalar = self.question.goal.objective(self.question.situation).epigraph is not None
+        return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
 
     @property
     def settled(self) -> bool:
         """True for a verified answer; when it is an optimum, for one whose value is not small beside 1."""
         return self.decision.certificate.verified and not (self.decision.optimal and self.small)
+
+    @property
+    def place(self) -> tuple[bool, int, float]:
+        """Its place among answers to the same question: settled ones first, then by violation, then by gap."""
+        decision = self.decision
+        if not self.settled and decision.nearly and self.value > 0:
+            return True, 1, decision.certificate.gap * max(1.0, 1.0 / self.value)
+        return not self.settled, *rank(decision)
 
 
 def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> Answered:
@@ -101,13 +117,16 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
         if other is None:
             break
         found = _decided(other, solver)
-        best = min(best, found, key=lambda each: (not each.settled, *rank(each.decision)))
+        best = min(best, found, key=lambda each: each.place)
     return _beside_its_value(_less_closely(best, solver))
 
 
 def _decided(question: Question, solver: Answerer) -> Answered:
     program = question.program()
-    return Answered(question, decide(question.goal.name, program, lambda *asked: solver(question, *asked)))
+    decision = decide(
+        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation
+    )  # fmt: skip
+    return Answered(question, decision)
 
 
 def _weighed(question: Question) -> Question:
@@ -170,10 +189,9 @@ def _less_closely(best: Answered, solver: Answerer) -> Answered:
 
 
 def _beside_its_value(best: Answered) -> Answered:
-    """Return the answer with its gap relative to a small value: what is then no optimum is not called one."""
+    """Return the answer judged by its gap relative to a small value: what is then no optimum is not called one."""
     if not best.decision.optimal or not best.small:
         return best
     certificate = best.decision.certificate
-    gap = certificate.gap / best.value
-    judged = replace(certificate, gap=gap, verified=gap <= GAP_TOLERANCE)
+    judged = replace(certificate, verified=certificate.gap <= GAP_TOLERANCE * best.value)
     return replace(best, decision=replace(best.decision, certificate=judged))

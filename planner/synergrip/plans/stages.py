@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.certificate import SHARP
 from synergrip.conic.decide import Decision
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -15,6 +16,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen, split
 from synergrip.plans.question import Question
+from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.solvers import Answerer, ask
 
 SLACKS = (1e-8, 1e-7)
@@ -82,6 +84,9 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     """Return the stage of the best plans by `goal`; with a note, and else as before, when none verifies.
 
     An interrupt keeps what the goals before have led to, and no further goal is looked at.
+
+    Raises:
+        InputError: nothing bounds the goal.
     """
     if stage.interrupted:
         return stage
@@ -94,11 +99,13 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     nearly = stage
     for limits in _limits(stage, situation):
         try:
-            answered = ask(Question(situation, limits, goal), solver)
+            answered = ask(Question(situation, limits, goal, _violation(stage)), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
         decision = answered.decision
+        if decision.unbounded:
+            raise unbounded()
         best = replace(
             stage, situation=answered.question.situation, limits=limits, goal=goal,
             decisions=(*stage.decisions, decision),
@@ -166,6 +173,11 @@ def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
         return
     fixed = not situation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
+
+
+def _violation(stage: Stage) -> float:
+    """Return the violation worth another attempt: less than what the next goal may give up of a margin or a peak."""
+    return SLACKS[0] if isinstance(stage.goal, LargestMargin | LeastPeak) else SHARP
 
 
 def _carried(stage: Stage) -> float:

@@ -47,7 +47,7 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
         "structure": structure_document(grasp, analysis),
         "contacts": names, "joints": list(grasp.joints), "synergies": list(grasp.synergies),
         "time_s": knots if len(knots) == len(motion.times) else motion.times,
-        "margin": margin_document(judged.margins, names, motion.times) | {"per_contact_N": judged.margins},
+        "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
         "largest_margin_N": _largest_margin(judged) if task.goal == "margin" else None,
         "force_unit_N": units_of(analysis, task).force,
         "limits": [usage_document(usage) for usage in judged.usages],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 
@@ -12,8 +12,11 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
+from synergrip.errors import Issue, one_of, raise_issues
+from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
 from synergrip.plans.marks import Marks
+from synergrip.plans.task_judging import order_issues, size_issues, times_of, word_issues, wrench_of
 
 GoalName = Literal[
     "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
@@ -23,6 +26,8 @@ synergy references, their rates, their accelerations, the joints' distances from
 weighted sum of those that are sums of squares."""
 FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", "torque", "actuator"})
 """Those that speak of forces only."""
+SUMS = tuple(name for name in get_args(GoalName) if name not in ("margin", "peak_force", "weighted"))
+"""Those that are sums of squares, and so can be weighted."""
 EFFORTS: frozenset[GoalName] = frozenset({"effort", "torque", "actuator"})
 """Those that leave no force open."""
 
@@ -58,7 +63,7 @@ class Task:
     """A task at T knots."""
 
     times: Array  # (T,) [s]
-    wrench: Array  # (T, 6) external wrench on the object about B, axes of N
+    wrench: Array  # (T, 6), or (6,) for one that stays, external wrench on the object about B, axes of N
     wanted: Wanted
     margin: float
     """Slip margin that every contact keeps [N]."""
@@ -84,6 +89,29 @@ class Task:
     """Whether what happens between the knots is reported, or also kept within all limits."""
     ranges: JointRange | None = None
     """Joint ranges of the hand and its posture; None when not known."""
+
+    def __post_init__(self) -> None:
+        """Judge the values as those of a problem file; a wrench of 6 numbers is the same at all knots.
+
+        Raises:
+            InputError: everything that is wrong, each with the argument, what came and what was expected.
+        """
+        judge = Judge("Task")
+        times = times_of(judge, self.times)
+        raise_issues(judge.issues)  # all that follows goes by the knots
+        wrench = wrench_of(judge, self.wrench, len(times))
+        if np.ndim(self.wanted.values) != 2 or len(self.wanted.values) != len(times):
+            judge.refuse("wanted", f"expected a row at each of {len(times)} knots, got {np.shape(self.wanted.values)}")
+        axes = [name for name in self.axes if name not in AXES]
+        raise_issues([
+            *judge.issues,
+            *size_issues(self.margin, self.tolerance, self.drift, compliant=self.tracking == "compliant"),
+            *order_issues(self.order, self.weights, get_args(GoalName), SUMS),
+            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
+            *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
+        ])  # fmt: skip
+        object.__setattr__(self, "times", times)
+        object.__setattr__(self, "wrench", wrench)
 
     @property
     def goal(self) -> GoalName:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.conic.limits.limit import Usage
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.plans.analysis import Analysis
@@ -38,13 +37,19 @@ def arrays_of(motion: Motion, parts: tuple[Array, Array, Array], rigid_basis: Ar
 
 def columns_of(grasp: Grasp) -> dict[str, tuple[str, ...]]:
     """Return the columns of plan.csv by the keys of plan.json; those of "margin" hold its `per_contact_N`."""
-    return {
+    found = {
         "dz_r": tuple(f"zr_{i + 1}" for i in range(grasp.n_z)),
         "lambda": tuple(f"lambda_{name}_{c}" + ("_Nm" if c == "m" else "_N") for name, c in grasp.components),
         "tau": tuple(f"tau_{name}" for name in grasp.joints),
         "du": tuple(f"du_{axis}" for axis in AXES),
         "margin": tuple(f"margin_{contact.name}_N" for contact in grasp.contacts),
     }
+    return {key: tuple(map(_one_line, names)) for key, names in found.items()}
+
+
+def _one_line(name: str) -> str:
+    """Return the name of a column without control characters, which a model file may hold."""
+    return "".join(letter if letter.isprintable() else "?" for letter in name)
 
 
 def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any]:
@@ -68,12 +73,12 @@ def check_document(check: Check) -> dict[str, Any]:
     return {"name": check.name, "error": finite(check.error), "tolerance": check.tolerance, "passed": check.passed}
 
 
-def margin_document(margins: Array, contacts: Sequence[str], times: Array) -> dict[str, Any]:
-    """Return the worst slip margin, where and when, and all of them (T, n_c)."""
-    k, i = first_largest(-margins)
+def margin_document(margins: Usage) -> dict[str, Any]:
+    """Return the worst slip margin, where and when (the first of those that differ by rounding), and all of them."""
+    k, i = margins.worst()
     return {
-        "worst_N": float(margins.min()), "contact": contacts[i], "time_s": float(times[k]),
-        "per_contact_N": margins.tolist(),
+        "worst_N": float(margins.value.min()), "contact": margins.items[i], "time_s": float(margins.times[k]),
+        "per_contact_N": margins.value.tolist(),
     }  # fmt: skip
 
 

@@ -113,10 +113,10 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
         return _beta_of_modes(analysis, task)
     wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
     allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
-    _count(analysis, values, allowed)
     beta, outside = motion_coordinates(analysis.response, analysis.spaces, values)
     sizes = np.linalg.norm(analysis.response.scale.twist(outside), axis=1)
     if sizes.max(initial=0.0) > allowed:
+        _count(analysis, values, allowed)
         raise _direction(analysis, task, outside, sizes)
     return frozen(beta)
 
@@ -132,22 +132,41 @@ def _beta_of_modes(analysis: Analysis, task: Task) -> Array:
 def _count(analysis: Analysis, values: Array, allowed: float) -> None:
     """Refuse a motion with more independent directions than the hand has synergies (Remark 3).
 
-    Directions are counted until what is left of the motion is within `allowed` [m] at every knot.
+    What the tolerance can absorb, `allowed` [m] at every knot, is not counted.
     """
     scale, n_z = analysis.response.scale, analysis.grasp.n_z
-    left = scale.twist(values)
-    directions = np.linalg.svd(left, full_matrices=True)[2]
-    asked = 0
-    while asked < 6 and np.linalg.norm(left, axis=1).max(initial=0.0) > allowed:
-        left = left - np.outer(left @ directions[asked], directions[asked])
-        asked += 1
+    wish = scale.twist(values)
+    asked = max((count for count in range(1, min(wish.shape) + 1) if apart_by(wish, count) > allowed), default=0)
     if asked > n_z:
         message = (
             f"the task asks for {asked} independent object motions, the hand has n_z = {n_z} "
             f"{'synergy' if n_z == 1 else 'synergies'} for motions, internal forces and redundancy together (34)"
         )
-        twists = np.linalg.solve(scale.motion, directions[:asked].T)
+        directions = np.linalg.svd(wish[_spread(wish, asked)])[2][:asked]
+        twists = np.linalg.solve(scale.motion, directions.T)
         raise MotionCountError(message, asked, n_z, frozen(twists))
+
+
+def apart_by(wish: Array, count: int) -> float:
+    """Return how far [m] a wish (T, 6) is at some knot from any space of `count` - 1 directions, at least.
+
+    For any such space, the squares of the distances of k of the knots add up to the square of the k-th singular value
+    of those knots or more, and so the largest distance is that value over the root of k or more.
+    """
+    knots = wish[_spread(wish, count)]
+    return float(np.linalg.svd(knots, compute_uv=False)[count - 1]) / float(np.sqrt(count))
+
+
+def _spread(wish: Array, count: int) -> list[int]:
+    """Return `count` knots of a wish (T, 6), each the farthest from what those before it span."""
+    left, chosen = np.array(wish), list[int]()
+    for _ in range(count):
+        sizes = np.linalg.norm(left, axis=1)
+        chosen.append(int(np.argmax(sizes)))
+        if sizes[chosen[-1]] > 0:
+            direction = left[chosen[-1]] / sizes[chosen[-1]]
+            left = left - np.outer(left @ direction, direction)
+    return chosen
 
 
 def _direction(analysis: Analysis, task: Task, outside: Array, sizes: Array) -> MotionDirectionError:

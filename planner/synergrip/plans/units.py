@@ -14,7 +14,7 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import Units
-from synergrip.linalg import RANK_TOLERANCE, Array
+from synergrip.linalg import Array, split
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.statics.motion import forces_at_start
@@ -54,13 +54,13 @@ def sizes_of(analysis: Analysis, task: Task, beta: Array, wanted: Array) -> Unit
 
 
 def smallest_cap(analysis: Analysis, task: Task) -> float:
-    """Return the smallest force that a limit of a task allows at most [N]; 1 N when none does."""
-    return min((float(size) for size in _caps(analysis, task)), default=1.0)
+    """Return the smallest force that a limit of a task allows at most [N]; 1 N when none allows less."""
+    return min([1.0, *_caps(analysis, task)])
 
 
 def caps(analysis: Analysis, task: Task) -> tuple[float, ...]:
     """Return the forces [N] that the limits of a task allow at most, the smallest first."""
-    return tuple(sorted({float(size) for size in _caps(analysis, task)}))
+    return tuple(sorted(set(_caps(analysis, task))))
 
 
 def _caps(analysis: Analysis, task: Task) -> list[float]:
@@ -96,12 +96,16 @@ def _of_motion(analysis: Analysis, task: Task, wanted: Array) -> float:
     missing = missing - missing @ rigid @ rigid.T
     if not np.linalg.norm(missing, axis=1).max(initial=0.0) > task.tolerance:
         return 0.0
-    elastic = scale.motion @ response.du_dzr @ analysis.coordinates.inverse[:, :n_alpha]
-    elastic = elastic - rigid @ (rigid.T @ elastic)
-    alpha = missing @ np.linalg.pinv(elastic, rcond=RANK_TOLERANCE).T
-    return scale.largest_force(alpha @ spaces.E_s.T)
+    whole = scale.motion @ response.du_dzr @ analysis.coordinates.inverse[:, :n_alpha]
+    elastic = split((whole - rigid @ (rigid.T @ whole)).T, float(np.linalg.norm(whole, 2)))
+    if not elastic.decision.rank:
+        return 0.0
+    made = elastic.row_space.T @ whole  # by alpha, in the directions that it moves the object in
+    alpha = missing @ elastic.row_space @ np.linalg.pinv(made).T
+    stiffest = float(np.linalg.norm(scale.force[:, None] * response.K * scale.force, 2))
+    return min(scale.largest_force(alpha @ spaces.E_s.T), stiffest * float(np.abs(missing).max()))
 
 
 def _motion(task: Task) -> float:
     # objects are moved by millimetres; in metres, tight tolerances drown the free part of the rigid motion
-    return max(task.tolerance, 1e-6) if task.tolerance > 0 else 1e-3
+    return task.tolerance if task.tolerance > 0 else 1e-3

@@ -6,6 +6,7 @@ from typing import Any
 
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
+from synergrip.plans.accuracy import accuracy_notes
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.told import structure_document
 
@@ -14,6 +15,7 @@ def analysis_document(analysis: Analysis) -> dict[str, Any]:
     """Return structure, maps, bases and Theorem 1 of a grasp, SI units."""
     response, spaces, grasp = analysis.response, analysis.spaces, analysis.grasp
     maps = ("dlambda_dzr", "du_dzr", "dq_dzr", "dtau_dzr", "dsigma_dzr", "dz_dzr", "dlambda_dw", "du_dw", "dq_dw")
+    known = {name: response.accuracy[name] for name in maps}
     bases = ("E_s", "Gamma_ucs", "Gamma_zcs", "Gamma_zr")
     kinds = [(contact.name, contact.kind) for contact in grasp.contacts]
     return {
@@ -23,6 +25,8 @@ def analysis_document(analysis: Analysis) -> dict[str, Any]:
         "synergies": list(grasp.synergies),
         "structure": structure_document(grasp, analysis),
         "maps": {name: getattr(response, name).tolist() for name in maps},
+        "accuracy": {name: {"error": each.error, "sensitivity": each.sensitivity} for name, each in known.items()},
+        "notes": list(accuracy_notes(response)),
         "bases": {name: getattr(spaces, name).tolist() for name in bases},
         "theorem1": {"M": analysis.coordinates.M.tolist(), "condition": analysis.coordinates.condition},
         "grasp": {name: getattr(grasp, name).tolist() for name in ("G", "J", "S", "C_s", "C_q", "C_z", "w_0")},

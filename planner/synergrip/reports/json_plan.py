@@ -53,7 +53,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
     motion, last = plan.motion, plan.decisions[-1]
     arrays = arrays_of(motion, (plan.alpha, plan.beta, plan.gamma), plan.analysis.spaces.Gamma_ucs)
     return {name: array.tolist() for name, array in arrays.items()} | {
-        "margin": margin_document(plan.margins, [c.name for c in plan.analysis.grasp.contacts], motion.times),
+        "margin": margin_document(plan.usages[0]),
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,
         "limits": [usage_document(usage) for usage in plan.usages],
@@ -69,6 +69,7 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
         "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
+        "hints": list(outcome.hints),
     }  # fmt: skip
     if outcome.clashes:
         document["clashes"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.clashes]

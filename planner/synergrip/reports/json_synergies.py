@@ -38,6 +38,8 @@ def fit_document(fit: Fit, written: Path | None, picture: Path | None = None) ->
             {"joint": each.joint, "follows": each.drivers, "deviation": each.deviation, "line": each.line}
             for each in recorded.followed
         ],
+        "left_out": list(recorded.left_out),
+        "notes": list(recorded.notes),
     }
 
 

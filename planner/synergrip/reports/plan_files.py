@@ -1,29 +1,34 @@
-"""A plan on disk: plan.json, plan.npz and plan.csv, each written whole or not at all."""
+"""A plan on disk: plan.json, plan.npz and plan.csv, which change together or not at all."""
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 from collections.abc import Callable
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from synergrip.files import atomic_path
+from synergrip.files import refuse_unwritable_folder
 from synergrip.plans.digest import digest
 from synergrip.plans.outcome import Outcome, Plan
 from synergrip.plans.told import arrays_of, columns_of, table_of
+from synergrip.together import refuse_others, replace_together
 
 FORMATS = ("json", "npz", "csv")
+NAMES = tuple(f"plan.{suffix}" for suffix in FORMATS)
 
 
 def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, formats: tuple[str, ...]) -> list[str]:
     """Write an outcome into `folder` and return the names of the files written.
 
     An outcome without a plan has only a document. Files of an earlier run that are not written anew are removed,
-    so that the folder never holds the answer to another question.
+    so that the folder never holds the answer to another question, nor files of two answers.
+
+    Raises:
+        OSError: it cannot be done; the folder is as it was.
     """
     writers: dict[str, Callable[[Path], object]] = {
         "json": lambda path: path.write_text(to_json(document) + "\n", encoding="utf-8")
@@ -31,13 +36,20 @@ def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, form
     if isinstance(outcome, Plan):
         writers["csv"] = lambda path: path.write_text(plan_csv(outcome), encoding="utf-8")
         writers["npz"] = lambda path: _write_npz(path, outcome)
-    written = [f"plan.{suffix}" for suffix in writers if suffix in formats]
-    with ExitStack() as all_or_none:  # every file is complete before the first one takes its place
-        for name in written:
-            writers[name.removeprefix("plan.")](all_or_none.enter_context(atomic_path(folder / name)))
-    for name in {f"plan.{suffix}" for suffix in FORMATS} - set(written):
-        (folder / name).unlink(missing_ok=True)
-    return written
+    chosen = [suffix for suffix in writers if suffix in formats]
+
+    def write(new: Path) -> None:
+        for suffix in chosen:
+            writers[suffix](new / f"plan.{suffix}")
+
+    replace_together(folder, NAMES, write)
+    return [f"plan.{suffix}" for suffix in chosen]
+
+
+def refuse_place(folder: Path) -> None:
+    """Raise the OSError that says why no outcome can be written into `folder`, as far as it can be told beforehand."""
+    refuse_unwritable_folder(folder)
+    refuse_others(folder, NAMES)
 
 
 def to_json(document: dict[str, Any]) -> str:
@@ -50,7 +62,8 @@ def plan_csv(plan: Plan) -> str:
     header = ["t_s", *(name for names in columns_of(plan.analysis.grasp).values() for name in names)]
     table = table_of(plan.motion, plan.margins)
     stream = io.StringIO()
-    np.savetxt(stream, table, fmt="%.17g", delimiter=",", header=",".join(header), comments="")
+    csv.writer(stream, lineterminator="\n").writerow(header)  # with quotes around names with commas
+    np.savetxt(stream, table, fmt="%.17g", delimiter=",")
     return stream.getvalue()
 
 
@@ -62,4 +75,4 @@ def _write_npz(path: Path, plan: Plan) -> None:
         "contacts": np.array([contact.name for contact in grasp.contacts]),
     }  # fmt: skip
     with path.open("wb") as stream:
-        np.savez(stream, allow_pickle=False, **arrays, digest=np.array(digest(arrays, sorted(arrays))))
+        np.savez(stream, **arrays, digest=np.array(digest(arrays, sorted(arrays))))

@@ -8,6 +8,8 @@ from typing import Any
 from synergrip.errors import InputError, Issue
 
 WIDTH = 100  # characters of a source line that are shown
+LONGEST = 4000  # characters of a message
+LONGEST_NAME = 400  # of a key or a file
 
 _RED, _BLUE, _BOLD, _END = "\x1b[31m", "\x1b[34m", "\x1b[1m", "\x1b[0m"
 
@@ -22,7 +24,8 @@ def error_text(error: InputError, color: bool = False) -> str:
     blocks = ["\n".join(_block(issue, color)) for issue in error.issues]
     count = len(blocks)
     files = {issue.file for issue in error.issues if issue.file}
-    where = f" in {_clean(next(iter(files)))}" if len(files) == 1 else f" in {len(files)} files" if files else ""
+    one = _clean(next(iter(files), ""), LONGEST_NAME)
+    where = f" in {one}" if len(files) == 1 else f" in {len(files)} files" if files else ""
     counted = f"{count} error{'s' if count != 1 else ''}{where}; nothing was solved."
     return "\n\n".join([*blocks, f"{counted}      exit code {error.exit_code}"])
 
@@ -49,11 +52,11 @@ def _block(issue: Issue, color: bool) -> Iterator[str]:
     def paint(text: str, code: str) -> str:
         return f"{code}{text}{_END}" if color and text else text
 
-    key = f" {paint(_clean(issue.key), _BOLD)}" if issue.key else ""
+    key = f" {paint(_clean(issue.key, LONGEST_NAME), _BOLD)}" if issue.key else ""
     yield f"{paint('error', _RED)}{key}: {_clean(issue.message)}"
     if issue.file:
         place = f":{issue.line}:{issue.column}" if issue.line else ""
-        yield f"  {paint('-->', _BLUE)} {_clean(issue.file)}{place}"
+        yield f"  {paint('-->', _BLUE)} {_clean(issue.file, LONGEST_NAME)}{place}"
     if issue.line and issue.source.strip():
         number = f"{issue.line:4} | "
         source, start = _window(issue)
@@ -72,6 +75,8 @@ def _window(issue: Issue) -> tuple[str, int]:
     ), start - first
 
 
-def _clean(text: str) -> str:
-    """Return the text without control characters, which a terminal would obey."""
+def _clean(text: str, longest: int = LONGEST) -> str:
+    """Return the text without control characters, which a terminal would obey, and without the middle of a long one."""
+    if len(text) > longest:
+        text = f"{text[: longest // 2]} ... {text[-longest // 2 :]}"
     return "".join(letter if letter.isprintable() or letter == "\n" else "?" for letter in text)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
+from synergrip.plans.accuracy import accuracy_notes
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.problem import Problem
 from synergrip.reports.tables import table, wrapped
@@ -71,3 +72,5 @@ def _values(analysis: Analysis) -> Iterator[str]:
         yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
     length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
     yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"
+    for note in accuracy_notes(analysis.response):
+        yield from wrapped("note     ", note, WIDTH)

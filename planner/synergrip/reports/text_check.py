@@ -67,12 +67,11 @@ def refused_text(problem: Problem, refusal: Refusal, color: bool = False) -> str
 
 def judgement_document(judgement: Judgement) -> dict[str, Any]:
     """Return the judgement as a JSON document."""
-    names = [contact.name for contact in judgement.analysis.grasp.contacts]
     return {
         "verdict": judgement.verdict, "exit_code": judgement.exit_code,
         "structure": structure_document(judgement.analysis.grasp, judgement.analysis),
         "time_s": judgement.motion.times.tolist(),
-        "margin": margin_document(judgement.margins, names, judgement.motion.times),
+        "margin": margin_document(judgement.usages[0]),
         "limits": [usage_document(usage) for usage in judgement.usages],
         "checks": [check_document(check) for check in judgement.checks],
         "between": between_document(judgement.between),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,7 +13,6 @@ from synergrip.quantities import SHOWN_IN
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many
 
-TURN = 2 * math.pi
 NOTHING = 1e-12
 """[rad or m] What is smaller is rounding."""
 INDENT = " " * 9
@@ -58,9 +56,7 @@ def _records(fit: Fit) -> Iterator[str]:
         far = f"at most {_size(each.deviation, fit.recorded.kind)} from its coupling (line {each.line})"
         where = far if each.deviation > NOTHING else "on its coupling"
         yield f"'{each.joint}' follows {each.drivers} and is left out; its records are {where}"
-    largest = float(np.abs(fit.recorded.postures).max())
-    if fit.recorded.kind == "hinge" and largest > TURN:
-        yield f"values up to {largest:.4g} rad are more than a turn; if they are degrees, say --degrees"
+    yield from fit.recorded.notes
 
 
 def _directions(fit: Fit) -> Iterator[str]:

@@ -10,9 +10,11 @@ import numpy as np
 
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.linalg import Array
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
+from synergrip.plans.verified import LIMIT
 from synergrip.quantities import SHOWN_IN, apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import between_lines
@@ -20,12 +22,18 @@ from synergrip.reports.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"
+ROUNDING = 1e-9
+"""A motion this small beside the length of the grasp is rounding."""
 
 
-def outcome_text(problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str], color: bool = False) -> str:
-    """Return the answer: what was read, asked, solved, checked; the verdict; what was written."""
+def outcome_text(
+    problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str] | None, color: bool = False
+) -> str:
+    """Return the answer: what was read, asked, solved, checked; the verdict; what was written, None if that failed."""
+    if written is None:
+        return "\n".join(verdict_lines(problem, outcome, color))
     code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
-    wrote = f"wrote {folder}/  " + "  ".join(written) + code
+    wrote = (f"wrote {folder}/  " + "  ".join(written) if written else "wrote nothing") + code
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
 
 
@@ -73,8 +81,8 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else ", the largest there is" + _with_reserve(plan) * " with the reserve"
-    worst = round(float(plan.margins[k, i]), 9)
-    yield f"{word}  smallest slip margin {worst + 0.0:.4g} N ({contact}, t = {time:.2f} s){best}"
+    worst = on_bound(plan.usages[0], k, i, plan.task.margin)
+    yield f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
     if not any(row[0] == "largest normal force" for row in rows):
         rows.insert(1, _largest_normal(plan))
@@ -86,15 +94,21 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
         if name in limited:
             continue
-        sizes = np.linalg.norm(scale.twist(motion), axis=1)
-        at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
-        rows.append((name, f"{round(1e3 * sizes[at], 6):.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""))
+        rows.append(_largest_motion(name, np.linalg.norm(scale.twist(motion), axis=1), plan))
     yield table(("", "worst", "at", "limit"), rows)
 
 
 def _with_reserve(plan: Plan) -> bool:
     """Return whether the program asked for more than is needed, so that limits hold where a load is curved."""
     return plan.task.between == "hold" and plan.between is not None and not plan.between.exact
+
+
+def _largest_motion(name: str, sizes: Array, plan: Plan) -> tuple[str, ...]:
+    """Return a row for the largest of motions (T,) [m]; one that is rounding has no time at which it is largest."""
+    if sizes.max(initial=0.0) < ROUNDING * plan.analysis.response.scale.length:
+        return name, "0 mm", "", ""
+    at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
+    return name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""
 
 
 def _largest_normal(plan: Plan) -> tuple[str, ...]:
@@ -110,6 +124,12 @@ def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], ti
     return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
+def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
+    """Return the value of item i at knot k; the bound when it is on it, as far as the check can tell."""
+    value = float(usage.value[k, i])
+    return bound if abs(value - bound) <= LIMIT * float(usage.size[k, i]) else value
+
+
 def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
     """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
     factor, unit = SHOWN_IN.get(usage.unit, (1.0, ""))
@@ -121,8 +141,7 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         k, i = first_largest(excess / usage.scale)
         value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
-        if abs(value - bound) <= 1e-6 * float(usage.scale[i]):
-            value = bound  # on the limit, as far as the check can tell
+        value = on_bound(usage, k, i, bound)
         shown, limit = apart(factor * value, factor * bound)
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
         where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
@@ -143,6 +162,8 @@ def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
     yield from refused_lines(word, outcome.stage, outcome.why)
     for i, clash in enumerate(outcome.clashes):
         yield f"{'Clashes' if i == 0 else '':8} {clash.share:4.0%}  {clash.key}  ({', '.join(clash.items)})"
+    for hint in outcome.hints:
+        yield from wrapped("Hint     ", hint)
     for change in repairs(outcome):
         yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
 

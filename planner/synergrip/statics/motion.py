@@ -47,9 +47,9 @@ def forward(response: Response, times: Array, dz_r: Array, wrench: Array) -> Mot
     forces = forces_at_start(response) + change
     torques = forces @ response.grasp.J
     sag = dw @ response.du_dw.T
-    d_effort = change @ response.grasp.J @ response.grasp.S
+    dz = dz_r @ response.dz_dzr.T + dw @ response.dz_dw.T
     return Motion(
         frozen(times), frozen(dz_r), frozen(wrench), frozen(forces), frozen(torques),
         frozen(torques @ response.grasp.S), frozen(dz_r @ response.du_dzr.T + sag), frozen(sag),
-        frozen(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), frozen(dz_r - d_effort @ response.grasp.C_z.T),
+        frozen(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), frozen(dz),
     )  # fmt: skip

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.linalg import RANK_TOLERANCE, SINGULAR, Array, Decision, canonical, frozen, split
+from synergrip.linalg import SINGULAR, Array, Decision, canonical, frozen, split
 from synergrip.statics.response import Response
 
 
@@ -58,7 +58,7 @@ def subspaces(response: Response) -> Subspaces:
     within = split(JS @ free, size)
     Gamma_zr = canonical(free @ within.null_space)
     Gamma_zcs, moved = _rigid_motions(free @ within.row_space, JS, Gt)
-    E_s, forces = _forces(response, against.decision.rank, Gt, moving=size > 0)
+    E_s, forces = _forces(response, against.decision.rank, Gt)
     decisions = {
         "restraint": response.restraint,
         "redundancy": split(JS, size).decision,
@@ -84,21 +84,19 @@ def _rigid_motions(synergies: Array, JS: Array, Gt: Array) -> tuple[Array, Array
     return frozen(synergies @ coordinates), basis
 
 
-def _forces(response: Response, rank: int, Gt: Array, *, moving: bool) -> tuple[Array, Decision]:
+def _forces(response: Response, rank: int, Gt: Array) -> tuple[Array, Decision]:
     """Return E_s with the `rank` that the kinematics dictates, and the force map's own decision.
 
-    `moving` tells whether J S is more than rounding; if it is not, neither are the forces.
+    A singular value of the map counts when the map is known that well; how far it is below the largest says nothing,
+    because it comes with stiffnesses.
     """
-    force = response.scale.force
+    force, known = response.scale.force, response.accuracy["dlambda_dzr"]
     scaled = force[:, None] * response.dlambda_dzr
     vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
-    # against what J S produces before the part that moves the object is taken out: less is rounding of the data
-    produced = np.linalg.norm(force[:, None] * (response.K @ response.grasp.J @ response.grasp.S), 2)
-    counts = moving and len(values) and values[0] > RANK_TOLERANCE * produced
-    reference = float(values[0]) if counts else 0.0
-    own = Decision.of(values, reference)
-    # grey values are no news here: they come with stiff K, and (34) has settled the rank
-    decision = Decision(own.rank, own.singular_values, own.rank != rank)
+    noise = max(known.unknown, np.finfo(float).eps * known.size) * np.sqrt(scaled.size)
+    counted = int(np.sum(values > noise))
+    # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
+    decision = Decision(counted, frozen(values / values[0] if counted else 0 * values), counted != rank)
     internal = vectors[:, :rank]
     held = np.linalg.qr(Gt)[0]
     internal = internal - held @ (held.T @ internal)  # G E_s = 0 to the last digit

@@ -15,7 +15,7 @@ from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.errors import InputError
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.plans.problem import load_problem, located
 from synergrip.plans.reading.problem_file import read_problem_file
 
 HAND = Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml"
@@ -194,11 +194,22 @@ def test_what_a_grasp_file_cannot_answer_is_refused(overrides: list[str], key: s
     assert fragment in issue.message
 
 
+def refused_goal(*overrides: str) -> str:
+    """The key of the goal that the program finds to be without bound."""
+    problem = load_problem("pinch-soft", overrides)
+    with pytest.raises(InputError, match="nothing bounds the largest margin") as caught:
+        plan(problem.grasp, problem.task)
+    error = located(problem, caught.value)
+    assert isinstance(error, InputError)
+    assert error.issues[0].file
+    return error.issues[0].key
+
+
 def test_a_margin_in_an_order_needs_something_that_bounds_it() -> None:
     bounded = ["limits={joint_torque=3}", "goal={order=['margin', 'smooth']}"]
     assert load_problem("pinch-soft", bounded).task.order == ("margin", "smooth")
-    with pytest.raises(InputError, match="nothing bounds the largest margin"):
-        load_problem("pinch-soft", ["limits={synergy_rate=3}", "goal={order=['margin', 'smooth']}"])
+    assert refused_goal("limits={synergy_rate=3}", "goal={order=['margin', 'smooth']}") == "goal.order[0]"
+    assert refused_goal("limits={}", "goal={maximise='margin'}") == "goal.maximise"
 
 
 def test_a_peak_before_the_margin_bounds_it() -> None:
@@ -207,6 +218,4 @@ def test_a_peak_before_the_margin_bounds_it() -> None:
     assert isinstance(outcome, Plan)
     assert [decision.goal for decision in outcome.decisions][:2] == ["least peak normal force", "largest margin"]
     for order, key in (("['margin', 'peak_force']", "goal.order[0]"), ("['travel', 'margin']", "goal.order[1]")):
-        with pytest.raises(InputError, match="nothing bounds the largest margin") as caught:
-            load_problem("pinch-soft", ["limits={}", f"goal={{order={order}}}"])
-        assert caught.value.issues[0].key == key
+        assert refused_goal("limits={}", f"goal={{order={order}}}") == key

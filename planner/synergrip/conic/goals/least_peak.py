@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.conic.goals.goal import Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
-from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
 
@@ -24,9 +24,9 @@ class LeastPeak:
         """Return ``s - n >= 0`` for every contact."""
         contacts = situation.response.grasp.contacts
         value = situation.force.after(-normal_selection(situation) / situation.force_unit)
-        names = tuple(contact.name for contact in contacts)
+        items = items_of(contact.name for contact in contacts)
         ones = frozen(np.ones(len(contacts)))
-        return [Rows("goal.minimise", Kind.NONNEGATIVE, 1, names, value.matrix, value.constant, ones)]
+        return [Rows("goal.minimise", Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, ones)]
 
     def objective(self, situation: Situation) -> Objective:
         """Return s."""

@@ -9,11 +9,13 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.rows import Kind, Rows, nonnegative
+from synergrip.conic.rows import Kind, Rows, items_of, nonnegative
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
+CANCELLED = 1e-9
+"""Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
 SLIPPERY = 0.1
 """Friction below which a cone, to a tolerance e, allows a pull of more than ten times e."""
 
@@ -60,11 +62,14 @@ def slip_margins(situation: Situation, motion: Motion) -> Array:
 def carried(situation: Situation, motion: Motion) -> Array:
     """Return (T, n_c) [N] the largest force component that each contact carries, or what the task asks when more.
 
-    An error of a force is small or large against this, never against a limit that does not bind.
+    An error of a force is small or large against this, never against a limit that does not bind. Forces are sums over
+    the synergies: where these cancel to almost nothing, what is left is their rounding.
     """
-    grasp, sizes = situation.response.grasp, np.abs(motion.forces * situation.response.scale.force)
+    grasp, response = situation.response.grasp, situation.response
+    sizes = np.abs(motion.forces * response.scale.force)
     largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
-    return frozen(np.maximum(largest, situation.load_size))
+    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
+    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * response.scale.largest_force(terms))))
 
 
 def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:
@@ -86,9 +91,9 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         first = np.tile(np.eye(size)[0], len(chosen))
         value = situation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
-        names = tuple(contact.name for contact, _ in chosen)
+        items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
-        result.append(Rows(key, kind, size, names, value.matrix, constant, frozen(epigraph * first)))
+        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first)))
     return result + _pushing(situation, key)
 
 
@@ -99,5 +104,5 @@ def _pushing(situation: Situation, key: str) -> list[Rows]:
     if not any(slippery):
         return []
     value = situation.force.after(np.eye(grasp.n_l)[grasp.normal_rows][slippery] / situation.force_unit)
-    names = tuple(f"{c.name} (pushing)" for c, each in zip(grasp.contacts, slippery, strict=True) if each)
-    return [nonnegative(key, names, value)]
+    names = (contact.name for contact, each in zip(grasp.contacts, slippery, strict=True) if each)
+    return [nonnegative(key, items_of(names, "pushing"), value)]

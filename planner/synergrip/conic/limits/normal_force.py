@@ -15,6 +15,9 @@ from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
+FAR = 1e3
+"""A bound this many times the force unit hardly binds."""
+
 
 @dataclass(frozen=True)
 class NormalForce:
@@ -63,8 +66,8 @@ class NormalForce:
 
 
 def bound_unit(bound: float, force_unit: float) -> float:
-    """Return the unit [N] of the rows of a bound: a bound far from all forces is then no more than a small slope."""
-    return max(abs(bound), force_unit) if np.isfinite(bound) else force_unit
+    """Return the unit [N] of the rows of a bound: its own where it is far from all forces, to drown nothing."""
+    return abs(bound) if np.isfinite(bound) and abs(bound) > FAR * force_unit else force_unit
 
 
 def normal_selection(situation: Situation) -> Array:

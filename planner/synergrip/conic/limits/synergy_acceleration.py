@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_usage
-from synergrip.conic.rows import Earlier, Rows, nonnegative
+from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -42,13 +42,13 @@ class SynergyAcceleration:
         known = (z[2:] - (1 + ratio[:, None]) * z[1:-1] + ratio[:, None] * z[:-2]) / unit
         names = [name for name, kept in zip(situation.response.grasp.synergies, keep, strict=True) if kept]
         result = []
-        for side, sign in ((" (falling)", 1.0), (" (rising)", -1.0)):
+        for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen(room / unit + sign * known))
             earlier = (
                 Earlier(1, frozen(-sign * matrix), frozen(1 + ratio)),
                 Earlier(2, frozen(sign * matrix), frozen(ratio)),
             )
-            result.append(nonnegative(self.key, tuple(name + side for name in names), value, earlier))
+            result.append(nonnegative(self.key, items_of(names, side), value, earlier))
         return result
 
     def bounded(self, situation: Situation, *, cones_hold: bool) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_usage
-from synergrip.conic.rows import Earlier, Rows, nonnegative
+from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -37,11 +37,10 @@ class SynergyRate:
         unit = steps.max(axis=0)
         matrix = situation.reference.matrix[keep] / unit[:, None]
         result = []
-        for side, sign in ((" (falling)", 1.0), (" (rising)", -1.0)):
+        for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen((1.0 + sign * moved) * steps / unit))
-            items = tuple(name + side for name in names)
             before = Earlier(1, frozen(-sign * matrix), frozen(np.ones(len(steps))))
-            result.append(nonnegative(self.key, items, value, (before,)))
+            result.append(nonnegative(self.key, items_of(names, side), value, (before,)))
         return result
 
     def bounded(self, situation: Situation, *, cones_hold: bool) -> None:

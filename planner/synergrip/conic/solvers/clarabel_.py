@@ -29,7 +29,8 @@ def solve(program: Program, settings: Settings) -> Solution:
     Raises:
         KeyboardInterrupt: somebody interrupted it.
     """
-    import clarabel
+    with interruptible():  # an interrupt may not fall into the loading of a compiled library
+        import clarabel
 
     options = clarabel.DefaultSettings()
     options.verbose = False

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from synergrip.errors import Issue, raise_issues
+from synergrip.errors import Issue, raise_issues, repeated
 from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
 
 
@@ -38,7 +38,8 @@ class ContactSpec:
     tangential_stiffness: float  # N/m
     spin_stiffness: float  # N m/rad
     """About the normal; 0 unless the contact is soft."""
-    normals: Literal["object", "pad"]
+    normals: Literal["object", "pad"] | None
+    """None when nothing is said but the normal itself: the surface's where there is one, else as stated."""
     key: str
     """The key of the file that names the pad or link."""
 
@@ -105,7 +106,7 @@ def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactSp
         stiffness=stiffness,
         tangential_stiffness=_given(shared, entry, "tangential_stiffness", stiffness),
         spin_stiffness=_given(shared, entry, "spin_stiffness") if soft else 0.0,
-        normals=_given(shared, entry, "normals", "object"),
+        normals=_given(shared, entry, "normals", "object" if entry.normal is None else None),
         key=key,
     )
 
@@ -135,12 +136,11 @@ def _judge(shared: ContactsTable, entry: ContactEntry, table: str) -> Iterator[I
 
 
 def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[Issue]:
-    for index, pad in enumerate(shared.at):
-        if pad in shared.at[:index]:
-            yield Issue(f"pad '{pad}' is named twice", f"contacts.at[{index}]")
+    for index in repeated(shared.at):
+        yield Issue(f"pad '{shared.at[index]}' is named twice", f"contacts.at[{index}]")
     pads = [entry.at for entry in entries]
-    for index, at in enumerate(pads):
-        if at is not None and at in pads[:index]:
+    for index in repeated(pads):
+        if (at := pads[index]) is not None:
             yield Issue(f"pad '{at}' is named twice (first in contact[{pads.index(at)}])", f"contact[{index}].at")
 
 

@@ -21,6 +21,7 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.grasps.matrices import MOST_CONTACTS
 from synergrip.validation import shown
 
 ContactModel = Literal["hard", "soft", "frictionless"]
@@ -83,7 +84,9 @@ class ContactTable(Table):
 class ContactsTable(ContactTable):
     """Defaults for every contact, and the pads that touch."""
 
-    at: tuple[Name, ...] = Field(default=(), description="names of the hand's pads that touch the object")
+    at: tuple[Name, ...] = Field(
+        default=(), max_length=MOST_CONTACTS, description="names of the hand's pads that touch the object"
+    )
 
 
 class ContactEntry(ContactTable):

@@ -21,6 +21,7 @@ from synergrip.fields import (
     unit_schema,
 )
 from synergrip.hands.choice import SetChoice
+from synergrip.hands.follower_ranges import FollowerRanges
 from synergrip.quantities import ratio
 from synergrip.validation import shown
 
@@ -151,6 +152,11 @@ class HandTable(Table):
     """The hand, its posture and its synergies."""
 
     model: Text = Field(description="name of a bundled hand, or the folder of one")
+    palm: Text | None = Field(
+        default=None,
+        description="link of a URDF or MJCF file that is the palm; what it does not carry stands still. The outermost "
+        "link when absent",
+    )
     posture: Posture | None = Field(
         default=None,
         description="name of a posture of the hand, or an angle per posture parameter, a length for slides",
@@ -166,6 +172,11 @@ class HandTable(Table):
     )
     coupling: Coupling | None = Field(
         default=None, description='coupling ratio of the underactuated joints, such as "1/3"'
+    )
+    follower_ranges: FollowerRanges | None = Field(
+        default=None,
+        description='"ignore": joints that follow others reach as far as their couplings take them, whatever range the '
+        'model file states for them; "keep" (default): that range counts',
     )
     compliance: ComplianceTable = Field(
         default_factory=ComplianceTable, description="compliance of joints and synergies"

@@ -13,7 +13,7 @@ from synergrip.plans.reading.motion_tables import SHORTEST
 from synergrip.plans.reading.profiles import ROUNDING
 from synergrip.plans.reading.pushes import Push
 from synergrip.plans.reading.tables import Table
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.plans.reading.task_file import MOST_KNOTS, TaskTable
 
 MOVING_KNOTS = 41
 """Knots of a task that moves or turns and does not say how many."""
@@ -51,6 +51,9 @@ def knots(task: TaskTable, tables: Mapping[str, Table], pushes: Sequence[Push], 
     elif not tables and not (task.move or task.palm):
         return np.zeros(1)
     corners = distinct(np.append(every[(every > start) & (every < end)], [start, end]))
+    if len(corners) > MOST_KNOTS:
+        message = f"every line makes a knot, which makes {len(corners)} knots; at most {MOST_KNOTS}: give task.knots"
+        raise InputError.at(f"task.{next(iter(tables), 'waypoint')}", message)
     return _filled(corners) if task.curved or not tables else corners
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import ConfigDict, Field
 
-from synergrip.errors import InputError, Issue, one_of
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.fields import (
     POSITIVE,
     Force,
@@ -186,15 +187,42 @@ class GoalTable(Table):
         """Refuse two ways of stating goals, a goal twice, and goals of force when no force is open any more."""
         given = [name for name in ("maximise", "minimise", "order") if getattr(self, name)]
         for name in given[1:]:
-            message = f"the goal is given already by '{given[0]}'; several goals are written as order = [...]"
-            yield Issue(message, key=name, on_key=True)
-        settled = ""
-        for index, name in enumerate(self.order or ()):
-            if name in (self.order or ())[:index]:
-                yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
-            elif settled and name in FORCE_GOALS:
-                yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")
-            settled = settled or (name if name in EFFORTS else "")
+            yield Issue(self._choice(given[0], name), key=name, on_key=True)
+        yield from _order_issues(self.order or ())
+
+    def _choice(self, first: str, second: str) -> str:
+        """Return what to drop of two ways in which the goal is given, and how to have both."""
+        kept = {
+            "maximise": 'maximise = "margin"',
+            "minimise": f"the weights of {', '.join(self.weights)}"
+            if self.weights
+            else f'minimise = "{self.minimise}"',
+            "order": f"order = {_toml(self.order or ())}",
+        }
+        single = [self.minimise] if isinstance(self.minimise, str) else []
+        joined = list(dict.fromkeys([*([self.maximise] if self.maximise else []), *(self.order or ()), *single]))
+        both = "several goals are written as order = [...]"
+        if not self.weights and not any(_order_issues(joined)):
+            both = f"for all of them write only order = {_toml(joined)}"
+        return (
+            f"the goal is given already by '{first}': drop '{second}' to keep {kept[first]}, or '{first}' to keep "
+            f"{kept[second]}; {both} (--set goal={{...}} replaces the whole table)"
+        )
+
+
+def _order_issues(order: Sequence[str]) -> Iterator[Issue]:
+    """Yield what is wrong with goals in order."""
+    settled, twice = "", set(repeated(order))
+    for index, name in enumerate(order):
+        if index in twice:
+            yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
+        elif settled and name in FORCE_GOALS:
+            yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")
+        settled = settled or (name if name in EFFORTS else "")
+
+
+def _toml(names: Sequence[str]) -> str:
+    return json.dumps(list(names))
 
 
 class OutputTable(Table):

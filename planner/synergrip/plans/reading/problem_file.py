@@ -11,6 +11,7 @@ from pydantic import Field
 from synergrip.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue
 from synergrip.fields import Schema, Table, Version
+from synergrip.grasps.matrices import MOST_CONTACTS
 from synergrip.plans.reading.contact_list import ContactSpec, contact_list
 from synergrip.plans.reading.contact_tables import ContactEntry, ContactsTable
 from synergrip.plans.reading.hand_table import GraspTable, HandTable
@@ -33,7 +34,9 @@ class ProblemFile(Table):
     contacts: ContactsTable | None = Field(
         default=None, description="the pads that touch, and defaults for all contacts"
     )
-    contact: tuple[ContactEntry, ...] = Field(default=(), description="contacts that differ from the defaults")
+    contact: tuple[ContactEntry, ...] = Field(
+        default=(), max_length=MOST_CONTACTS, description="contacts that differ from the defaults"
+    )
     task: TaskTable = Field(default_factory=TaskTable, description="what is to happen")
     limits: LimitsTable = Field(default_factory=LimitsTable, description="what the plan must keep")
     goal: GoalTable = Field(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,11 +18,14 @@ from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.grasps.placing import Touch, place
+from synergrip.hands.arm import arm_notes
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.follower_ranges import contradictions
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.parted import parted_notes
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies import posture, ranges_of_followers, stands_still
+from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.contact_list import ContactSpec
@@ -39,6 +43,8 @@ class Held:
     synergies: SynergySet
     q: Array
     """(n_q,) joint values [rad or m]."""
+    C_q: Array
+    """(n_q, n_q) joint compliance."""
     thing: Object
     """The object, where it is."""
     touches: tuple[Touch, ...]
@@ -49,8 +55,12 @@ class Held:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is doubtful about it, though it is no error."""
-        parted = tuple(parted_notes(self.hand, self.q))
-        return (*parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
+        touching = [touch.pad.link for touch in self.touches]
+        read = undriven_notes(self.hand, self.synergies, self.q, self.C_q)
+        arm = arm_notes(self.hand, self.synergies, touching)
+        parted = parted_notes(self.hand, self.q)
+        ranges = contradictions(ranges_of_followers(self.hand))
+        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
 
     @property
     def limits(self) -> HandLimits:
@@ -77,18 +87,27 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     table = file.hand
     if table is None:
         raise InputError.at("hand", "missing table [hand]")
-    hand = load_hand(table.model, relative_to=folder, coupling=table.coupling, key="hand.model")
+    hand = load_hand(
+        table.model,
+        relative_to=folder,
+        coupling=table.coupling,
+        follower_ranges=table.follower_ranges,
+        palm=table.palm or "",
+        key="hand.model",
+    )
     thing = _object(file.object)
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
         try:
-            touches.append(_touch(hand, contact))
+            touches.append(_touch(hand, contact, thing))
         except InputError as error:
             issues += error.issues
     if table.close is not None:
         issues += unknown_surface(thing)
     try:
-        synergies, q, C_q, C_z = _state(hand, table, folder)
+        synergies = select(hand, table.synergies, "hand.synergies", folder)
+        _judge_drives(hand, synergies, table, [touch.pad.link for touch in touches])
+        q, C_q, C_z = _state(hand, table, synergies)
         direction = closing_direction(hand, synergies, table.close) if table.close is not None else None
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
@@ -96,38 +115,55 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     if direction is not None:
         q = close(hand, q, direction, thing, touches)
     placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
-    return placed.grasp, Held(hand, synergies, q, placed.thing, tuple(touches), placed.gaps)
+    return placed.grasp, Held(hand, synergies, q, C_q, placed.thing, tuple(touches), placed.gaps)
 
 
-def _state(hand: Hand, table: HandTable, folder: Path) -> tuple[SynergySet, Array, Array, Array]:
-    """Return synergies, joint values (n_q,), joint and synergy compliance of a hand."""
-    synergies = select(hand, table.synergies, "hand.synergies", folder)
+def _judge_drives(hand: Hand, synergies: SynergySet, table: HandTable, touching: Sequence[str]) -> None:
+    asked = not (table.synergies is None or isinstance(table.synergies, int))
+    each_yields = isinstance(table.compliance.joint, tuple)
+    judge_undriven(hand, synergies, touching, asked=asked, each_yields=each_yields, key="hand.synergies")
+
+
+def _state(hand: Hand, table: HandTable, synergies: SynergySet) -> tuple[Array, Array, Array]:
+    """Return joint values (n_q,), joint and synergy compliance of a hand."""
     if table.posture is None:
         raise InputError.at("hand.posture", f"missing; name one of {', '.join(hand.postures)}, or give joint values")
     q = posture(hand, synergies, table.posture, "hand.posture")
-    C_q = hand.C_q
-    if table.compliance.joint is not None:
-        C_q = _diagonal(table.compliance.joint, hand.joint_names, "hand.compliance.joint", "joints")
-        raise_issues(list_misfits("hand.compliance.joint", table.compliance.joint, joint_kinds(hand.joints)))
+    C_q, wish = hand.C_q, table.compliance.joint
+    if wish is not None:
+        C_q = _diagonal(wish, hand.joint_names, "hand.compliance.joint", "joints")
+        raise_issues(list_misfits("hand.compliance.joint", wish, joint_kinds(hand.joints)))
+        if hand.drives is not None and not isinstance(wish, tuple):
+            C_q = with_springs(hand, C_q)
     C_z = _diagonal(table.compliance.synergy or 0.0, synergies.synergies, "hand.compliance.synergy", "synergies")
-    return synergies, q, C_q, C_z
+    return q, C_q, C_z
 
 
-def _touch(hand: Hand, contact: ContactSpec) -> Touch:
+def _touch(hand: Hand, contact: ContactSpec, thing: Object) -> Touch:
     kind = contact_kind(contact.model)
     stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
     each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
     aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
         contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
-        each, contact.normals, contact.key, aimed,
+        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed, _normal_at(contact),
     )  # fmt: skip
+
+
+def _normal_at(contact: ContactSpec) -> str:
+    """Return where the normal of a pad or of a place on a link is stated."""
+    if isinstance(contact.at, str):
+        return f"the normal of pad '{contact.at}' in the hand's hand.toml"
+    return f"{contact.key.removesuffix('link')}normal"
 
 
 def _pad(hand: Hand, contact: ContactSpec) -> Pad:
     if isinstance(contact.at, str):
         return hand.pad(contact.at, contact.key)
     place = contact.at
+    if still := stands_still(hand, place.link):
+        carried = ", ".join(map(repr, hand.links))
+        raise InputError.at(contact.key, f"link {still}; it carries {carried}; choose a palm that carries all contacts")
     if place.link not in hand.links:
         raise InputError.at(contact.key, f"link {one_of(place.link, hand.links)}")
     normal = frozen(place.normal or np.zeros(3))

@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from synergrip.cells import Cell, CellReader, cells_of
-from synergrip.errors import InputError, suggest
+from synergrip.errors import InputError, shortened, suggest
 from synergrip.linalg import Array, frozen
 
 TIME = "t_s"
@@ -16,6 +16,8 @@ WRENCH = ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")
 MOTION = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
 MODES = "beta_"
 REFERENCES = "zr_"
+SHOWN = 12
+"""Names of columns that a message lists."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +47,7 @@ def read_table(path: Path, columns: Sequence[str] | str, key: str = "", *, other
     """
     reader = CellReader.of(path, key)
     rows = reader.rows()
-    number, header = next(rows, (1, ""))
-    cells = list(cells_of(header, number))
+    cells = reader.header(rows)
     order = _order(reader, cells, columns, others)
     if reader.issues:
         raise InputError(reader.issues)  # an unknown column before the one that is missing for it
@@ -66,20 +67,22 @@ def _order(reader: CellReader, header: list[Cell], columns: Sequence[str] | str,
         count = max(sum(name.startswith(columns) for name in names), 1)
         columns = [f"{columns}{index}" for index in range(1, count + 1)]
     wanted = [TIME, *columns]
-    expected = f"the header {','.join([*wanted, *(['...'] if open_ended else [])])}"
+    expected = f"the header {','.join([*wanted[:SHOWN], *(['...'] if open_ended else [])])}"
     if reader.is_header(header, expected):
-        for index, cell in enumerate(header):
-            if cell.text not in wanted and not others:
-                missing = [name for name in wanted if name not in names]
-                reader.refuse(f"unknown column '{cell.text}'{suggest(cell.text, missing)}", cell)
-            elif cell.text in names[:index]:
-                reader.refuse(f"column '{cell.text}' is there twice", cell)
-        absent = [name for name in wanted if name not in names]
+        known, there, seen = set(wanted), set(names), set[str]()
+        absent = [name for name in wanted if name not in there]
+        for cell in header:
+            if cell.text not in known and not others:
+                reader.refuse(f"unknown column '{shortened(cell.text)}'{suggest(cell.text, absent)}", cell)
+            elif cell.text in seen:
+                reader.refuse(f"column '{shortened(cell.text)}' is there twice", cell)
+            seen.add(cell.text)
         if absent:
-            listed = ", ".join(f"'{name}'" for name in absent)
+            listed = ", ".join(f"'{name}'" for name in absent[:SHOWN]) + (", ..." if len(absent) > SHOWN else "")
             plural = "s" if len(absent) > 1 else ""
             reader.refuse(f"missing column{plural} {listed}; expected {expected}", header[0])
-    return [] if reader.issues else [names.index(name) for name in wanted]
+    place = {name: index for index, name in enumerate(names)}
+    return [] if reader.issues else [place[name] for name in wanted]
 
 
 def _judge_times(reader: CellReader, times: list[tuple[int, float]], column: int) -> None:

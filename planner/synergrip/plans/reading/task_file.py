@@ -8,8 +8,21 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.errors import InputError, Issue
-from synergrip.fields import NUMBER, Size, Table, Text, Time, Vector, Whole, Written, array_of, listed, number
+from synergrip.errors import InputError, Issue, repeated
+from synergrip.fields import (
+    NUMBER,
+    Size,
+    Table,
+    Text,
+    Time,
+    Whole,
+    Written,
+    array_of,
+    listed,
+    listed_by,
+    number_or,
+    unit_schema,
+)
 from synergrip.plans.reading.motion_tables import (
     SHORTEST,
     MoveTable,
@@ -19,33 +32,51 @@ from synergrip.plans.reading.motion_tables import (
     waypoint_issues,
 )
 from synergrip.plans.reading.push_table import PushTable
+from synergrip.quantities import kind_of, without_unit
 from synergrip.validation import shown
+
+_COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
+_COMPONENT = {"anyOf": [NUMBER, unit_schema("force", "torque")]}
+_ACCELERATION = {"anyOf": [NUMBER, unit_schema("acceleration")]}
+MOST_KNOTS = 100_000
 
 
 def _wrench(value: object) -> str | tuple[float, ...]:
-    if isinstance(value, str) and value:
+    if isinstance(value, str) and value and kind_of(value, ("force", "torque")) is None:
         return value
     if isinstance(value, list):
-        return listed(number, value, 6)
-    raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}")
+        return listed_by(_COMPONENTS, value, "numbers")
+    kind = kind_of(value, ("force", "torque"))
+    example = {"force": f'[0, 0, "{value}", 0, 0, 0]', "torque": f'[0, 0, 0, 0, 0, "{value}"]'}.get(kind or "")
+    advice = f"; write for example {example}" if example else ""
+    raise InputError.at("", f"expected the name of a CSV file or 6 numbers (N, N m), got {shown(value)}{advice}")
+
+
+def _gravity(value: object) -> tuple[float, ...]:
+    if isinstance(value, list):
+        return listed(number_or("acceleration"), value, 3)
+    size = value if kind_of(value, ("acceleration",)) else without_unit(value, "acceleration").split('"')[-2]
+    advice = f'; write for example [0, 0, "-{str(size).strip().lstrip("+-")}"]'
+    raise InputError.at("", f"expected a list of 3 numbers, got {shown(value)}{advice}, along the axes of the palm")
 
 
 class TaskTable(Table):
     """What is to happen."""
 
     duration: Time = Field(default="1 s", validate_default=True, description="duration of the task")
-    knots: Annotated[Whole, Field(ge=1, le=100_000)] | None = Field(
+    knots: Annotated[Whole, Field(ge=1, le=MOST_KNOTS)] | None = Field(
         default=None, description="number of instants at which the plan is made, evenly spaced"
     )
-    gravity: Vector | None = Field(
-        default=None, description="acceleration of gravity in the palm frame at the start, in m/s^2: 3 numbers"
+    gravity: Annotated[tuple[float, ...] | None, Written(_gravity, array_of(_ACCELERATION, 3))] = Field(
+        default=None,
+        description='acceleration of gravity in the palm frame at the start: 3 numbers in m/s^2 or "-9.81 m/s^2"',
     )
     palm: PalmTable | None = Field(
         default=None, description="motion of the palm in the world: turns gravity, and loads the object by inertia"
     )
     wrench: Annotated[
         str | tuple[float, ...] | None,
-        Written(_wrench, {"anyOf": [{"type": "string", "minLength": 1}, array_of(NUMBER, 6)]}),
+        Written(_wrench, {"anyOf": [{"type": "string", "minLength": 1}, array_of(_COMPONENT, 6)]}),
     ] = Field(
         default=None,
         description="external wrench on the object: 6 numbers in N and N m, or a CSV file with "
@@ -115,8 +146,7 @@ class TaskTable(Table):
         if self.tracking == "compliant" and self.tolerance is None:
             message = "compliant tracking needs 'tolerance', how far the object may be from where it is wanted: "
             yield Issue(message + 'write for example tolerance = "0.5 mm"', key="tracking")
-        for index, axis in enumerate(self.axes):
-            if axis in self.axes[:index]:
-                yield Issue(f"'{axis}' is listed twice", key=f"axes[{index}]")
+        for index in repeated(self.axes):
+            yield Issue(f"'{self.axes[index]}' is listed twice", key=f"axes[{index}]")
         if self.drift is not None and len(self.axes) == len(AXES):
             yield Issue("'drift' is for the axes that 'axes' leaves out, and it leaves none", key="drift", on_key=True)

@@ -28,6 +28,7 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.conic.rows import items_of
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
 from synergrip.plans.referee.model import Cone, Expression, Model, Wish
@@ -74,16 +75,16 @@ def friction(
         force = model.force[:, rows] / model.force_unit
         mu, nu = share * contact.friction, share * contact.spin_friction
         if contact.kind.name == "frictionless":
-            cones.append(Cone(key, (contact.name,), force - margin))
+            cones.append(Cone(key, items_of([contact.name]), force - margin))
         elif contact.kind.name == "hard":
-            cones.append(Cone(key, (contact.name,), mu * force[:, 0] - margin, force[:, 1:]))
+            cones.append(Cone(key, items_of([contact.name]), mu * force[:, 0] - margin, force[:, 1:]))
         elif contact.kind.name == "soft":
             tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu])
-            cones.append(Cone(key, (contact.name,), mu * force[:, 0] - margin, tail))
+            cones.append(Cone(key, items_of([contact.name]), mu * force[:, 0] - margin, tail))
         else:
             raise NotWrittenError(f"contact.kind: {one_of(contact.kind.name, ('frictionless', 'hard', 'soft'))}")
         if contact.kind.name != "frictionless" and mu < SLIPPERY:
-            cones.append(Cone(key, (f"{contact.name} (pushing)",), force[:, :1]))
+            cones.append(Cone(key, items_of([contact.name], "pushing"), force[:, :1]))
     return tuple(cones)
 
 
@@ -97,7 +98,7 @@ def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
     return tuple(
         Cone(
             limit.key,
-            tuple(f"{n} ({side})" for n in names),
+            items_of(names, side),
             sign * (_normals(model) * (unit / bound_unit(bound, unit)) - bound / bound_unit(bound, unit)),
         )
         for side, bound, sign in sides
@@ -110,7 +111,7 @@ def _symmetric(key: str, names: tuple[str, ...], value: Expression, limit: Array
     if not len(keep):
         return ()
     share = value[:, keep] @ np.diag(1 / limit[keep])
-    low, high = (tuple(f"{names[i]} ({side})" for i in keep) for side in ("lowest", "highest"))
+    low, high = (items_of((names[i] for i in keep), side) for side in ("lowest", "highest"))
     return Cone(key, low, 1 + share), Cone(key, high, 1 - share)
 
 
@@ -135,7 +136,7 @@ def _synergy_rate(model: Model, limit: SynergyRate) -> tuple[Cone, ...]:
     unit = allowed.max(axis=0)
     share = (model.dz_r[1:, keep] - model.dz_r[:-1, keep]) @ np.diag(1 / unit)
     names = [model.response.grasp.synergies[i] for i in keep]
-    falling, rising = (tuple(f"{n} ({side})" for n in names) for side in ("falling", "rising"))
+    falling, rising = (items_of(names, side) for side in ("falling", "rising"))
     return Cone(limit.key, falling, allowed / unit + share), Cone(limit.key, rising, allowed / unit - share)
 
 
@@ -163,8 +164,8 @@ def _least_peak(model: Model, goal: LeastPeak) -> Wish:
     import cvxpy as cp
 
     peak = cp.Variable()
-    names = tuple(contact.name for contact in model.response.grasp.contacts)
-    return Wish(peak, (Cone("goal.minimise", names, peak - _normals(model)),), peak)
+    items = items_of(contact.name for contact in model.response.grasp.contacts)
+    return Wish(peak, (Cone("goal.minimise", items, peak - _normals(model)),), peak)
 
 
 def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:

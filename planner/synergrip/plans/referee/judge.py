@@ -15,6 +15,7 @@ import numpy as np
 
 from synergrip.conic.bend import Looks
 from synergrip.conic.program import Program
+from synergrip.conic.rows import Item
 from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
@@ -183,7 +184,7 @@ def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) 
 
 def _multipliers(program: Program, posed: Posed) -> Array:
     """Return z (m,) in the program's order, matched by key and item; 0 for rows that were not posed."""
-    found: dict[tuple[str, str], list[Array]] = defaultdict(list)
+    found: dict[tuple[str, Item], list[Array]] = defaultdict(list)
     for cone, constraint in posed.pairs:
         for item, values in cone.multipliers(constraint):
             found[cone.key, item].append(values)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.rows import Item, items_of
 from synergrip.conic.situation import Units
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response
@@ -29,7 +30,7 @@ class Cone:
 
     key: str
     """Key in the problem file of what asks for it."""
-    items: tuple[str, ...]
+    items: tuple[Item, ...]
     head: Expression  # (T, len(items)), or (T,) with a tail
     tail: Expression | None = None  # (T, d - 1)
     equality: bool = False
@@ -44,7 +45,7 @@ class Cone:
             return self.head + relaxation >= 0
         return cp.SOC(self.head + relaxation, self.tail, axis=1)
 
-    def multipliers(self, constraint: Expression) -> Iterator[tuple[str, Array]]:
+    def multipliers(self, constraint: Expression) -> Iterator[tuple[Item, Array]]:
         """Yield each item with its multipliers (T, d); those of an inequality lie in the dual cone."""
         if self.tail is None:
             values = np.reshape(constraint.dual_value, self.head.shape)
@@ -148,7 +149,7 @@ def _reference_size(response: Response, force_unit: float) -> float:
 
 
 def _equal(name: str, value: Expression) -> Cone:
-    return Cone(name, tuple(f"{name}_{i + 1}" for i in range(value.shape[1])), value, equality=True)
+    return Cone(name, items_of(f"{name}_{i + 1}" for i in range(value.shape[1])), value, equality=True)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
+from synergrip.conic.rows import Item, items_of
 from synergrip.linalg import Array
 from synergrip.plans.referee.model import Cone, Expression, Model
 
@@ -26,7 +27,7 @@ def synergy_acceleration(model: Model, limit: SynergyAcceleration) -> tuple[Cone
     share = times_rows(2 * weight / (h[1:] + h[:-1]), rates[1:] - rates[:-1]) @ np.diag(1 / unit)
     allowed = weight * limit.limit[keep] / unit
     names = [model.response.grasp.synergies[i] for i in keep]
-    falling, rising = (tuple(f"{n} ({side})" for n in names) for side in ("falling", "rising"))
+    falling, rising = (items_of(names, side) for side in ("falling", "rising"))
     return Cone(limit.key, falling, allowed + share), Cone(limit.key, rising, allowed - share)
 
 
@@ -49,14 +50,14 @@ def joint_range(model: Model, limit: JointRange) -> tuple[Cone, ...]:
         keep = np.flatnonzero(np.isfinite(bound))
         if len(keep):
             room = sign * (q[:, keep] - np.tile(bound[keep], (len(model.times), 1))) @ np.diag(1 / unit[keep])
-            cones.append(Cone(limit.key, tuple(f"{names[i]} ({side})" for i in keep), room))
+            cones.append(Cone(limit.key, items_of((names[i] for i in keep), side), room))
     return tuple(cones)
 
 
 def elastic_motion(model: Model, limit: ElasticMotion) -> tuple[Cone, ...]:
     """Write the motion beyond the rigid one within its bound down."""
     value = (model.moved - model.rigid) @ model.response.scale.motion.T / limit.limit
-    return (Cone(limit.key, ("object",), np.ones(len(model.times)), value),)
+    return (Cone(limit.key, (Item("object", "norm"),), np.ones(len(model.times)), value),)
 
 
 def object_error(model: Model, limit: ObjectError) -> tuple[Cone, ...]:
@@ -66,4 +67,4 @@ def object_error(model: Model, limit: ObjectError) -> tuple[Cone, ...]:
     sizes = np.array([1.0, 1.0, 1.0, *[model.response.scale.length] * 3])
     columns = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in limit.axes]
     error = (reached - model.wanted)[:, columns] @ np.diag(sizes[columns] / limit.limit)
-    return (Cone(limit.key, ("object",), np.ones(len(model.times)), error),)
+    return (Cone(limit.key, (Item("object", "norm"),), np.ones(len(model.times)), error),)

@@ -1,0 +1,133 @@
+"""Joints that no motor of a model file drives: what is said of them, and what has to be said by the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.hands.arm import palm_of
+from synergrip.hands.hand import Hand, SynergySet
+from synergrip.hands.synergies import JOINTS
+from synergrip.hands.units import SI_UNITS
+from synergrip.linalg import Array, frozen
+from synergrip.quantities import SHOWN_IN
+
+AWAY = 1e-6
+"""Distance of a joint from where its spring rests that is no rounding [rad or m]."""
+MOST_NAMED = 12
+"""Joints named in a message."""
+MOST_REASONS = 3
+"""Reasons given in a message."""
+
+
+def carrying(hand: Hand, links: Collection[str]) -> tuple[str, ...]:
+    """Return the joints that carry one of some links."""
+    above = {link for each in links for link in hand.carriers(each)}
+    return tuple(joint.name for joint in hand.joints if joint.link in above)
+
+
+def judge_undriven(
+    hand: Hand, synergies: SynergySet, touching: Collection[str], *, asked: bool, each_yields: bool, key: str
+) -> None:
+    """Refuse a grasp through joints of which nothing says how they move and how far they yield.
+
+    Args:
+        hand: the hand.
+        synergies: the chosen set.
+        touching: the links that touch the object.
+        asked: whether the problem names the set, or its synergies.
+        each_yields: whether the problem gives the compliance of each joint.
+        key: where the problem would name the synergies.
+
+    Raises:
+        InputError: there are such joints; with the reason of each, and what to write.
+    """
+    drives = hand.drives
+    if drives is None or not drives.idle:
+        return
+    moved = _moved(hand, synergies)
+    carriers = carrying(hand, touching)
+    open_ones = [name for name in carriers if name in drives.loose]
+    if not asked and synergies.name == JOINTS:
+        open_ones = [*open_ones, *(name for name in drives.idle if name not in (*open_ones, *hand.couplings))]
+    elif asked:
+        open_ones = [name for name in open_ones if name not in moved and not each_yields]
+    elif each_yields:
+        open_ones = []
+    if open_ones:
+        raise InputError.at(key, _message(hand, open_ones, palm_of(hand, touching)))
+
+
+def with_springs(hand: Hand, C_q: Array) -> Array:
+    """Return C_q (n_q, n_q) with the yield of the hand's own springs at the joints that only springs hold."""
+    own = np.array([hand.drives is not None and name in hand.drives.sprung for name in hand.joint_names])
+    return frozen(np.where(own[:, None] | own, np.where(own[:, None] & own, hand.C_q, 0.0), C_q))
+
+
+def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> Iterator[str]:
+    """Yield what was taken for something else in the model file, and what becomes of joints that no motor drives.
+
+    Args:
+        hand: the hand.
+        synergies: the chosen set.
+        q: (n_q,) joint values [rad or m].
+        C_q: (n_q, n_q) the joint compliance that is used.
+    """
+    drives = hand.drives
+    if drives is None:
+        return
+    yield from drives.notes
+    springs = drives.compliance
+    other = np.any(~np.isclose(C_q, springs, rtol=1e-9, atol=0.0) & (springs != 0), axis=1)
+    if other.any():
+        names = [name for name, each in zip(hand.joint_names, other, strict=True) if each]
+        yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
+    moved = [name for name in drives.idle if name in _moved(hand, synergies)]
+    if moved:
+        yield f"the synergies move {_listed(moved)}, which no actuator of the model file is known to drive"
+    sprung = [name for name in drives.sprung if name not in moved]
+    if sprung:
+        yield f"no actuator of the model file drives {_listed(sprung)}: no synergy moves them, springs hold them"
+    loose = [name for name in drives.loose if name not in moved]
+    if loose:
+        yield f"no actuator of the model file is known to drive {_listed(loose)}: no synergy moves them"
+    away = [name for name in sprung if abs(_value(hand, q, name) - drives.sprung[name]) > AWAY]
+    for name in away:
+        factor, unit = SHOWN_IN[SI_UNITS[hand.joints[hand.joint_names.index(name)].kind]]
+        yield (
+            f"joint '{name}' is at {factor * _value(hand, q, name):.4g} {unit}, and its spring rests at "
+            f"{factor * drives.sprung[name]:.4g} {unit}: the force of the spring there is not part of the plan"
+        )
+
+
+def _moved(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
+    return tuple(name for name, row in zip(hand.joint_names, synergies.S, strict=True) if np.any(row))
+
+
+def _value(hand: Hand, q: Array, name: str) -> float:
+    return float(q[hand.joint_names.index(name)])
+
+
+def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]) -> str:
+    reasons = dict[str, list[str]]()
+    for name in names:
+        reason = hand.drives.loose.get(name, "only its spring holds it") if hand.drives else ""
+        reasons.setdefault(reason, []).append(name)
+    told = "; ".join(f"{_listed(each)}: {reason}" for reason, each in list(reasons.items())[:MOST_REASONS])
+    more = "; and so on" if len(reasons) > MOST_REASONS else ""
+    more = "; ".join([more, *(hand.drives.notes if hand.drives else ())])
+    arm = f'; or hand.palm = "{palm[0]}", to leave out what is above that link' if {*names} & {*palm[1]} else ""
+    return (
+        f"no actuator of the model file is known to drive {_listed(names)} ({told}{more}). Write how they move: "
+        'hand.synergies = "mine.toml", a synergy file with these joints; or names of joints that actuators drive each '
+        f'by itself, as in hand.synergies = ["{names[0]}"]; or, where nothing drives them, how far each joint yields: '
+        f"a list in hand.compliance.joint, 0 for a locked one{arm}. Or change the model file: an actuator, a "
+        "stiffness, a <fixed> tendon in place of a <spatial> one, with its moment arms as coef"
+    )
+
+
+def _listed(names: Sequence[str]) -> str:
+    shown = ", ".join(f"'{name}'" for name in names[:MOST_NAMED])
+    return shown + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")

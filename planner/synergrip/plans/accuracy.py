@@ -1,0 +1,92 @@
+"""Are the response maps known well enough for what rests on them? Words, and the check of a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.errors import SelfCheckError
+from synergrip.plans.outcome import Check
+from synergrip.statics.motion import Motion
+from synergrip.statics.response import Response
+
+SHOWN = 1e-8
+"""Relative error from which on an answer tells of it."""
+RELIED_ON = 1e-6
+"""Relative error of the maps, and of the forces of a plan, beyond which no verdict is given."""
+CANCELLED = 1e-7
+"""Share of the terms that forces are sums of, below which they are measured against that share: no load, no squeeze."""
+_RELIED_ON = ("dlambda_dzr", "dlambda_dw", "du_dzr", "du_dw", "dq_dzr", "dq_dw")
+"""The maps that forces, motions and limits of a plan come from."""
+_WORDS = {
+    "lambda": "contact forces", "u": "object motion", "tau": "joint torques", "sigma": "actuator efforts",
+    "z": "synergy displacements", "q": "joint displacements",
+}  # fmt: skip
+_CAUSES = {"dzr": "synergy references do", "dw": "the load does"}
+
+
+class InDoubtError(SelfCheckError):
+    """What is known of a grasp does not suffice for a verdict."""
+
+
+def accuracy_notes(response: Response) -> Iterator[str]:
+    """Yield what is inaccurate, and what hangs on digits that the grasp's numbers do not have."""
+    known = response.accuracy
+    name = max(known, key=lambda each: known[each].error)
+    if known[name].error > SHOWN:
+        yield (
+            f"inaccurate: what {_named(name)} may be wrong by {known[name].error:.0e} of its size, because the "
+            "stiffnesses of the grasp differ by too many powers of ten; soften what is stiffest"
+        )
+    name = max(known, key=lambda each: known[each].sensitivity)
+    if known[name].sensitivity > max(SHOWN, known[name].error):
+        yield (
+            f"sensitive: what {_named(name)} changes by about {known[name].sensitivity:.0e} of its size with digits "
+            "that the numbers of the grasp do not have, because it is almost rigid or almost free in some direction"
+        )
+
+
+def refuse_doubtful_response(response: Response) -> None:
+    """Refuse to judge by maps that are not known well enough.
+
+    Raises:
+        InDoubtError: with the reason.
+    """
+    if max(response.accuracy[name].doubt for name in _RELIED_ON) > RELIED_ON:
+        raise InDoubtError("; ".join(accuracy_notes(response)))
+
+
+def refuse_doubtful_forces(response: Response, motion: Motion) -> None:
+    """Refuse to judge a motion whose forces are not known well enough.
+
+    Raises:
+        InDoubtError: with the reason.
+    """
+    doubt = _forces_in_doubt(response, motion)
+    if doubt > RELIED_ON:
+        why = f"the forces of the plan are known to {doubt:.0e} of their size, too little to say that the limits hold"
+        raise InDoubtError("; ".join((why, *accuracy_notes(response))))
+
+
+def response_check(response: Response, motion: Motion) -> Iterator[Check]:
+    """Yield the check of the response itself when there is anything to tell of it."""
+    doubt = _forces_in_doubt(response, motion)
+    if doubt > SHOWN:
+        yield Check("response", doubt, RELIED_ON)
+
+
+def _forces_in_doubt(response: Response, motion: Motion) -> float:
+    """Return how far forces may be from the truth, relative to the largest of them; rounding of nothing is no doubt."""
+    of_references, of_load = response.accuracy["dlambda_dzr"], response.accuracy["dlambda_dw"]
+    references = float(np.abs(motion.dz_r).sum(axis=1).max(initial=0.0))
+    load = float(np.abs(response.scale.wrench(motion.wrench - response.grasp.w_0)).sum(axis=1).max(initial=0.0))
+    unknown = of_references.unknown * references + of_load.unknown * load
+    terms = response.scale.largest_force(np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T)
+    size = max(response.scale.largest_force(motion.forces), CANCELLED * terms)
+    return unknown / size if unknown > 0 else 0.0
+
+
+def _named(name: str) -> str:
+    what, cause = name.removeprefix("d").split("_")
+    return f"{_CAUSES[cause]} to the {_WORDS[what]}"
