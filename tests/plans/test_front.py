@@ -39,7 +39,8 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert middle.plan.margins.min() >= middle.margin - 1e-6
     capped = f"limits.normal_force={middle.peak * (1 - 1e-4)} N"
     short = load_problem(name, [capped, f"limits.margin={middle.margin} N"])
-    assert plan(short.grasp, short.task).verdict == "infeasible"  # no less force gives that margin
+    # no less force gives that margin; where the reserve for curved loads asks for more than is needed, none is proven to
+    assert plan(short.grasp, short.task).verdict == ("unknown" if short.task.between == "hold" else "infeasible")
 
 
 def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:

@@ -7,12 +7,15 @@ next a load is a straight line, and then nothing else can happen, or a smooth cu
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from synergrip.linalg import Array, frozen, interpolated
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 4_000
 """Instants looked at in each piece that is curved: fewer in a task of many pieces, which bend less."""
@@ -117,6 +120,8 @@ def samples_for(pieces: int) -> int:
 
 def knots_in(times: Array, knots: Array) -> sparse.csr_matrix:
     """Return the matrix (C, T) that makes values at instants (C,) of those at knots (T,), straight between them."""
+    from scipy import sparse
+
     last = np.clip(np.searchsorted(knots, times, side="right"), 1, len(knots) - 1)
     share = np.clip((times - knots[last - 1]) / (knots[last] - knots[last - 1]), 0.0, 1.0)
     rows = np.arange(len(times))

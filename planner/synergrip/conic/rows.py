@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy import sparse
 
 from synergrip.conic.situation import Affine
 from synergrip.linalg import Array, frozen
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 
 class Kind(StrEnum):

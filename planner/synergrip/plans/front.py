@@ -16,7 +16,10 @@ from synergrip.plans.task import Task
 
 @dataclass(frozen=True)
 class FrontPoint:
-    """One trade between the two: no plan has more of the margin with less of the peak."""
+    """One trade between the two: no plan has more of the margin with less of the peak.
+
+    Where limits are held between the knots under curved loads: no plan that keeps the reserve for these.
+    """
 
     margin: float  # [N]
     peak: float  # [N] largest normal force
