@@ -186,11 +186,11 @@ _problem("unknown-tables", lambda: HAND + "".join(f"[limits{i}]\n" for i in rang
 _problem("many-keys", lambda: "".join(f"k{i} = 1\n" for i in range(60_000)), "more than 50,000 keys and values")
 _problem("long-list", lambda: HAND + "\n[more]\nx = [" + "1," * 400_000 + "]\n", "more than 50,000 keys and values")
 _problem("list-of-tables", lambda: HAND + "[[contact]]\n" * 24_000, "missing")
-_problem("contact-tables", lambda: HAND + "[[contact]]\nat = 'finger1/tip'\n" * 9000, "named twice")
+_problem("contact-tables", lambda: HAND + "[[contact]]\nat = 'finger1/tip'\n" * 9000, "at most 250 entries")
 _problem("waypoints", lambda: HAND + "".join(f"[[task.waypoint]]\ntime = '{i + 1} ms'\n" for i in range(9000)), "")
 _problem("moves", lambda: HAND + "[[task.move]]\naxis = 'w'\n" * 9000, "'w' is not")
 _problem("pushes", lambda: HAND + "[[task.push]]\nforce = 1\n" * 9000, "task.push")
-_problem("pads", lambda: _changed('"finger2/tip"', '"finger2/tip",' * 40_000 + '"finger2/tip"'), "named twice")
+_problem("pads", lambda: _changed('"finger2/tip"', '"finger2/tip",' * 40_000 + '"finger2/tip"'), "at most 250 entries")
 _problem("other-pads", lambda: _changed('"finger2/tip"', ",".join(f'"finger{i}/tip"' for i in range(9000))), "finger")
 _problem("dotted-key", lambda: HAND + "[more]\n" + "a." * 400_000 + "b = 1\n", "nested too deeply")
 _problem("dotted-table", lambda: HAND + "[" + "a." * 400_000 + "b]\n", "nested too deeply")
@@ -239,7 +239,7 @@ add(
     "json-many",
     text("problem.json", lambda: '{"x": [' + "0," * 10_000_000 + "0]}"),
     JSON_PLAN,
-    "more than 50,000",
+    "more than 2,000,000 numbers",
     "problem.json",
 )
 _grasp("500-by-500", lambda: _data(C_q=np.eye(500).tolist()), "C_q")
@@ -249,12 +249,16 @@ _grasp(
     lambda: _data(**{k: np.ones((500, 500)).tolist() for k in ("G", "J", "S", "C_s", "C_q", "C_z")}),
     "G",
 )
-_grasp("1500-by-1500", lambda: '{"G": [' + ",".join(["[" + "0," * 1499 + "0]"] * 1500) + "]}", "schema")
+_grasp(
+    "1500-by-1500",
+    lambda: '{"G": [' + ",".join(["[" + "0," * 1499 + "0]"] * 1500) + "]}",
+    "more than 2,000,000 numbers",
+)
 _grasp("wide-text-in-a-row", lambda: _data(G=[["é", "\U0001f600"] * 5000] * 2), "G")
 _grasp("largest-indefinite", lambda: _large(1000), "is not positive semidefinite")
 _grasp("too-large", lambda: _large(1001), "is larger than 1000 rows or columns")
-_grasp("many-numbers", lambda: '{"G": [' + "0," * 8_000_000 + "0]}", "more than 3,000,000 numbers")
-_grasp("many-empty-lists", lambda: '{"G": [' + "[]," * 2_900_000 + "0]}", "500,000 lists")
+_grasp("many-numbers", lambda: '{"G": [' + "0," * 8_000_000 + "0]}", "more than 2,000,000 numbers")
+_grasp("many-empty-lists", lambda: '{"G": [' + "[]," * 900_000 + "0]}", "500,000 lists")
 _grasp("many-keys", lambda: "{" + ",".join(f'"k{i}":0' for i in range(200_000)) + "}", "50,000 keys")
 _grasp("unknown-keys", lambda: _data(**{f"k{i}": 0 for i in range(20_000)}), "unknown key")
 _grasp("infinities", lambda: _data(G=[[float("inf")] * 40_000] * 6), "not a finite number")
@@ -270,23 +274,23 @@ _grasp("surrogate", lambda: _data(contacts=[{"name": "\ud800", "kind": "\udfff"}
 _grasp(
     "nested-lists", lambda: _data().replace('"G": [', '"H": ' + "[" * 500 + "]" * 500 + ', "G": ['), "nested too deeply"
 )
-_grasp("unclosed", lambda: GRASP.rstrip().rstrip("}") + "," * 2_000_000, "not valid JSON")
+_grasp("unclosed", lambda: GRASP.rstrip().rstrip("}") + "," * 1_900_000, "not valid JSON")
 _grasp("unclosed-text", lambda: '{"G": "' + "\\u0041" * 5_000_000, "not valid JSON")
 _grasp("newlines", lambda: "\n" * 30_000_000 + "x", "not valid JSON")
 _grasp("invalid-at-the-end", lambda: GRASP.encode() + b" " * 30_000_000 + b"\xff", "not UTF-8")
-_grasp("key-twice", lambda: '{"G": 1, "G": 2, "J": [' + "0," * 2_000_000 + "0]}", "written twice")
+_grasp("key-twice", lambda: '{"G": 1, "G": 2, "J": [' + "0," * 1_900_000 + "0]}", "written twice")
 
 # CSV
 _csv("100000-columns", lambda: ",".join(f"c{i}" for i in range(100_000)) + "\n", "at most 5,000 columns")
 _csv("10-million-columns", lambda: "," * 10_000_000, "cells")
 _csv("5000-columns", lambda: ",".join(f"fx_n{i}" for i in range(4990)) + "\n", "unknown column")
 _csv("same-columns", lambda: ",".join(["fx_N"] * 4990) + "\n", "is there twice")
-_csv("lines", lambda: WRENCH + "\n" * 30_000_000, "more than 200,000 lines")
+_csv("lines", lambda: WRENCH + "\n" * 30_000_000, "more than 100,000 lines")
 _csv("one-line", lambda: WRENCH.replace("\n", " ") * 400_000, "cells")
-_csv("no-numbers", lambda: WRENCH + "x,x,x,x,x,x,x\n" * 190_000, "expected a number, got 'x'")
-_csv("ragged", lambda: WRENCH + "0,0\n" * 190_000, "expected 7 cells")
+_csv("no-numbers", lambda: WRENCH + "x,x,x,x,x,x,x\n" * 95_000, "expected a number, got 'x'")
+_csv("ragged", lambda: WRENCH + "0,0\n" * 95_000, "expected 7 cells")
 _csv("one-wide-line", lambda: WRENCH + "0," * 1_900_000 + "\n", "expected 7 cells")
-_csv("backwards", lambda: WRENCH + "".join(f"{-i},0,0,0,0,0,0\n" for i in range(190_000)), "times must increase")
+_csv("backwards", lambda: WRENCH + "".join(f"{-i},0,0,0,0,0,0\n" for i in range(95_000)), "times must increase")
 _csv("digits", lambda: WRENCH + "2," + "1" * 10_000_000 + ",0,0,0,0,0\n", "not a finite number")
 _csv("quotes", lambda: '"' * 20_000_000, "header")
 _csv("nul", lambda: WRENCH.replace("fx", "f\0x"), "unknown column")
@@ -294,30 +298,31 @@ _csv("utf-16", lambda: WRENCH.encode("utf-16"), "not UTF-8")
 _csv("carriage-returns", lambda: WRENCH.replace("\n", "\r") * 200, "column")
 _csv("separators", lambda: ";" * 20_000_000, "separated by commas")
 _csv("blanks", lambda: " " * 30_000_000, "the file is empty")
-_csv("remarks", lambda: "#\n" * 199_000, "the file is empty")
-add(
-    "csv-too-many-knots",
-    text(
-        "wrench.csv",
-        lambda: WRENCH + "".join(f"{i + 2},0,0,0,0,0,0\n" for i in range(120_000)),
-        problem_toml=MATRICES.replace("knots = 2\n", ""),
-        grasp_json=GRASP,
-    ),
-    PLAN,
-    "makes 120002 knots; at most 100000",
-)
+_csv("remarks", lambda: "#\n" * 99_000, "the file is empty")
+
+
+def _two_tables(folder: Path) -> None:
+    """Lay out a wrench and a motion whose lines are at different times, and each of them a knot."""
+    wrench, motion = ("".join(f"{i}{half},0,0,0,0,0,0\n" for i in range(2, 60_000)) for half in ("", ".5"))
+    write(folder, "problem.toml", MATRICES.replace("knots = 2", 'motion = "motion.csv"'))
+    write(folder, "grasp.json", GRASP)
+    write(folder, "wrench.csv", WRENCH + wrench)
+    write(folder, "motion.csv", "t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad\n0,0,0,0,0,0,0\n" + motion)
+
+
+add("csv-too-many-knots", _two_tables, PLAN, "knots; at most 100000", "problem.toml")
 add(
     "postures-100000-columns",
     text("postures.csv", lambda: ",".join(f"j{i}" for i in range(100_000)) + "\n"),
     FIT,
-    "at most 5,000 columns",
+    "at most 2000",
     "postures.csv",
 )
 add(
     "postures-no-numbers",
-    text("postures.csv", lambda: "a,b\n" + "x,y\n" * 190_000),
+    text("postures.csv", lambda: "a,b\n" + "x,y\n" * 95_000),
     FIT,
-    "expected a number",
+    "no joint values",
     "postures.csv",
 )
 add(

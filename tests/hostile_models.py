@@ -335,9 +335,9 @@ def _plan_json(name: str, content: Callable[[], str], fragment: str) -> None:
 
 
 _plan_json("nested", lambda: '{"dz_r": ' + "[" * 60 + "]" * 60 + ', "time_s": [0]}', "plan.json")
-_plan_json("numbers", lambda: '{"dz_r": [' + "0," * 2_900_000 + '0], "time_s": [0]}', "plan.json")
+_plan_json("numbers", lambda: '{"dz_r": [' + "0," * 1_900_000 + '0], "time_s": [0]}', "plan.json")
 _plan_json("ragged", lambda: '{"dz_r": [' + "[0]," * 200_000 + '[0,1]], "time_s": [0]}', "no array of numbers")
-_plan_json("texts", lambda: '{"dz_r": [' + '"x",' * 2_900_000 + '0], "time_s": [0]}', "plan.json")
+_plan_json("texts", lambda: '{"dz_r": [' + '"x",' * 1_900_000 + '0], "time_s": [0]}', "plan.json")
 _plan_json("keys", lambda: "{" + ",".join(f'"k{i}":0' for i in range(60_000)) + "}", "50,000 keys")
 _plan_json("verdict", lambda: '{"verdict": "' + "x" * 20_000_000 + '"}', "holds no plan")
 

@@ -11,8 +11,8 @@ from synergrip.documents import LARGEST_NUMBER
 from synergrip.errors import LONGEST_NAME, InputError, Issue, shortened
 from synergrip.plain_file import read_text
 
-MOST_LINES, MOST_COLUMNS, MOST_CELLS = 200_000, 5000, 2_000_000
-"""Of a CSV file: 200 s at 1 kHz, and every force of 250 contacts in their columns."""
+MOST_LINES, MOST_COLUMNS, MOST_CELLS = 100_000, 5000, 2_000_000
+"""Of a CSV file: 100 s at 1 kHz, and every force of 250 contacts in their columns."""
 MOST_REFUSED = 1000
 """Cells; after them the rest of the file is not looked at."""
 

@@ -160,8 +160,7 @@ def _unusable(value: object, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
 
 
 def _are_usable(entries: list[object]) -> bool:
-    """Tell quickly, for the long lists of matrices and plans, whether they are all usable numbers."""
-    return set(map(type, entries)) <= {int, float} and all(
-        -LARGEST_NUMBER <= entry <= LARGEST_NUMBER  # type: ignore[operator]
-        for entry in entries
-    )
+    """Tell quickly, for the long lists of matrices and plans, whether there is nothing in them to look into."""
+    kinds = set(map(type, entries))
+    numbers = entries if kinds <= {int, float} else [entry for entry in entries if type(entry) in (int, float)]
+    return not kinds & {dict, list} and all(-LARGEST_NUMBER <= entry <= LARGEST_NUMBER for entry in numbers)  # type: ignore[operator]

@@ -18,14 +18,14 @@ LARGEST_TOML = 1_000_000
 """Characters: Python reads about a million of them in a second."""
 MOST_VALUES = 50_000
 """Keys and values of a file that people write: 200 synergies of 200 joints, and room for more."""
-MOST_NUMBERS = 3_000_000
+MOST_NUMBERS = 2_000_000
 """Values of a JSON file that programs write: a grasp as matrices, or a plan."""
 MOST_LISTS = 500_000
 """Lists and tables in such a file."""
 LONGEST_KEY = 64
 """Parts of a dotted key; the time that TOML takes grows with their square."""
-LARGEST_PLACED = 4_000_000
-"""Characters of a text whose places are told by line and column, not by key alone."""
+LARGEST_PLACED, MOST_PLACED = 4_000_000, 20_000
+"""Characters, keys and values of a text whose places are told by line and column, not by key alone."""
 
 _DIGITS = re.compile(r"[0-9][0-9_]*")
 _MOST_DIGITS = 4300  # that Python converts
@@ -63,7 +63,7 @@ def loads(path: Path, text: str, kind: str, numbers: bool = False) -> tuple[dict
 
 def is_placed(text: str) -> bool:
     """Tell whether it takes no longer than a moment to find every key of the text."""
-    return len(text) <= LARGEST_PLACED and _amount(text) <= MOST_VALUES
+    return len(text) <= LARGEST_PLACED and _amount(text) <= MOST_PLACED
 
 
 def at(path: Path, lines: Sequence[str], issue: Issue, line: int, column: int, length: int = 1) -> Issue:

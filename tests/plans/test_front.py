@@ -39,7 +39,7 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert middle.plan.margins.min() >= middle.margin - 1e-6
     capped = f"limits.normal_force={middle.peak * (1 - 1e-4)} N"
     short = load_problem(name, [capped, f"limits.margin={middle.margin} N"])
-    # no less force gives that margin; where the reserve for curved loads asks for more than is needed, none is proven to
+    # no less force gives that margin; where curved loads take a reserve, which asks for more, that is not proven
     assert plan(short.grasp, short.task).verdict == ("unknown" if short.task.between == "hold" else "infeasible")
 
 

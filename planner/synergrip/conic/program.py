@@ -112,12 +112,13 @@ class Program:
         Raises:
             InputError: there is no such file, or something else is in it.
         """
-        unreadable = (InputError, NoArchiveError, LookupError, ValueError, TypeError)
+        unreadable = (NoArchiveError, LookupError, ValueError, TypeError)
         try:
             return cls._read(Path(path))
+        except InputError as error:
+            raise InputError.at("", f"'{path}' holds no saved program ({error.issues[0].message})") from None
         except unreadable as error:
-            said = error.issues[0].message if isinstance(error, InputError) else str(error)
-            reason = said or type(error).__name__
+            reason = str(error) or type(error).__name__
             raise InputError.at("", f"'{path}' holds no saved program ({reason})") from error
 
     @classmethod

@@ -112,7 +112,8 @@ def _of_list(key: str, says: Any, found: Sequence[Any], size: Any) -> Iterator[D
 def _of_array(key: str, says: Any, found: Array, size: Any) -> Iterator[Difference]:
     """Yield the worst difference of an array; a row that is not finite is not compared."""
     try:
-        given = np.asarray(says, dtype=float)
+        like = isinstance(says, list | tuple | np.ndarray) and len(says) == len(found)
+        given = np.asarray(says if like else (), dtype=float)
     except (TypeError, ValueError):
         given = np.zeros(0)
     if given.shape != found.shape:

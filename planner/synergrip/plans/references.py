@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import chain
 from os.path import exists, isdir  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 import numpy as np
@@ -148,6 +150,8 @@ def references_of(path: Path | str, data: Mapping[str, Any], same: bool | None) 
 def _numbers(path: Path | str, data: Mapping[str, object], name: str, dimensions: int) -> Array:
     """Return an array of finite numbers, with at least one row."""
     try:
+        if not _is_plain(data[name]):
+            raise TypeError
         array = np.asarray(data[name], dtype=float)
     except (TypeError, ValueError):
         raise InputError.at(KEY, f"'{path}': {name} is no array of numbers") from None
@@ -155,3 +159,13 @@ def _numbers(path: Path | str, data: Mapping[str, object], name: str, dimensions
         expected = "(T) numbers" if dimensions == 1 else "(T x n) numbers"
         raise InputError.at(KEY, f"'{path}': expected {name} as {expected}, all finite; got shape {array.shape}")
     return frozen(array)
+
+
+def _is_plain(value: object) -> bool:
+    """Tell of a list, quickly, whether it holds numbers alone, or rows of numbers of one length; True of the rest."""
+    if not isinstance(value, list) or not value:
+        return True
+    kinds = set(map(type, value))
+    if kinds == {list} and len(set(map(len, value))) == 1:
+        kinds = set(map(type, chain.from_iterable(value)))
+    return kinds <= {int, float, NoneType}  # a null becomes a number that is not finite
