@@ -20,7 +20,8 @@ from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.solvers import Answerer, ask
 
 SLACKS = (1e-8, 1e-7)
-"""How much of a best value, relative to the largest force, the next goal may give up: its program needs an interior."""
+"""How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
+its program needs an interior."""
 LOOSE = 1e-7
 """How much limits are loosened, relatively, once earlier goals have fixed a part of the plan: a limit that the fixed
 part touches has no room for rounding."""
@@ -169,7 +170,8 @@ def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if isinstance(stage.goal, LargestMargin | LeastPeak):
         for slack in SLACKS:
-            yield (stage.goal.keeps(stage.scalar, slack * _carried(stage)), *stage.limits)
+            unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.situation.force_unit
+            yield (stage.goal.keeps(stage.scalar, slack * unit), *stage.limits)
         return
     fixed = not situation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
