@@ -13,6 +13,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
+from synergrip.plans import planning
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
@@ -91,7 +92,7 @@ def test_when_nothing_verifies_nothing_is_claimed(spoil: Callable[[Solution], So
         assert outcome.exit_code == 3
 
 
-def test_a_shortfall_whose_multipliers_prove_nothing_is_unknown() -> None:
+def test_a_shortfall_whose_multipliers_prove_nothing_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
     """The largest margin stands, but not as a proof that more is out of reach."""
     limit = "limits.normal_force=20 N"
     best = planned("{maximise='margin'}", {}, limit)
@@ -99,7 +100,10 @@ def test_a_shortfall_whose_multipliers_prove_nothing_is_unknown() -> None:
     assert best.largest_margin is not None
     more = f"limits.margin={best.largest_margin * (1 + 1e-6):.12g} N"
     assert isinstance(planned("{maximise='margin'}", {}, limit, more), Infeasible)
-    outcome = planned("{maximise='margin'}", {"largest margin": doubtful}, limit, more)
+    spoil = {"largest margin": doubtful, "least contact effort": nothing}
+    assert isinstance(planned("{maximise='margin'}", {"largest margin": doubtful}, limit, more), Infeasible)
+    monkeypatch.setattr(planning, "polished", lambda _, ray: ray)
+    outcome = planned("{maximise='margin'}", spoil, limit, more)
     assert isinstance(outcome, Unknown)
     assert "too close to the" in outcome.why
 

@@ -1,7 +1,7 @@
 """How large the unknowns can be at all: a box that the limits imply, used to prove infeasibility.
 
 A ray that is exact but for rounding proves nothing about unbounded unknowns. But most limits bound them, and where
-none does, no plan needs forces a million times those that the task asks for.
+none does, no plan needs forces a million times those that the task asks for, over its friction where that is small.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, split
@@ -30,7 +30,12 @@ def box(situation: Situation, limits: Sequence[Limit]) -> Array:
         pair = limit.bounded(situation, cones_hold=cones_hold)
         if pair is not None:
             result = np.minimum(result, _implied(*pair))
-    return np.where(result < FARTHEST, result, LARGEST)
+    return np.where(result < FARTHEST, result, farthest(situation))
+
+
+def farthest(situation: Situation) -> float:
+    """Return the bound where no limit gives one: `LARGEST`, over the least friction where that is small."""
+    return LARGEST / min(cone_unit(contact.friction) for contact in situation.response.grasp.contacts)
 
 
 def _implied(value: Affine, limit: Array) -> Array:

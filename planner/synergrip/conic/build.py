@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.box import LARGEST, box
+from synergrip.conic.box import box, farthest
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
@@ -34,7 +34,7 @@ def build(situation: Situation, limits: Sequence[Limit], goal: Goal, worth: floa
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
-    bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, LARGEST)])
+    bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, farthest(situation))])
     blocks = tuple(_block(part, T) for part in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
     if situation.courses is None:

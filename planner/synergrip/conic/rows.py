@@ -30,8 +30,8 @@ class Item(NamedTuple):
     name: str
     """A contact, joint or synergy, or "object"."""
     side: str = ""
-    """"lowest" or "highest" of a range, "falling" or "rising" of a change, "norm" of a size, "facet 3" of a pyramid,
-    "pushing" where a cone hardly says so; empty for a cone that is all there is."""
+    """"lowest" or "highest" of a range, "falling" or "rising" of a change, "norm" of a size, "facet 3" of a pyramid;
+    empty for a cone that is all there is."""
 
     def __str__(self) -> str:
         """Return both for people."""

@@ -12,6 +12,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.relaxed import polished
 from synergrip.conic.situation import Situation
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
@@ -29,9 +30,12 @@ from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.plans.stages import Stage, not_the_best, through
 from synergrip.plans.task import Task
-from synergrip.plans.units import caps
+from synergrip.plans.units import caps, grips
 from synergrip.plans.verified import verified_plan
 from synergrip.quantities import apart
+
+NEAR = 1e-5
+"""Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""
 
 
 def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
@@ -91,8 +95,9 @@ class _Planner:
         return verified_plan(self.task, self.analysis, last, stage.largest_margin)
 
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Answered:
-        # how hard to squeeze for the largest margin, only what bounds it can tell
+        # how hard to squeeze for the largest margin, only what bounds it can tell; for the load, the friction
         sizes = caps(self.analysis, self.task) if isinstance(goal, LargestMargin) else ()
+        sizes = (*grips(self.situation), *sizes)
         answered = ask(Question(self.situation, limits, goal), self.solver, sizes)
         self.decisions.append(answered.decision)
         return answered
@@ -133,12 +138,20 @@ class _Planner:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
         limits = (*self.task.kept, FrictionCone(self.task.margin))
         program = Question(widest.question.situation, limits, LeastEffort()).program()
-        certificate = judge_infeasible(program, widest.decision.solution.z)
-        proof = replace(widest.decision, program=program, certificate=certificate)
-        if not proof.infeasible:
-            why = f"the largest margin is {largest:.9g} N, too close to the {self.task.margin:.9g} N asked to be sure"
-            return Unknown(self.task, self.analysis, why, tuple(self.decisions))
-        return self._infeasible(proof, largest)
+        multipliers = widest.decision.solution.z
+        for ray in (multipliers, polished(program, multipliers)):
+            proof = replace(widest.decision, program=program, certificate=judge_infeasible(program, ray))
+            if proof.infeasible:
+                return self._infeasible(proof, largest)
+        asked = self._ask(limits, LeastEffort()).decision
+        if asked.infeasible:
+            return self._infeasible(asked, largest)
+        near = self.task.margin - largest < NEAR * self.situation.force_unit
+        doubt = "too close to" if near else "and no proof verifies that it cannot be"
+        why = (
+            f"the largest margin is {largest:.9g} N, {doubt} the {self.task.margin:.9g} N asked" + near * " to be sure"
+        )
+        return Unknown(self.task, self.analysis, why, tuple(self.decisions))
 
     def _infeasible(self, proof: Decision, largest: float | None) -> Infeasible:
         ray = proof.certificate.y
@@ -161,8 +174,11 @@ class _Planner:
 
     def _without_limits(self) -> str:
         """Tell limits from geometry: would the cones alone allow it?"""
-        free = ask(Question(self.situation, (FrictionCone(self.task.margin),), LeastEffort()), self.solver)
-        if not free.decision.optimal:
+        alone = Question(self.situation, (FrictionCone(self.task.margin),), LeastEffort())
+        free = ask(alone, self.solver, grips(self.situation))
+        if free.decision.infeasible:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"
+        if not free.decision.optimal:
+            return "whether a harder squeeze would do could not be verified"
         normal = free.question.situation.force.at(free.v)[:, self.analysis.grasp.normal_rows].max()
         return f"for the friction cones alone {normal:.4g} N of normal force would do"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from os.path import isfile  # unlike Path.is_file, no error for a name that is too long
+from os.path import exists, isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -60,7 +60,7 @@ def find_problem(name_or_path: str) -> Path:
         InputError: there is neither such a file nor a bundled problem of that name.
     """
     path = Path(name_or_path)
-    if path.suffix or isfile(path):
+    if path.suffix or (exists(path) and not isdir(path)):  # pipes and devices are refused as what they are
         return path
     inside = bundled("problems") / f"{name_or_path}.toml"
     if not isfile(inside):

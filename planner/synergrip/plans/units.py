@@ -10,10 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.friction_cone import cone_unit
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.situation import Units
+from synergrip.conic.situation import Situation, Units
 from synergrip.linalg import Array, split
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
@@ -61,6 +62,12 @@ def smallest_cap(analysis: Analysis, task: Task) -> float:
 def caps(analysis: Analysis, task: Task) -> tuple[float, ...]:
     """Return the forces [N] that the limits of a task allow at most, the smallest first."""
     return tuple(sorted(set(_caps(analysis, task))))
+
+
+def grips(situation: Situation) -> tuple[float, ...]:
+    """Return the squeeze [N] that the least friction takes to hold what the task asks; none when that is no more."""
+    least = min(cone_unit(contact.friction) for contact in situation.response.grasp.contacts)
+    return (situation.load_size / least,) if least < 1.0 else ()
 
 
 def _caps(analysis: Analysis, task: Task) -> list[float]:

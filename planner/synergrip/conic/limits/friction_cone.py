@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.rows import Kind, Rows, items_of, nonnegative
+from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -17,7 +17,7 @@ from synergrip.statics.motion import Motion
 CANCELLED = 1e-9
 """Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
 SLIPPERY = 0.1
-"""Friction below which a cone, to a tolerance e, allows a pull of more than ten times e."""
+"""Friction below which a cone as it stands, to a tolerance e, allows a pull of more than ten times e."""
 
 
 @dataclass(frozen=True)
@@ -87,22 +87,19 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         chosen = [(c, rows) for c, rows in zip(grasp.contacts, grasp.rows, strict=True) if len(c.cone) == size]
         W = np.zeros((len(chosen) * size, grasp.n_l))
         for i, (contact, rows) in enumerate(chosen):
-            W[i * size : (i + 1) * size, rows] = contact.cone
-        first = np.tile(np.eye(size)[0], len(chosen))
+            W[i * size : (i + 1) * size, rows] = contact.cone / cone_unit(contact.friction)
+        first = np.concatenate([np.eye(size)[0] / cone_unit(contact.friction) for contact, _ in chosen])
         value = situation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
         items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
         result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first)))
-    return result + _pushing(situation, key)
+    return result
 
 
-def _pushing(situation: Situation, key: str) -> list[Rows]:
-    """Return rows ``n >= 0`` for contacts so slippery that their cones say it only to within many times a tolerance."""
-    grasp = situation.response.grasp
-    slippery = [c.kind.name != "frictionless" and c.friction < SLIPPERY for c in grasp.contacts]
-    if not any(slippery):
-        return []
-    value = situation.force.after(np.eye(grasp.n_l)[grasp.normal_rows][slippery] / situation.force_unit)
-    names = (contact.name for contact, each in zip(grasp.contacts, slippery, strict=True) if each)
-    return [nonnegative(key, items_of(names, "pushing"), value)]
+def cone_unit(friction: float) -> float:
+    """Return what the cone of a contact is divided by: its friction where there is little.
+
+    The first row is then the normal force itself, so that the contact pushes to the same tolerance as others.
+    """
+    return friction if 0 < friction < SLIPPERY else 1.0

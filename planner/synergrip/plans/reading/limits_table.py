@@ -28,7 +28,7 @@ from synergrip.plans.reading.problem_file import ProblemFile
 
 Given = float | str | tuple[float, ...]
 
-BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference")
+BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
 """Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
 MAXIMISED = "goal.maximise"
 """The key under which the largest margin is asked for, unless it is one of several goals."""

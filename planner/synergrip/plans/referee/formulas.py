@@ -18,7 +18,7 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_cone import SLIPPERY, FrictionCone
+from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -77,14 +77,14 @@ def friction(
         if contact.kind.name == "frictionless":
             cones.append(Cone(key, items_of([contact.name]), force - margin))
         elif contact.kind.name == "hard":
-            cones.append(Cone(key, items_of([contact.name]), mu * force[:, 0] - margin, force[:, 1:]))
+            own = cone_unit(mu)
+            cones.append(Cone(key, items_of([contact.name]), (mu * force[:, 0] - margin) / own, force[:, 1:] / own))
         elif contact.kind.name == "soft":
-            tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu])
-            cones.append(Cone(key, items_of([contact.name]), mu * force[:, 0] - margin, tail))
+            own = cone_unit(mu)
+            tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu]) / own
+            cones.append(Cone(key, items_of([contact.name]), (mu * force[:, 0] - margin) / own, tail))
         else:
             raise NotWrittenError(f"contact.kind: {one_of(contact.kind.name, ('frictionless', 'hard', 'soft'))}")
-        if contact.kind.name != "frictionless" and mu < SLIPPERY:
-            cones.append(Cone(key, items_of([contact.name], "pushing"), force[:, :1]))
     return tuple(cones)
 
 
