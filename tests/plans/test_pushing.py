@@ -54,7 +54,7 @@ def needle(mu: float) -> tuple[Grasp, Contact]:
 
 @pytest.mark.parametrize("mu", [1e-9, 1e-6, 1e-3, 0.05])
 def test_a_contact_that_would_have_to_pull_holds_nothing(mu: float) -> None:
-    """A weight hangs on a pull of the top, as no squeeze of 100 N holds it by a friction of 1e-9; or it is pushed up."""
+    """A weight hangs on a pull of the top, as no squeeze of 100 N holds it by a friction of 1e-9; or is pushed up."""
     grasp, _ = needle(mu)
     sides = tuple(replace(c, friction=1e-9) if c.kind.name == "soft" else c for c in grasp.contacts)
     grasp = replace(grasp, contacts=sides)

@@ -10,6 +10,7 @@ import pytest
 from random_tasks import hand_like_grasp
 from small_grasps import pinch, tripod
 
+from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
@@ -150,6 +151,11 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
         ({"drift": 0.0}, "drift", "greater than 0, or None"),
         ({"axes": ("x", "w")}, "axes", "'w' is not one of 'x', 'y', 'z', 'rx', 'ry' or 'rz'"),
         ({"between": "hodl"}, "between", "did you mean 'hold'?"),
+        ({"limits": (5,)}, "limits[0]", "expected a limit such as NormalForce(0.0, 20.0), got 5"),
+        ({"limits": (NormalForce(0.0, float("nan")),)}, "limits[0].upper", "got nan; infinity stands for no bound"),
+        ({"limits": (NormalForce(5.0, 1.0),)}, "limits[0]", "the lower bound 5 is above the upper bound 1"),
+        ({"limits": (JointTorque(-np.ones(3)),)}, "limits[0].limit", "expected sizes of at least 0, got -1"),
+        ({"limits": (JointTorque(np.array([1.0, np.nan])),)}, "limits[0].limit", "got nan"),
     ],
 )
 def test_tasks_that_are_none_are_refused_by_name(changes: dict[str, Any], key: str, fragment: str) -> None:

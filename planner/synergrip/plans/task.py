@@ -16,7 +16,7 @@ from synergrip.errors import Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
 from synergrip.plans.marks import Marks
-from synergrip.plans.task_judging import order_issues, size_issues, times_of, word_issues, wrench_of
+from synergrip.plans.task_judging import limit_issues, order_issues, size_issues, times_of, word_issues, wrench_of
 
 GoalName = Literal[
     "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
@@ -109,6 +109,7 @@ class Task:
             *order_issues(self.order, self.weights, get_args(GoalName), SUMS),
             *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
+            *limit_issues(self.limits),
         ])  # fmt: skip
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "wrench", wrench)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -14,6 +15,8 @@ from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, frozen
 from synergrip.validation import shown
 
+BOUNDS = ("limit", "lower", "upper", "margin", "ratios")
+"""The fields of limits that are numbers and no names."""
 ORDER = 'write for example ("effort",) or ("margin", "effort")'
 
 
@@ -79,6 +82,25 @@ def size_issues(margin: Any, tolerance: Any, drift: Any, compliant: bool) -> Ite
         yield Issue(f"expected a length in metres {bound}, got {_shown(tolerance)}", "Task.tolerance")
     if drift is not None and (not _is_number(drift) or drift <= 0):
         yield Issue(f"expected a length in metres greater than 0, or None, got {_shown(drift)}", "Task.drift")
+
+
+def limit_issues(limits: Any) -> Iterator[Issue]:
+    """Yield what is wrong with limits: no limit at all, bounds that are no numbers, crossed or negative ones."""
+    for index, limit in enumerate(limits):
+        key = f"Task.limits[{index}]"
+        if not is_dataclass(limit) or not hasattr(limit, "usage"):
+            yield Issue(f"expected a limit such as NormalForce(0.0, 20.0), got {shown(limit)}", key)
+            continue
+        values = {each.name: getattr(limit, each.name) for each in fields(limit) if each.name in BOUNDS}
+        numbers = {name: value for name, value in values.items() if isinstance(value, int | float | np.ndarray)}
+        for name, value in numbers.items():
+            if np.any(np.isnan(value)):
+                yield Issue("expected numbers, got nan; infinity stands for no bound", f"{key}.{name}")
+            elif name in ("limit", "margin", "ratios") and np.any(np.asarray(value) < 0):
+                yield Issue(f"expected sizes of at least 0, got {float(np.min(value)):g}", f"{key}.{name}")
+        low, high = numbers.get("lower", -np.inf), numbers.get("upper", np.inf)
+        if np.shape(low) == np.shape(high) and np.any(np.asarray(low) > high):
+            yield Issue(f"the lower bound {np.max(low):g} is above the upper bound {np.min(high):g}; swap them", key)
 
 
 def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
