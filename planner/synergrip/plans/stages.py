@@ -22,6 +22,8 @@ from synergrip.plans.solvers import Answerer, ask
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
 its program needs an interior."""
+MOST = 1e-6
+"""How much of them it may give up at most, relative to the load, however hard the best plans squeeze."""
 LOOSE = 1e-7
 """How much limits are loosened, relatively, once earlier goals have fixed a part of the plan: a limit that the fixed
 part touches has no room for rounding."""
@@ -169,9 +171,9 @@ def _common(courses: Sequence[Array]) -> Array | None:
 def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if isinstance(stage.goal, LargestMargin | LeastPeak):
-        for slack in SLACKS:
-            unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.situation.force_unit
-            yield (stage.goal.keeps(stage.scalar, slack * unit), *stage.limits)
+        unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.situation.force_unit
+        for slack in dict.fromkeys(min(slack * unit, MOST * stage.situation.load_size) for slack in SLACKS):
+            yield (stage.goal.keeps(stage.scalar, slack), *stage.limits)
         return
     fixed = not situation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
