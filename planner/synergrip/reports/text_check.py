@@ -17,6 +17,7 @@ from synergrip.plans.told import (
     structure_document,
     usage_document,
 )
+from synergrip.plans.verified import LIMIT
 from synergrip.quantities import apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import looked_at
@@ -30,7 +31,9 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
     rows = [(c.name, f"{c.error:.2e}", f"{c.tolerance:.0e}", "✓" if c.passed else "FAILS") for c in own]
     word = verdict_word(judgement.verdict, color)
     failed = [check.name for check in judgement.checks if not check.passed]
-    why = f"this plan breaks: {', '.join(failed)}" if failed else "this plan keeps every limit of the problem"
+    missed = judgement.between is not None and judgement.between.excess > LIMIT
+    kept = f"this plan keeps every limit of the problem{' at its knots, and not between them' * missed}"
+    why = f"this plan breaks: {', '.join(failed)}" if failed else kept
     lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
     if judgement.between is not None:
         lines += looked_at(judgement.between, held=judgement.task.between == "hold")
