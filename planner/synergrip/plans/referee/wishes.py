@@ -31,7 +31,8 @@ def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array
     missed = np.linalg.norm(wish - beta @ seen.T, axis=1).max(initial=0.0)
     if missed > max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance):
         return None, np.zeros((dimension, 0)), wanted
-    return np.asarray(beta), null_space(seen, rcond=1e-8), wanted
+    free = null_space(seen, rcond=1e-8) if dimension else np.zeros((0, 0))  # older SciPy takes no empty matrix
+    return np.asarray(beta), free, wanted
 
 
 def _wanted(analysis: Analysis, task: Task) -> Array | None:
