@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from synergrip.conic import relaxed
 from synergrip.conic.certificate import judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
-from synergrip.plans import planning
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
@@ -102,7 +102,7 @@ def test_a_shortfall_whose_multipliers_prove_nothing_is_unknown(monkeypatch: pyt
     assert isinstance(planned("{maximise='margin'}", {}, limit, more), Infeasible)
     spoil = {"largest margin": doubtful, "least contact effort": nothing}
     assert isinstance(planned("{maximise='margin'}", {"largest margin": doubtful}, limit, more), Infeasible)
-    monkeypatch.setattr(planning, "polished", lambda _, ray: ray)
+    monkeypatch.setattr(relaxed, "polished", lambda _, ray: ray)
     outcome = planned("{maximise='margin'}", spoil, limit, more)
     assert isinstance(outcome, Unknown)
     assert "too close to the" in outcome.why

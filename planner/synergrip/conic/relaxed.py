@@ -6,14 +6,16 @@ leaves over may still outweigh what it proves. The multipliers of the relaxed pr
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
 from synergrip.conic.box import LARGEST
-from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.certificate import Certificate, judge_infeasible
 from synergrip.conic.cones import project_on_dual, row_sizes
 from synergrip.conic.decide import Solver
 from synergrip.conic.program import Block, Program
@@ -67,6 +69,16 @@ def polished(program: Program, ray: Array) -> Array:
     return np.asarray(y / sizes)
 
 
+def proof(program: Program, rays: Sequence[Array]) -> Certificate:
+    """Return the first certificate of infeasibility that verifies: of the rays as they are, else polished."""
+    tried = Certificate("infeasible", False)
+    for candidate in chain(rays, (polished(program, ray) for ray in rays)):
+        tried = judge_infeasible(program, candidate)
+        if tried.verified:
+            break
+    return tried
+
+
 def proven(found: Solution, program: Program, solver: Solver, settings: Settings) -> Solution:
     """Return a claim of infeasibility with a ray that proves it, where its own does not and there is one."""
     if found.claim is not Claim.INFEASIBLE or judge_infeasible(program, found.z).verified:
@@ -74,6 +86,6 @@ def proven(found: Solution, program: Program, solver: Solver, settings: Settings
     second = solver(relaxed(program), settings)
     iterations, seconds = found.iterations + second.iterations, found.seconds + second.seconds
     multipliers = second.z[: len(program.b)]
-    rays = (multipliers, *(polished(program, ray) for ray in (multipliers, found.z)))
-    best = next((ray for ray in rays if judge_infeasible(program, ray).verified), multipliers)
-    return replace(found, z=frozen(best), iterations=iterations, seconds=seconds)
+    best = proof(program, (multipliers, found.z))
+    ray = multipliers if best.y is None or not best.verified else best.y
+    return replace(found, z=frozen(ray), iterations=iterations, seconds=seconds)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from synergrip.errors import Issue
-from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
+from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY, least_scaled_eigenvalue
 from synergrip.linalg import Array, frozen
 from synergrip.validation import shown
 
@@ -72,20 +72,9 @@ class Judge:
         largest, diagonal = float(np.abs(matrix).max()), np.diag(matrix)
         if np.abs(matrix - matrix.T).max() > SYMMETRY * largest:
             self.refuse(name, "is not symmetric")
-        elif np.any(diagonal < 0) or _least_eigenvalue(matrix, diagonal, largest) < -SEMIDEFINITE:
-            self.refuse(name, f"is not positive semidefinite: its smallest eigenvalue is {_smallest(matrix):.6g}")
+        elif np.any(diagonal < 0) or least_scaled_eigenvalue(matrix) < -SEMIDEFINITE:
+            smallest = float(np.linalg.eigvalsh(matrix)[0])
+            self.refuse(name, f"is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}")
         else:
             return True
         return False
-
-
-def _least_eigenvalue(matrix: Array, diagonal: Array, largest: float) -> float:
-    """Return the smallest eigenvalue after scaling to unit diagonal."""
-    if not np.any(matrix - np.diag(diagonal)):
-        return 0.0
-    scale = np.sqrt(np.where(diagonal > 0, diagonal, largest or 1.0))
-    return _smallest(matrix / np.outer(scale, scale))
-
-
-def _smallest(matrix: Array) -> float:
-    return float(np.linalg.eigvalsh(matrix)[0])

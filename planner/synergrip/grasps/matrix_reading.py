@@ -146,9 +146,17 @@ class MatrixReader:
             message = f"{key} is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}"
             self.refuse(f"{key}[{i}][{i}]", f"{message}; this entry of the diagonal is negative")
             return False
-        scale = np.sqrt(np.where(diagonal > 0, diagonal, np.abs(matrix).max() or 1.0))
-        if np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0] >= -SEMIDEFINITE:
+        if least_scaled_eigenvalue(matrix) >= -SEMIDEFINITE:
             return True
         smallest = np.linalg.eigvalsh(matrix)[0]
         self.refuse(key, f"is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}")
         return False
+
+
+def least_scaled_eigenvalue(matrix: Array) -> float:
+    """Return the smallest eigenvalue of a symmetric matrix scaled to unit diagonal, whose diagonal is not negative."""
+    diagonal = np.diag(matrix)
+    if not np.any(matrix - np.diag(diagonal)):
+        return 0.0
+    scale = np.sqrt(np.where(diagonal > 0, diagonal, np.abs(matrix).max() or 1.0))
+    return float(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0])

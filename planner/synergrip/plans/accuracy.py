@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import SelfCheckError
 from synergrip.plans.outcome import Check
-from synergrip.statics.motion import Motion
+from synergrip.statics.motion import Motion, largest_term
 from synergrip.statics.response import Response
 
 SHOWN = 1e-8
@@ -82,8 +82,7 @@ def _forces_in_doubt(response: Response, motion: Motion) -> float:
     references = float(np.abs(motion.dz_r).sum(axis=1).max(initial=0.0))
     load = float(np.abs(response.scale.wrench(motion.wrench - response.grasp.w_0)).sum(axis=1).max(initial=0.0))
     unknown = of_references.unknown * references + of_load.unknown * load
-    terms = response.scale.largest_force(np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T)
-    size = max(response.scale.largest_force(motion.forces), CANCELLED * terms)
+    size = max(response.scale.largest_force(motion.forces), CANCELLED * largest_term(response, motion.dz_r))
     return unknown / size if unknown > 0 else 0.0
 
 

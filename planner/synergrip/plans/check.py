@@ -14,6 +14,7 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.between import Between, between
 from synergrip.plans.claims import Claims, compared
+from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.outcome import Check
 from synergrip.plans.reading.knots import distinct
 from synergrip.plans.references import References
@@ -22,13 +23,11 @@ from synergrip.plans.sizes import sizes_of
 from synergrip.plans.stated import stated
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import wished
-from synergrip.plans.verified import LIMIT, identities, limit_checks, limit_usages
+from synergrip.plans.verified import between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.motion import Motion, forward
 
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
-SAME_TIME = 1e-9
-"""Relative size of what is rounding and no difference between two times."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +100,7 @@ def _judged(analysis: Analysis, task: Task, references: References, times: Array
     tracking = _tracking(task, times, reached[1], situation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
     found = between(there, analysis, situation, motion)
-    if found is not None and task.between == "hold":
-        checks += (Check("between the knots", max(found.excess, 0.0), LIMIT),)
+    checks += between_checks(there, found)
     return Judgement(there, analysis, situation, motion, frozen(usages[0].value), usages, checks, found)
 
 

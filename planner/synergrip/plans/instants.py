@@ -8,12 +8,10 @@ from numpy.typing import NDArray
 from synergrip.conic.bend import Bend, Looks, samples_for, shares
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.analysis import Analysis
-from synergrip.plans.marks import Jump, Marks
+from synergrip.plans.marks import SAME_TIME, Jump, Marks
 from synergrip.plans.task import Course, Task
 from synergrip.plans.tracking import wished
 
-ROUNDING = 1e-9
-"""Relative size of what is rounding and no difference between two times."""
 SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""
 
@@ -65,7 +63,7 @@ def _corners(task: Task, course: Course, marks: Marks, analysis: Analysis) -> tu
 def _on_a_knot(jump: Jump, knots: Array) -> float:
     """Return the time of a jump: that of the knot where there is one."""
     nearest = float(knots[np.abs(knots - jump.time).argmin()])
-    return nearest if abs(nearest - jump.time) <= ROUNDING * max(float(knots[-1]), 1.0) else jump.time
+    return nearest if abs(nearest - jump.time) <= SAME_TIME * max(float(knots[-1]), 1.0) else jump.time
 
 
 def _off_the_knots(corners: Looks, sides: NDArray[np.intp], knots: Looks) -> NDArray[np.bool_]:
@@ -73,7 +71,7 @@ def _off_the_knots(corners: Looks, sides: NDArray[np.intp], knots: Looks) -> NDA
     after = np.clip(np.searchsorted(knots.times, corners.times), 1, len(knots.times) - 1)
     nearer = corners.times - knots.times[after - 1] < knots.times[after] - corners.times
     nearest = np.where(nearer, after - 1, after)
-    new = np.abs(corners.times - knots.times[nearest]) > ROUNDING * max(float(knots.times[-1]), 1.0)
+    new = np.abs(corners.times - knots.times[nearest]) > SAME_TIME * max(float(knots.times[-1]), 1.0)
     for one, other in ((corners.wrench, knots.wrench), (corners.wanted, knots.wanted)):
         size = float(np.abs(other).max(initial=0.0))
         new |= np.abs(one - other[nearest]).max(axis=1, initial=0.0) > SAME * size
@@ -97,7 +95,7 @@ def _changes(grid: Looks) -> NDArray[np.bool_]:
 
 def _curved(times: Array, marks: Marks) -> NDArray[np.intp]:
     """Return the pieces between the instants (G,) that lie in a curved span of time."""
-    slack = ROUNDING * max(float(times[-1]), 1.0)
+    slack = SAME_TIME * max(float(times[-1]), 1.0)
     first, last = times[:-1], times[1:]
     found = np.zeros(len(times) - 1, dtype=bool)
     for start, end in marks.curved:

@@ -9,6 +9,9 @@ import numpy as np
 
 from synergrip.linalg import Array
 
+SAME_TIME = 1e-9
+"""Relative size of what is rounding and no difference between two times."""
+
 
 @dataclass(frozen=True, eq=False)
 class Jump:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.decide import Decision
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.relaxed import polished
+from synergrip.conic.relaxed import proof
 from synergrip.conic.situation import Situation
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
@@ -138,11 +137,9 @@ class _Planner:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
         limits = (*self.task.kept, FrictionCone(self.task.margin))
         program = Question(widest.question.situation, limits, LeastEffort()).program()
-        multipliers = widest.decision.solution.z
-        for ray in (multipliers, polished(program, multipliers)):
-            proof = replace(widest.decision, program=program, certificate=judge_infeasible(program, ray))
-            if proof.infeasible:
-                return self._infeasible(proof, largest)
+        certificate = proof(program, (widest.decision.solution.z,))
+        if certificate.verified:
+            return self._infeasible(replace(widest.decision, program=program, certificate=certificate), largest)
         asked = self._ask(limits, LeastEffort()).decision
         if asked.infeasible:
             return self._infeasible(asked, largest)
@@ -153,12 +150,12 @@ class _Planner:
         )
         return Unknown(self.task, self.analysis, why, tuple(self.decisions))
 
-    def _infeasible(self, proof: Decision, largest: float | None) -> Infeasible:
-        ray = proof.certificate.y
-        found = clashes(proof.program, ray) if ray is not None else ()
+    def _infeasible(self, proven: Decision, largest: float | None) -> Infeasible:
+        ray = proven.certificate.y
+        found = clashes(proven.program, ray) if ray is not None else ()
         return Infeasible(
             self.task, self.analysis, "magnitude", f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
-            proof.certificate, proof.program, tuple(self.decisions), largest, found,
+            proven.certificate, proven.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 
     def _shortfall(self, largest: float | None, found: Sequence[Clash]) -> str:

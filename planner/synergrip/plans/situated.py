@@ -6,7 +6,7 @@ from synergrip.conic.situation import Situation, situate
 from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import followed
-from synergrip.plans.units import sizes_of, units_of
+from synergrip.plans.units import expected_units, units_of
 
 
 def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:
@@ -22,7 +22,7 @@ def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:
         InputError: modes are given that do not fit the grasp.
     """
     follow = followed(analysis, task)
-    sizes = sizes_of(analysis, task, follow.beta, follow.wanted)
+    sizes = expected_units(analysis, task, follow.beta, follow.wanted)
     return situate(
         analysis.response, analysis.spaces, analysis.coordinates,
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,

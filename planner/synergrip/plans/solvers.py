@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import astuple, dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -67,7 +68,7 @@ class Answered:
         """(T, n_v) unknowns."""
         return self.decision.program.unknowns(self.decision.solution.x)
 
-    @property
+    @cached_property
     def value(self) -> float:
         """Value of the goal, in the program's units; small squares are added up, so that no terms cancel."""
         value = self.decision.program.objective(self.decision.solution.x)
@@ -76,7 +77,7 @@ class Answered:
         cost = self.question.goal.objective(self.question.situation)
         return value if cost.epigraph is not None else cost.squared(self.v) / self.question.worth
 
-    @property
+    @cached_property
     def small(self) -> bool:
         """True when the value is small beside 1: a margin never is, it is measured against the load."""
         value = self.value
@@ -134,16 +135,16 @@ def _weighed(question: Question) -> Question:
     if not isinstance(question.goal, WeightedSum):
         return question
     parts = question.goal.objective(question.situation).squares
-    sizes = [float((each**2).sum()) for part in parts for each in _entries(part)]
-    worth = max(sizes, default=1.0)
+    worth = max((size for part in parts for size in _sizes(part)), default=1.0)
     return replace(question, worth=worth) if worth > 0 else question
 
 
-def _entries(part: Squares) -> Iterator[Array]:
-    yield part.constant
-    yield np.sqrt(len(part.constant)) * part.matrix
+def _sizes(part: Squares) -> Iterator[float]:
+    """Yield sums of squares over the knots: of what is known, and of what unknowns of size 1 add to it."""
+    yield float((part.constant**2).sum())
+    yield len(part.constant) * float((part.matrix**2).sum())
     for earlier in part.earlier:
-        yield np.outer(earlier.weights, earlier.matrix.ravel())
+        yield float((earlier.weights**2).sum() * (earlier.matrix**2).sum())
 
 
 def _in_its_units(found: Answered) -> Question | None:

@@ -31,7 +31,7 @@ def units_of(analysis: Analysis, task: Task) -> Units:
     return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def sizes_of(analysis: Analysis, task: Task, beta: Array, wanted: Array) -> Units:
+def expected_units(analysis: Analysis, task: Task, beta: Array, wanted: Array) -> Units:
     """Return the sizes near which the unknowns of a task are expected.
 
     Args:

@@ -18,7 +18,7 @@ from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
 from synergrip.quantities import SHOWN_IN
-from synergrip.statics.motion import Motion, forces_at_start, forward
+from synergrip.statics.motion import Motion, forces_at_start, forward, largest_term
 
 EXACT = 1e-8
 """Relative tolerance of the identities: equilibrium, internal force, forward maps."""
@@ -28,6 +28,8 @@ PASSED_OVER = 0.1
 """Share of the wanted motion that happens between knots, from which on a plan is hardly its plan."""
 DIGITS = 1e-3
 """Relative excess of a limit up to which a verified program may have been too imprecise, and no formula is wrong."""
+OF_FORCES = 1e-5
+"""The same of a limit on forces, as a share of the largest of them."""
 LIMIT = 1e-6
 """Relative tolerance of the limits, against the load or the limit itself."""
 
@@ -48,9 +50,9 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
     exact = identities(analysis, motion, (alpha, beta, gamma))
     checks = (*exact, *limit_checks(usages))
     found = between(task, analysis, situation, motion)
-    if found is not None and task.between == "hold":
-        checks += (Check("between the knots", max(found.excess, 0.0), LIMIT),)
-    _judge(checks, exact, usages, analysis.response.scale.largest_force(motion.forces))
+    checks += between_checks(task, found)
+    there = found.usages if found is not None and task.between == "hold" else ()
+    _judge(checks, exact, (*usages, *there), analysis.response.scale.largest_force(motion.forces))
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
         task, analysis, situation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
@@ -66,14 +68,14 @@ def _judge(checks: Sequence[Check], exact: Sequence[Check], usages: Sequence[Usa
     Args:
         checks: all of them.
         exact: those among them that no digits of a program excuse.
-        usages: of the limits.
+        usages: of the limits that count.
         largest: component of all contact forces [N]; the program knows none better than to a share of it.
     """
     failed = [check for check in checks if not check.passed]
     if not failed:
         return
     said = "; ".join(f"{check.name}: {check.error:.2e} exceeds {check.tolerance:.0e}" for check in failed)
-    rough = all(u.violation < DIGITS or (u.unit == "N" and u.excess.max() < DIGITS**2 * 10 * largest) for u in usages)
+    rough = all(u.violation < DIGITS or (u.unit == "N" and u.excess.max() < OF_FORCES * largest) for u in usages)
     if all(check.passed for check in exact) and rough:
         raise InDoubtError(f"the plan that was found misses limits by more than their tolerance ({said})")
     raise SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
@@ -124,6 +126,13 @@ def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
     return tuple(Check(u.title, max(u.violation, 0.0), LIMIT) for u in usages)
 
 
+def between_checks(task: Task, between: Between | None) -> tuple[Check, ...]:
+    """Return the check of the limits between the knots, when a task holds them there."""
+    if between is None or task.between != "hold":
+        return ()
+    return (Check("between the knots", max(between.excess, 0.0), LIMIT),)
+
+
 def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, Array]) -> tuple[Check, ...]:
     """Return the checks of equilibrium (7), internal force (13), the forward maps of Theorem 1 (35), the response.
 
@@ -136,9 +145,8 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
     balance = response.scale.wrench(motion.forces @ grasp.G.T + motion.wrench)
     start = forces_at_start(response) + (motion.wrench - grasp.w_0) @ response.dlambda_dw.T
     internal = response.scale.wrench((motion.forces - start) @ grasp.G.T)
-    # forces are sums over the synergies: rounding is that of the terms, also where they cancel to almost nothing
-    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
-    size = max(*(response.scale.largest_force(term) for term in (motion.forces, start, terms)), 1e-12)
+    sums = (response.scale.largest_force(forces) for forces in (motion.forces, start))
+    size = max(*sums, largest_term(response, motion.dz_r), 1e-12)
     expected = analysis.coordinates.references(*wanted)
     # and so are the coordinates: relative to them M may be as ill-conditioned as the stiffnesses of the grasp
     got = np.concatenate(analysis.coordinates.coordinates(motion.dz_r), axis=1)

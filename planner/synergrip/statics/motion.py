@@ -33,6 +33,14 @@ def forces_at_start(response: Response) -> Array:
     return np.asarray(given) if given is not None else -response.right_inverse @ response.grasp.w_0
 
 
+def largest_term(response: Response, dz_r: Array) -> float:
+    """Return the largest of the terms [N] that contact forces are sums of, over the synergies (T, n_z).
+
+    Where these cancel to almost nothing, what is left is their rounding.
+    """
+    return response.scale.largest_force(np.abs(dz_r) @ np.abs(response.dlambda_dzr).T)
+
+
 def forward(response: Response, times: Array, dz_r: Array, wrench: Array) -> Motion:
     """Apply the forward maps (26)-(28) and the response to the wrench.
 

@@ -12,7 +12,7 @@ from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
-from synergrip.statics.motion import Motion
+from synergrip.statics.motion import Motion, largest_term
 
 CANCELLED = 1e-9
 """Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
@@ -68,8 +68,7 @@ def carried(situation: Situation, motion: Motion) -> Array:
     grasp, response = situation.response.grasp, situation.response
     sizes = np.abs(motion.forces * response.scale.force)
     largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
-    terms = np.abs(motion.dz_r) @ np.abs(response.dlambda_dzr).T
-    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * response.scale.largest_force(terms))))
+    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
 
 
 def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:

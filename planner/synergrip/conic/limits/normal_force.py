@@ -33,11 +33,13 @@ class NormalForce:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
         grasp = situation.response.grasp
         value = situation.force.after(normal_selection(situation))
-        lower, each, none = self.lower if self.lower > 0 else -np.inf, np.ones(grasp.n_c), np.full(grasp.n_c, np.inf)
-        units = (bound_unit(bound, situation.force_unit) * each for bound in (lower, self.upper))
+        lower, none = self.lower if self.lower > 0 else -np.inf, np.full(grasp.n_c, np.inf)
+        low, high = np.full(grasp.n_c, lower), np.full(grasp.n_c, self.upper)
+        units = [np.full(grasp.n_c, bound_unit(bound, situation.force_unit)) for bound in (lower, self.upper)]
+        names = _names(situation)
         return [
-            *within(self.key, _names(situation), value, lower * each, none, next(units)),
-            *within(self.key, _names(situation), value, -none, self.upper * each, next(units)),
+            *within(self.key, names, value, low, none, units[0]),
+            *within(self.key, names, value, -none, high, units[1]),
         ]
 
     def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:

@@ -9,8 +9,8 @@ import numpy as np
 
 from synergrip.errors import InputError, Issue
 from synergrip.linalg import Array
+from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.reading.motion_tables import SHORTEST
-from synergrip.plans.reading.profiles import ROUNDING
 from synergrip.plans.reading.pushes import Push
 from synergrip.plans.reading.tables import Table
 from synergrip.plans.reading.task_file import MOST_KNOTS, TaskTable
@@ -63,7 +63,7 @@ def _filled(corners: Array) -> Array:
     if step == 0:
         return corners
     parts = [
-        np.linspace(first, last, max(round(np.ceil((last - first) / step - ROUNDING)), 1), endpoint=False)
+        np.linspace(first, last, max(round(np.ceil((last - first) / step - SAME_TIME)), 1), endpoint=False)
         for first, last in pairwise(corners)
     ]
     return np.append(np.concatenate(parts), corners[-1])
@@ -76,7 +76,7 @@ def _between_knots(task: TaskTable, pushes: Sequence[Push], times: Array) -> Non
         if not task.push[index].lasting:
             names = {"start": "the start", "end": "the end", "ramp": "a ramp corner", "profile": "the peak"}
             marks += [(f"task.push[{index}].{name}", names[name], time) for name, time in push.corners]
-    slack = ROUNDING * max(float(times[-1]), 1.0)
+    slack = SAME_TIME * max(float(times[-1]), 1.0)
     issues = dict[str, Issue]()
     for key, what, time in marks:
         if np.abs(times - time).min() > slack:
@@ -92,7 +92,7 @@ def _between_knots(task: TaskTable, pushes: Sequence[Push], times: Array) -> Non
 def distinct(times: Array) -> Array:
     """Return the times in order, without those that follow another by no more than rounding."""
     ordered = np.unique(times)
-    apart = np.diff(ordered) > ROUNDING * max(float(ordered[-1]), 1.0)
+    apart = np.diff(ordered) > SAME_TIME * max(float(ordered[-1]), 1.0)
     return np.asarray(ordered[np.append(apart, True)])
 
 
@@ -102,7 +102,7 @@ def cover(table: Table, times: Array, key: str) -> None:
     Raises:
         InputError: it begins after the first knot or ends before the last.
     """
-    slack = ROUNDING * max(float(times[-1]), 1.0)
+    slack = SAME_TIME * max(float(times[-1]), 1.0)
     if table.times[0] > times[0] + slack or table.times[-1] < times[-1] - slack:
         message = (
             f"the file covers {table.times[0]:g} s to {table.times[-1]:g} s, the task {times[0]:g} s to "

@@ -9,9 +9,9 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.reading.motion_tables import SHORTEST
 from synergrip.plans.reading.palm_motion import acceleration_of
-from synergrip.plans.reading.profiles import ROUNDING
 from synergrip.plans.reading.tables import Table
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def judge_path(table: Table, inertia: bool) -> None:
         at = table.times[steps.argmin()]
         raise InputError.at(KEY, f"lines must be at least 1 us apart; after {at:g} s it is {1e6 * steps.min():.3g} us")
     turns = np.atleast_1d((rotations[:-1].inv() * rotations[1:]).magnitude())
-    if turns.max() > LARGEST_TURN * (1 + ROUNDING):
+    if turns.max() > LARGEST_TURN * (1 + SAME_TIME):
         index = int(turns.argmax())
         message = (
             f"the palm turns by {np.degrees(turns[index]):.3g} deg from {table.times[index]:g} s to "

@@ -9,12 +9,9 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.marks import Marks, together
+from synergrip.plans.marks import SAME_TIME, Marks, together
 from synergrip.plans.reading.motion_tables import CourseName
 from synergrip.plans.reading.tables import Table
-
-ROUNDING = 1e-9
-"""Relative size of what is rounding and no difference between two times."""
 
 COURSES: dict[CourseName, Polynomial] = {
     "linear": Polynomial([0, 1]),
@@ -53,7 +50,7 @@ class Course:
             return np.full(len(times), 1.0 if derivative == 0 else 0.0)
         share = (times - self.start) / span
         values = np.asarray(COURSES[self.name].deriv(derivative)(np.clip(share, 0.0, 1.0)) / span**derivative)
-        outside = (share < -ROUNDING) | (share > 1 + ROUNDING)
+        outside = (share < -SAME_TIME) | (share > 1 + SAME_TIME)
         return values if derivative == 0 else np.where(outside, 0.0, values)
 
     @property

@@ -9,8 +9,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import Jump, Marks
-from synergrip.plans.reading.profiles import ROUNDING
+from synergrip.plans.marks import SAME_TIME, Jump, Marks
 from synergrip.plans.reading.push_table import PushProfile, PushTable
 
 HALF_SINE_PARTS = 16
@@ -33,7 +32,7 @@ class Push:
 
     def course(self, times: Array) -> Array:
         """Return the share (T,) of the full force."""
-        slack = ROUNDING * max(self.end, 1.0)
+        slack = SAME_TIME * max(self.end, 1.0)
         inside = (times >= self.start - slack) & (times <= self.end + slack)
         if self.profile == "step":
             return np.where(inside, 1.0, 0.0)
@@ -77,14 +76,14 @@ def pushed(table: PushTable, key: str, start: float, end: float) -> Push:
         InputError: it is not over before the task, not after it began, or too short for its ramps.
     """
     first, last = start if table.start is None else table.start, end if table.end is None else table.end
-    if last > end + ROUNDING * max(end, 1.0):
+    if last > end + SAME_TIME * max(end, 1.0):
         message = f"the push ends at {last:g} s, after the task, which ends at {end:g} s; change it or task.duration"
         raise InputError.at(f"{key}.end", message)
-    if last - first <= ROUNDING * max(end, 1.0):
+    if last - first <= SAME_TIME * max(end, 1.0):
         name = "end" if table.end is not None else "start"
         raise InputError.at(f"{key}.{name}", f"the push begins at {first:g} s and must end later, not at {last:g} s")
     ramp = table.ramp or 0.0
-    if 2 * ramp > (last - first) * (1 + ROUNDING):
+    if 2 * ramp > (last - first) * (1 + SAME_TIME):
         message = f"two ramps of {ramp:g} s do not fit into a push of {last - first:g} s; at most half of it each"
         raise InputError.at(f"{key}.ramp", message)
     force = table.force * np.array(table.direction)
