@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from synergrip.documents.time_table import MOTION
 from synergrip.grasps.objects import Box, Object, Shape, Turned, turn
 from synergrip.linalg import Array, frozen
 from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.tables import MOTION
 from synergrip.plans.reading.task_file import TaskTable
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])

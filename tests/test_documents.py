@@ -3,10 +3,10 @@ from typing import Literal
 import pytest
 from pydantic import Field
 
-from synergrip.documents import parse, read_document
+from synergrip.documents.documents import parse, read_document
+from synergrip.documents.fields import Length, Table, Whole
+from synergrip.documents.overrides import parse_override
 from synergrip.errors import InputError, Issue
-from synergrip.fields import Length, Table, Whole
-from synergrip.overrides import parse_override
 from synergrip.plain_file import read_text
 
 TOML = """\

@@ -2,8 +2,8 @@ import math
 
 import pytest
 
+from synergrip.documents.quantities import EXAMPLES, UNITS, quantity, ratio
 from synergrip.errors import InputError
-from synergrip.quantities import EXAMPLES, UNITS, quantity, ratio
 
 
 def message(call, *args):

@@ -101,7 +101,7 @@ def test_every_key_of_a_problem_file_is_described() -> None:
 
 
 def test_the_examples_of_the_problem_file_are_in_order() -> None:
-    from synergrip.documents import Document, parse
+    from synergrip.documents.documents import Document, parse
     from synergrip.plans.reading.problem_file import ProblemFile
 
     text = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from synergrip.documents import Document, parse
+from synergrip.documents.documents import Document, parse
 from synergrip.errors import InputError, OutputError
 from synergrip.files import bundled
 from synergrip.hands.folder import load_hand

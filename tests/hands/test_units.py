@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from synergrip.documents.fields import Measured, either, unit_schema
 from synergrip.errors import InputError
-from synergrip.fields import Measured, either, unit_schema
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies import posture

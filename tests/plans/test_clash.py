@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from synergrip.documents.quantities import apart
 from synergrip.plans.outcome import Infeasible
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
-from synergrip.quantities import apart
 
 
 def refused(name: str, *overrides: str) -> Infeasible:

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from small_grasps import tripod
 
-from synergrip.cells import cells_of
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
@@ -17,6 +16,7 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.program import Program
 from synergrip.conic.pyramids import inscribed
+from synergrip.documents.csv_cells import cells_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents import read_document
+from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp

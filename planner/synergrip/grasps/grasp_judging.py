@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from synergrip.documents.validation import shown
 from synergrip.errors import Issue
 from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY, least_scaled_eigenvalue
 from synergrip.linalg import Array, frozen
-from synergrip.validation import shown
 
 
 @dataclass

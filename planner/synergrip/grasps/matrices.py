@@ -12,13 +12,13 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from synergrip.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
+from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.grasps.kinds import KINDS
 from synergrip.grasps.matrix_reading import Count, MatrixReader
 from synergrip.linalg import Array, frozen
-from synergrip.validation import shown
 
 MOST_CONTACTS = 250
 UNIT = 1e-6  # how far the length of a normal may be from 1

@@ -8,9 +8,9 @@ from itertools import chain
 
 import numpy as np
 
+from synergrip.documents.validation import shown
 from synergrip.errors import Issue
 from synergrip.linalg import Array, frozen
-from synergrip.validation import shown
 
 LARGEST_SIDE = 1000  # rows or columns
 MOST_ISSUES = 20  # of one matrix

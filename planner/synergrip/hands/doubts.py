@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from synergrip.cells import CellReader
+from synergrip.documents.csv_cells import CellReader
 from synergrip.hands.hand import Hand
 from synergrip.hands.meant_units import TURN, Column
 from synergrip.hands.sheet import Sheet, is_number

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.quantities import quantity
 from synergrip.errors import InputError, Issue, one_of, raise_issues, repeated, suggest
 from synergrip.files import bundled
 from synergrip.hands.bare import bare_hand
@@ -32,7 +33,6 @@ from synergrip.hands.synergies import (
 from synergrip.hands.tree import LinkTree
 from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
-from synergrip.quantities import quantity
 
 FOLDERS = ("urdf", "mjcf", "xml")
 """Where the packages of robots keep their model files."""

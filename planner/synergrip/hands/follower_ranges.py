@@ -8,10 +8,10 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.hands.hand import Coupling, Joint
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
-from synergrip.quantities import SHOWN_IN
 
 FollowerRanges = Literal["keep", "ignore"]
 """What to do with the ranges that a model file states for followers."""

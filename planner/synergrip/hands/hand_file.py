@@ -7,8 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from synergrip.errors import Issue
-from synergrip.fields import (
+from synergrip.documents.fields import (
     Axis,
     JointEffort,
     JointValue,
@@ -25,6 +24,7 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.errors import Issue
 from synergrip.hands.follower_ranges import FollowerRanges
 
 FILE = "hand.toml"

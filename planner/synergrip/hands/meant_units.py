@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.cells import Cell, CellReader
+from synergrip.documents.csv_cells import Cell, CellReader
 from synergrip.hands.column_names import UNITS
 from synergrip.hands.hand import Hand
 from synergrip.linalg import Array

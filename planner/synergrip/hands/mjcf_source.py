@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.hands.mjcf_files import Amount, ModelFiles, expanded, real
 from synergrip.hands.xml_elements import LARGEST_MODEL, Element
 

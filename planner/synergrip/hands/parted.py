@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.hands.hand import Hand
 from synergrip.hands.synergies import coupling_map, drivers
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
-from synergrip.quantities import SHOWN_IN
 
 PARTED = 1e-6
 """Distance from what a coupling says that is no rounding [rad or m]."""

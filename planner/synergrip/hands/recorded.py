@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.cells import Cell, CellReader
+from synergrip.documents.csv_cells import Cell, CellReader
 from synergrip.errors import one_of
 from synergrip.hands.column_names import UNITS, beside_joints, joint_and_unit, may_count
 from synergrip.hands.doubts import NOTHING, counts, doubts, left_out_notes, refuse_endless, refuse_numbers

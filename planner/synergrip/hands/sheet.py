@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from synergrip.cells import Cell, CellReader
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.csv_cells import Cell, CellReader
+from synergrip.documents.documents import LARGEST_NUMBER
 
 BLANKS = " "
 PARTED_BY = {",": "commas", ";": "semicolons", "\t": "tabs", BLANKS: "blanks"}

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
 from synergrip.hands.follower_ranges import FollowerRange, follower_ranges, why_outside
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
 from synergrip.hands.units import SI_UNITS, joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
-from synergrip.quantities import SHOWN_IN
 
 JOINTS = "joints"
 """The set every hand has: each joint is its own synergy (S = I)."""

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 from pydantic import Field
 
-from synergrip.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.fields import Name, Number, Table, Version
 from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues, repeated
-from synergrip.fields import Name, Number, Table, Version
 from synergrip.files import IMPOSSIBLE, atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.synergies import coupling_map, drivers

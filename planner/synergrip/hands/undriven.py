@@ -6,13 +6,13 @@ from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError
 from synergrip.hands.arm import palm_of
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies import JOINTS
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
-from synergrip.quantities import SHOWN_IN
 
 AWAY = 1e-6
 """Distance of a joint from where its spring rests that is no rounding [rad or m]."""

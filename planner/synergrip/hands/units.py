@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from synergrip.documents.fields import Measured
+from synergrip.documents.quantities import EXAMPLES
+from synergrip.documents.validation import shown
 from synergrip.errors import Issue
-from synergrip.fields import Measured
 from synergrip.hands.hand import Joint, SynergySet
-from synergrip.quantities import EXAMPLES
-from synergrip.validation import shown
 
 SLIDE_KINDS = {"angle": "length", "torque": "force", "joint compliance": "slide compliance"}
 """Kind of a quantity of a hinge -> kind of the same of a slide."""

@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import MOST_NAMES, InputError, one_of, shortened
 from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling

@@ -13,6 +13,7 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.relaxed import proof
 from synergrip.conic.situation import Situation
+from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
@@ -31,7 +32,6 @@ from synergrip.plans.stages import Stage, not_the_best, through
 from synergrip.plans.task import Task
 from synergrip.plans.units import caps, grips
 from synergrip.plans.verified import verified_plan
-from synergrip.quantities import apart
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""

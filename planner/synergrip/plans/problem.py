@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from synergrip.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.facing import facing_notes

@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from synergrip.archives import NoArchiveError, read_arrays
-from synergrip.cells import CellReader, cells_of
-from synergrip.documents import read_document
+from synergrip.documents.csv_cells import CellReader, cells_of
+from synergrip.documents.documents import read_document
+from synergrip.documents.time_table import REFERENCES, TIME, read_table
 from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.plans.digest import KEY as DIGEST
 from synergrip.plans.digest import digest, unchanged
-from synergrip.plans.reading.tables import REFERENCES, TIME, read_table
 
 KEY = "PLAN"
 PER_KNOT = (

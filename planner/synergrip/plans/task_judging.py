@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, frozen
-from synergrip.validation import shown
 
 BOUNDS = ("limit", "lower", "upper", "margin", "ratios")
 """The fields of limits that are numbers and no names."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Plan
 from synergrip.plans.verified import LIMIT
-from synergrip.quantities import SHOWN_IN, apart
 from synergrip.reports.tables import wrapped
 from synergrip.reports.text_problem import many
 

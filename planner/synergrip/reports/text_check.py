@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
 from synergrip.plans.check import Judgement
 from synergrip.plans.claims import Claims, Difference
@@ -18,7 +19,6 @@ from synergrip.plans.told import (
     usage_document,
 )
 from synergrip.plans.verified import LIMIT
-from synergrip.quantities import apart
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import looked_at
 from synergrip.reports.text_plan import refused_lines, usage_rows, verdict_word

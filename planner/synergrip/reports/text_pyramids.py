@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from synergrip.documents.quantities import apart
 from synergrip.plans.pyramids import Answer, Comparison
-from synergrip.quantities import apart
 from synergrip.reports.tables import wrapped
 
 LABEL = "pyramids "

@@ -24,6 +24,7 @@ from palm_paths import (
 )
 from scipy.spatial.transform import Rotation
 
+from synergrip.documents.time_table import MOTION, Table, read_table
 from synergrip.files import bundled
 from synergrip.grasps.objects import Sphere
 from synergrip.linalg import Array, frozen
@@ -31,7 +32,6 @@ from synergrip.plans.reading.inertia import uniform_tensor
 from synergrip.plans.reading.loads import loads
 from synergrip.plans.reading.palm_path import PalmPath, palm_path
 from synergrip.plans.reading.profiles import Course
-from synergrip.plans.reading.tables import MOTION, Table, read_table
 from synergrip.plans.reading.task_file import TaskTable
 
 

@@ -10,9 +10,9 @@ import pytest
 from palm_paths import AXIS, GRAVITY, SHIFT, load_at, path_loads, wobble, write_path
 from scipy.spatial.transform import Rotation
 
+from synergrip.documents.time_table import MOTION
 from synergrip.errors import InputError
 from synergrip.plans.reading.knots import MOVING_KNOTS
-from synergrip.plans.reading.tables import MOTION
 
 
 def test_what_counts_is_the_motion_from_the_start_of_the_task(tmp_path: Path) -> None:

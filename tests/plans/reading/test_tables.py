@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from synergrip.documents.time_table import MODES, MOTION, REFERENCES, WRENCH, read_table
 from synergrip.errors import InputError
-from synergrip.plans.reading.tables import MODES, MOTION, REFERENCES, WRENCH, read_table
 
 HEADER = "t_s," + ",".join(WRENCH) + "\n"
 

@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from synergrip.errors import InputError, Issue, suggest
-from synergrip.fields import (
+from synergrip.documents.fields import (
     Axis,
     Name,
     Positive,
@@ -21,8 +20,9 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.documents.validation import shown
+from synergrip.errors import InputError, Issue, suggest
 from synergrip.grasps.matrices import MOST_CONTACTS
-from synergrip.validation import shown
 
 ContactModel = Literal["hard", "soft", "frictionless"]
 

@@ -7,8 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from synergrip.errors import InputError, one_of
-from synergrip.fields import (
+from synergrip.documents.fields import (
     NUMBER,
     Table,
     Text,
@@ -20,10 +19,11 @@ from synergrip.fields import (
     number,
     unit_schema,
 )
+from synergrip.documents.quantities import ratio
+from synergrip.documents.validation import shown
+from synergrip.errors import InputError, one_of
 from synergrip.hands.choice import SetChoice
 from synergrip.hands.follower_ranges import FollowerRanges
-from synergrip.quantities import ratio
-from synergrip.validation import shown
 
 
 def _posture(value: object) -> str | dict[str, float]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
 from synergrip.linalg import Array, frozen

@@ -7,12 +7,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from synergrip.documents.time_table import Table
 from synergrip.errors import InputError, Issue
 from synergrip.linalg import Array
 from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.reading.motion_tables import SHORTEST
 from synergrip.plans.reading.pushes import Push
-from synergrip.plans.reading.tables import Table
 from synergrip.plans.reading.task_file import MOST_KNOTS, TaskTable
 
 MOVING_KNOTS = 41

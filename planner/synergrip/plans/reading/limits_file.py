@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import ConfigDict, Field
 
-from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.fields import (
+from synergrip.documents.fields import (
     POSITIVE,
     Force,
     Number,
@@ -27,8 +26,9 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.documents.validation import shown
+from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.plans.task import EFFORTS, FORCE_GOALS, GoalName
-from synergrip.validation import shown
 
 _force = with_unit("force", at_least=0)
 _written_effort = either("torque", "force", above=0)

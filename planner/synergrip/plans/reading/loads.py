@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.time_table import MODES, MOTION, WRENCH, Table, read_table
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
@@ -18,7 +19,6 @@ from synergrip.plans.reading.palm_motion import Palm, Weight, palm_motion
 from synergrip.plans.reading.palm_path import judge_path, palm_path
 from synergrip.plans.reading.profiles import Constant, Profile, Profiles, Tabled
 from synergrip.plans.reading.pushes import Push, pushed
-from synergrip.plans.reading.tables import MODES, MOTION, WRENCH, Table, read_table
 from synergrip.plans.reading.task_file import TaskTable
 from synergrip.plans.reading.waypoints import passing
 from synergrip.plans.task import Wanted

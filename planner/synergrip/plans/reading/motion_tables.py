@@ -7,8 +7,20 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from synergrip.documents.fields import (
+    Angle,
+    Axis,
+    Length,
+    Table,
+    Text,
+    Time,
+    Written,
+    array_of,
+    listed,
+    unit_schema,
+    with_unit,
+)
 from synergrip.errors import Issue
-from synergrip.fields import Angle, Axis, Length, Table, Text, Time, Written, array_of, listed, unit_schema, with_unit
 
 CourseName = Literal["min-jerk", "cubic", "linear"]
 WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]

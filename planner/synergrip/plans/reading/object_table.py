@@ -7,8 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from synergrip.errors import Issue
-from synergrip.fields import (
+from synergrip.documents.fields import (
     Angle,
     Axis,
     Mass,
@@ -20,6 +19,7 @@ from synergrip.fields import (
     unit_schema,
     with_unit,
 )
+from synergrip.errors import Issue
 
 
 class SphereTable(Table):

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.documents.time_table import Table
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.reading.motion_tables import SHORTEST
 from synergrip.plans.reading.palm_motion import acceleration_of
-from synergrip.plans.reading.tables import Table
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline

@@ -8,9 +8,9 @@ from typing import Any
 
 from pydantic import Field
 
-from synergrip.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
-from synergrip.fields import Schema, Table, Version
 from synergrip.grasps.matrices import MOST_CONTACTS
 from synergrip.plans.reading.contact_list import ContactSpec, contact_list
 from synergrip.plans.reading.contact_tables import ContactEntry, ContactsTable

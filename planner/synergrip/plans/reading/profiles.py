@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from synergrip.documents.time_table import Table
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.marks import SAME_TIME, Marks, together
 from synergrip.plans.reading.motion_tables import CourseName
-from synergrip.plans.reading.tables import Table
 
 COURSES: dict[CourseName, Polynomial] = {
     "linear": Polynomial([0, 1]),

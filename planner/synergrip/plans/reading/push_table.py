@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from synergrip.documents.fields import Axis, Force, Table, Time, Written, unit_schema, with_unit
 from synergrip.errors import Issue
-from synergrip.fields import Axis, Force, Table, Time, Written, unit_schema, with_unit
 from synergrip.plans.reading.motion_tables import Lengths
 
 PushProfile = Literal["step", "trapezoid", "half-sine"]

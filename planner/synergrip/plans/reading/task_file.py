@@ -8,8 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.errors import InputError, Issue, repeated
-from synergrip.fields import (
+from synergrip.documents.fields import (
     NUMBER,
     Size,
     Table,
@@ -23,6 +22,9 @@ from synergrip.fields import (
     number_or,
     unit_schema,
 )
+from synergrip.documents.quantities import kind_of, without_unit
+from synergrip.documents.validation import shown
+from synergrip.errors import InputError, Issue, repeated
 from synergrip.plans.reading.motion_tables import (
     SHORTEST,
     MoveTable,
@@ -32,8 +34,6 @@ from synergrip.plans.reading.motion_tables import (
     waypoint_issues,
 )
 from synergrip.plans.reading.push_table import PushTable
-from synergrip.quantities import kind_of, without_unit
-from synergrip.validation import shown
 
 _COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 _COMPONENT = {"anyOf": [NUMBER, unit_schema("force", "torque")]}

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.linalg import Array
 from synergrip.plans.outcome import Plan
-from synergrip.quantities import SHOWN_IN
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from synergrip.cells import Cell, CellReader, cells_of
+from synergrip.documents.csv_cells import Cell, CellReader, cells_of
 from synergrip.errors import InputError, shortened, suggest
 from synergrip.linalg import Array, frozen
 

@@ -21,10 +21,10 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.documents import LARGEST_NUMBER
+from synergrip.documents.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
+from synergrip.documents.validation import MOST_JUDGED, refusing, shown
 from synergrip.errors import InputError, Issue, raise_issues
-from synergrip.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
-from synergrip.validation import MOST_JUDGED, refusing, shown
 
 Schema = dict[str, Any]
 

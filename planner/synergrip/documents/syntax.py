@@ -11,8 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from synergrip.documents.positions import Place, Positions, enclosing, positions
 from synergrip.errors import InputError, Issue
-from synergrip.positions import Place, Positions, enclosing, positions
 
 LARGEST_TOML = 1_000_000
 """Characters: Python reads about a million of them in a second."""

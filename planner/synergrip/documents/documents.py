@@ -12,12 +12,12 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from synergrip.documents.overrides import Override, apply_overrides
+from synergrip.documents.positions import KeyPath, Positions, dotted, positions
+from synergrip.documents.syntax import at, duplicates, is_placed, loads, too_long
+from synergrip.documents.validation import translate
 from synergrip.errors import MOST_ISSUES, InputError, Issue
-from synergrip.overrides import Override, apply_overrides
 from synergrip.plain_file import read_text
-from synergrip.positions import KeyPath, Positions, dotted, positions
-from synergrip.syntax import at, duplicates, is_placed, loads, too_long
-from synergrip.validation import translate
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from synergrip.documents.positions import KeyPath, dotted, enclosing
+from synergrip.documents.syntax import LONGEST_KEY, check_keys
 from synergrip.errors import InputError, Issue, raise_issues
-from synergrip.positions import KeyPath, dotted, enclosing
-from synergrip.syntax import LONGEST_KEY, check_keys
 
 _PART = re.compile(r"""(?:"([^"]+)"|'([^']+)'|([^.\[\]"'\s=]+))((?:\[\d{1,9}\])*)(\.(?=.)|\Z)""")
 _BARE = re.compile(r"""[^.\[\]"'\s=]+""")

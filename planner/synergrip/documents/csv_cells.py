@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from synergrip.documents import LARGEST_NUMBER
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import LONGEST_NAME, InputError, Issue, shortened
 from synergrip.plain_file import read_text
 

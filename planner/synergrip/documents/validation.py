@@ -11,8 +11,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, PydanticCustomError
 
+from synergrip.documents.positions import dotted, enclosing
 from synergrip.errors import InputError, Issue, one_of, suggest
-from synergrip.positions import dotted, enclosing
 
 MOST_JUDGED = 200
 """Issues of a file that are looked at; more than that is another kind of file."""
