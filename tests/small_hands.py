@@ -11,8 +11,8 @@ from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.placing import Touch
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad
 from synergrip.hands.kinematics import kinematics
+from synergrip.hands.models.tree import LinkTree, TreeJoint
 from synergrip.hands.synergies import joint_set
-from synergrip.hands.tree import LinkTree, TreeJoint
 from synergrip.linalg import frozen
 
 

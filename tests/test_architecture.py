@@ -16,7 +16,7 @@ ROOMS = ["", "documents", "hands", "grasps", "statics", "conic", "plans", "repor
 """From left to right; "" is the ground the house stands on: errors, quantities, linear algebra, files."""
 ONLY_IN = {
     "matplotlib": {"reports/pictures/sheet.py"},
-    "mujoco": {"hands/kinematics.py", "hands/mjcf.py"},
+    "mujoco": {"hands/kinematics.py", "hands/models/mjcf.py"},
     "clarabel": {"conic/solvers/clarabel_.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers

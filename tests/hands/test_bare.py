@@ -10,8 +10,8 @@ from synergrip.hands.bare import bare_hand
 from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling
+from synergrip.hands.models.tree import LinkTree, TreeJoint
 from synergrip.hands.synergies import LIMIT_SLACK, outside_limits, posture
-from synergrip.hands.tree import LinkTree, TreeJoint
 
 URDF = """<robot name="two fingers">
   <link name="palm"/><link name="one"/><link name="two"/><link name="three"/><link name="tip"/>

@@ -8,7 +8,7 @@ import pytest
 from synergrip.errors import InputError
 from synergrip.files import bundled
 from synergrip.hands.kinematics import kinematics
-from synergrip.hands.urdf import read_urdf
+from synergrip.hands.models.urdf import read_urdf
 
 BARRETT = bundled("models") / "hands" / "barrett" / "hand.urdf"
 POINT = np.array([0.01, -0.02, 0.03])

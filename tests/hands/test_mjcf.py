@@ -8,7 +8,7 @@ from mjcf_texts import NEEDED_BY_MUJOCO, fingers, plain, with_masses
 
 from synergrip.errors import InputError
 from synergrip.hands.kinematics import kinematics
-from synergrip.hands.model_file import read_model
+from synergrip.hands.models.model_file import read_model
 
 WHOLE = """<mujoco model="a hand of all sorts">
   <compiler angle="degree" eulerseq="ZYX" autolimits="true" fusestatic="true" boundmass="0.1"/>

@@ -8,7 +8,7 @@ from mjcf_texts import fingers, plain, with_masses
 from synergrip.errors import InputError
 from synergrip.hands.bare import bare_hand
 from synergrip.hands.hand import Coupling
-from synergrip.hands.model_file import read_model
+from synergrip.hands.models.model_file import read_model
 from synergrip.hands.synergies import coupling_map
 
 

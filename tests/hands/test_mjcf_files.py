@@ -8,9 +8,9 @@ import pytest
 from mjcf_texts import fingers
 
 from synergrip.errors import InputError
-from synergrip.hands.mjcf_source import kinematic_source
-from synergrip.hands.model_file import read_model
-from synergrip.hands.xml_elements import read_xml
+from synergrip.hands.models.mjcf_source import kinematic_source
+from synergrip.hands.models.model_file import read_model
+from synergrip.hands.models.xml_elements import read_xml
 
 FILES = """<compiler meshdir="{0}" texturedir="{0}" assetdir="{0}"/>
 <extension><plugin plugin="x"><instance name="i"><config key="file" value="{0}/x"/></instance></plugin></extension>

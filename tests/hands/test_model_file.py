@@ -7,7 +7,7 @@ from mjcf_texts import plain
 
 from synergrip.errors import InputError
 from synergrip.hands.hand import Coupling
-from synergrip.hands.model_file import read_model
+from synergrip.hands.models.model_file import read_model
 
 URDF = """<robot name="r"><link name="p"/><link name="f"/><link name="g"/>
 <joint name="a" type="revolute"><parent link="p"/><child link="f"/><origin xyz="0 0.1 0" rpy="1.5 0 0"/>

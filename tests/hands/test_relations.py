@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.hands.relations import Relations, couplings
+from synergrip.hands.models.relations import Relations, couplings
 from synergrip.hands.synergies import coupling_map
 
 NAMES = list("abcdefg")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.hands.relations import Relations, couplings
-from synergrip.hands.settling import Springs, settle
+from synergrip.hands.models.relations import Relations, couplings
+from synergrip.hands.models.settling import Springs, settle
 from synergrip.hands.synergies import coupling_map
 
 NAMES = list("abcdefg")

@@ -7,7 +7,7 @@ from mjcf_texts import fingers, plain, with_masses
 
 from synergrip.errors import InputError
 from synergrip.hands.folder import load_hand
-from synergrip.hands.model_file import read_model
+from synergrip.hands.models.model_file import read_model
 
 PULLEY = '<geom name="{0}" type="cylinder" size="{1} 0.01" pos="{2}" quat="0.7071067811865476 0 0.7071067811865476 0"/>'
 FINGER = """<mujoco><compiler angle="degree"/>

@@ -16,12 +16,13 @@ from synergrip.errors import InputError, Issue, one_of, raise_issues, repeated, 
 from synergrip.files import bundled
 from synergrip.hands.bare import bare_hand
 from synergrip.hands.follower_ranges import FollowerRanges, led
-from synergrip.hands.foreign_files import XACRO
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad, SynergySet
 from synergrip.hands.hand_drives import told_drives
 from synergrip.hands.hand_file import FILE, HandFile, JointTable, PadTable, PostureTable
 from synergrip.hands.kinematics import kinematics
-from synergrip.hands.model_file import SUFFIXES, read_model
+from synergrip.hands.models.foreign_files import XACRO
+from synergrip.hands.models.model_file import SUFFIXES, read_model
+from synergrip.hands.models.tree import LinkTree
 from synergrip.hands.sets import each_of, synergy_sets
 from synergrip.hands.synergies import (
     coupling_map,
@@ -30,7 +31,6 @@ from synergrip.hands.synergies import (
     outside_limits,
     override,
 )
-from synergrip.hands.tree import LinkTree
 from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.hands.hand import Coupling, Drives
 from synergrip.hands.hand_file import HandFile
-from synergrip.hands.tree import LinkTree
+from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import frozen
 
 

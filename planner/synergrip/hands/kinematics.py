@@ -12,7 +12,7 @@ import numpy as np
 
 from synergrip.errors import InputError, one_of
 from synergrip.hands.hand import PointMotion
-from synergrip.hands.tree import LinkTree
+from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import Array, frozen
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import MOST_NAMES, InputError, one_of, shortened
-from synergrip.hands.foreign_files import refuse_macros
 from synergrip.hands.hand import Coupling
+from synergrip.hands.models.foreign_files import refuse_macros
+from synergrip.hands.models.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
+from synergrip.hands.models.urdf_palm import carried_by
+from synergrip.hands.models.xml_elements import Element, read_xml
 from synergrip.hands.synergies import coupling_map
-from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
-from synergrip.hands.urdf_palm import carried_by
-from synergrip.hands.xml_elements import Element, read_xml
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
 """URDF joint type -> kind."""

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from synergrip.hands.mjcf import Actuator, Equality, Mjcf
-from synergrip.hands.mjcf_springs import Spring
+from synergrip.hands.models.mjcf import Actuator, Equality, Mjcf
+from synergrip.hands.models.mjcf_springs import Spring
 from synergrip.linalg import frozen
 
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from synergrip.documents.documents import LARGEST_NUMBER
-from synergrip.hands.mjcf_files import Amount, ModelFiles, expanded, real
-from synergrip.hands.xml_elements import LARGEST_MODEL, Element
+from synergrip.hands.models.mjcf_files import Amount, ModelFiles, expanded, real
+from synergrip.hands.models.xml_elements import LARGEST_MODEL, Element
 
 LEFT_OUT = {
     "camera", "config", "contact", "custom", "deformable", "extension", "flex", "flexcomp", "flexstrain", "flexvert",

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.hands.mjcf_arms import Arms
-from synergrip.hands.relations import Relations
-from synergrip.hands.settling import Settled, moves
+from synergrip.hands.models.mjcf_arms import Arms
+from synergrip.hands.models.relations import Relations
+from synergrip.hands.models.settling import Settled, moves
 from synergrip.linalg import Array, split
 
 NEAR = 0.05

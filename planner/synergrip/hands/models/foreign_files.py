@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from synergrip.hands.xml_elements import Element
+from synergrip.hands.models.xml_elements import Element
 
 XACRO = ".xacro"
 _NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "http://wiki.ros.org/xacro")

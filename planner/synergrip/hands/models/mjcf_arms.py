@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.hands.mjcf import Mjcf
-from synergrip.hands.relations import Relations
+from synergrip.hands.models.mjcf import Mjcf
+from synergrip.hands.models.relations import Relations
 from synergrip.linalg import Array
 
 TURN = math.pi

@@ -9,12 +9,12 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.hands.hand import Coupling, Drives
-from synergrip.hands.mjcf import Equality, Mjcf
-from synergrip.hands.mjcf_arms import Arms, arms_of
-from synergrip.hands.mjcf_drives import driven, pulls_of, undriven
-from synergrip.hands.mjcf_readable import NEAR, change_of
-from synergrip.hands.relations import AGREEMENT, Relations, couplings
-from synergrip.hands.settling import STILL
+from synergrip.hands.models.mjcf import Equality, Mjcf
+from synergrip.hands.models.mjcf_arms import Arms, arms_of
+from synergrip.hands.models.mjcf_drives import driven, pulls_of, undriven
+from synergrip.hands.models.mjcf_readable import NEAR, change_of
+from synergrip.hands.models.relations import AGREEMENT, Relations, couplings
+from synergrip.hands.models.settling import STILL
 from synergrip.linalg import Array, split
 
 

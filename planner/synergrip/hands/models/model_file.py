@@ -7,10 +7,10 @@ from os.path import isfile  # unlike Path.is_file, no error for a name that is t
 from pathlib import Path
 
 from synergrip.errors import InputError, Issue, one_of
-from synergrip.hands.foreign_files import ROOTS, refuse_macros, said_by_name
-from synergrip.hands.tree import LinkTree
-from synergrip.hands.urdf import urdf_tree
-from synergrip.hands.xml_elements import read_xml
+from synergrip.hands.models.foreign_files import ROOTS, refuse_macros, said_by_name
+from synergrip.hands.models.tree import LinkTree
+from synergrip.hands.models.urdf import urdf_tree
+from synergrip.hands.models.xml_elements import read_xml
 
 SUFFIXES = (".urdf", ".xml", ".mjcf")
 """What the names of model files end in, in lower case."""
@@ -35,7 +35,7 @@ def read_model(path: Path, key: str = "", told: Collection[str] = (), palm: str 
     if root.tag == "robot":
         return urdf_tree(root, told, palm)
     if root.tag == "mujoco":
-        from synergrip.hands.mjcf_tree import mjcf_tree
+        from synergrip.hands.models.mjcf_tree import mjcf_tree
 
         refuse_macros(root)
         return mjcf_tree(root, palm)

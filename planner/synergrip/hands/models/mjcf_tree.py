@@ -9,11 +9,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError, one_of
-from synergrip.hands.mjcf import Mjcf, compiled
-from synergrip.hands.mjcf_couplings import mjcf_couplings
-from synergrip.hands.mjcf_palm import carried_by
-from synergrip.hands.tree import MOST_MOVING, LinkTree, TreeJoint
-from synergrip.hands.xml_elements import Element
+from synergrip.hands.models.mjcf import Mjcf, compiled
+from synergrip.hands.models.mjcf_couplings import mjcf_couplings
+from synergrip.hands.models.mjcf_palm import carried_by
+from synergrip.hands.models.tree import MOST_MOVING, LinkTree, TreeJoint
+from synergrip.hands.models.xml_elements import Element
 from synergrip.linalg import Array
 
 WORLD = 0

@@ -10,7 +10,7 @@ from os.path import exists, realpath  # unlike Path.exists, no error for a name 
 from pathlib import Path
 
 from synergrip.errors import InputError
-from synergrip.hands.xml_elements import ALONE, DEEPEST, MOST_ELEMENTS, Element, read_xml
+from synergrip.hands.models.xml_elements import ALONE, DEEPEST, MOST_ELEMENTS, Element, read_xml
 
 MOST_EXPANDED = 5000
 """Elements once every replicate and attached model is put in: MuJoCo takes a second for that many joints."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.hands.hand import Drives
-from synergrip.hands.mjcf import Mjcf
-from synergrip.hands.mjcf_arms import Arms
-from synergrip.hands.mjcf_readable import NEAR, Readable, readable
-from synergrip.hands.relations import Relations
-from synergrip.hands.settling import Settled, Springs, moves, settle
+from synergrip.hands.models.mjcf import Mjcf
+from synergrip.hands.models.mjcf_arms import Arms
+from synergrip.hands.models.mjcf_readable import NEAR, Readable, readable
+from synergrip.hands.models.relations import Relations
+from synergrip.hands.models.settling import Settled, Springs, moves, settle
 from synergrip.linalg import Array, frozen
 
 ROUNDING = 1e-6

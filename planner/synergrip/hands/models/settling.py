@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.hands.relations import Relations, clear_cut
+from synergrip.hands.models.relations import Relations, clear_cut
 from synergrip.linalg import Array, split
 
 STILL = 1e-9

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from synergrip.errors import InputError, one_of
-from synergrip.hands.xml_elements import Element
+from synergrip.hands.models.xml_elements import Element
 
 
 def carried_by(root: Element, palm: str, told: Collection[str] = ()) -> tuple[Element, tuple[str, ...]]:

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.hands.mjcf_source import Source, kinematic_source
-from synergrip.hands.mjcf_springs import Spring, joint_springs, tendon_springs
-from synergrip.hands.xml_elements import Element
+from synergrip.hands.models.mjcf_source import Source, kinematic_source
+from synergrip.hands.models.mjcf_springs import Spring, joint_springs, tendon_springs
+from synergrip.hands.models.xml_elements import Element
 from synergrip.linalg import Array, frozen
 
 MOST_RELATIONS = 500

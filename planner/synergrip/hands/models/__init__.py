@@ -1,0 +1,1 @@
+"""Hand files of others, URDF and MJCF, read into a tree of links."""
