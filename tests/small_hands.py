@@ -12,7 +12,7 @@ from synergrip.grasps.placing import Touch
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.models.tree import LinkTree, TreeJoint
-from synergrip.hands.synergies import joint_set
+from synergrip.hands.synergies.matrix import joint_set
 from synergrip.linalg import frozen
 
 

@@ -18,7 +18,7 @@ import pytest
 from scipy.linalg import subspace_angles
 
 from synergrip.hands.folder import bundled_hands, load_hand
-from synergrip.hands.synergy_file import SynergyFile, read_synergy_file
+from synergrip.hands.synergies.synergy_file import SynergyFile, read_synergy_file
 from synergrip.plans.analysis import analyse
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem

@@ -14,7 +14,7 @@ from synergrip.grasps.objects import Object, Sphere
 from synergrip.grasps.placing import Placed, place
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import SynergySet
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies.matrix import posture
 from synergrip.linalg import Array, frozen
 from synergrip.plans.problem import load_problem
 

@@ -4,7 +4,7 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.hands.folder import load_hand
-from synergrip.hands.recorded import read_postures
+from synergrip.hands.synergies.recorded import read_postures
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from synergrip.errors import InputError
-from synergrip.hands.angles import compare
 from synergrip.hands.folder import load_hand
-from synergrip.hands.pairing import pair_of_files, pair_of_hand
-from synergrip.hands.spans import span
+from synergrip.hands.synergies.angles import compare
+from synergrip.hands.synergies.pairing import pair_of_files, pair_of_hand
+from synergrip.hands.synergies.span import span
 
 SEEDS = st.integers(0, 2**32 - 1)
 KEYS = ("A", "B", "--first")

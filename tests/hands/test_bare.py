@@ -7,11 +7,11 @@ from mjcf_texts import fingers, plain
 
 from synergrip.errors import InputError
 from synergrip.hands.bare import bare_hand
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling
 from synergrip.hands.models.tree import LinkTree, TreeJoint
-from synergrip.hands.synergies import LIMIT_SLACK, outside_limits, posture
+from synergrip.hands.synergies.matrix import LIMIT_SLACK, outside_limits, posture
+from synergrip.hands.synergies.select import select
 
 URDF = """<robot name="two fingers">
   <link name="palm"/><link name="one"/><link name="two"/><link name="three"/><link name="tip"/>

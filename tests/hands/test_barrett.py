@@ -8,9 +8,9 @@ import pytest
 from published_hands import check_frames
 
 from synergrip.files import bundled
-from synergrip.hands.choice import select
 from synergrip.hands.folder import bundled_hands, load_hand
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies.matrix import posture
+from synergrip.hands.synergies.select import select
 
 DEG = math.pi / 180
 ORIGIN = np.zeros(3)

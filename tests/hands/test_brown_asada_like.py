@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from paradigmatic_hand import JOINTS, hand_frames
 
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.synergies.select import select
 
 ORIGIN = np.zeros(3)
 

@@ -5,8 +5,8 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.files import bundled
-from synergrip.hands.choice import SetChoice, first_of, select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.synergies.select import SetChoice, first_of, select
 
 PCA = """schema = 1
 joints = ["finger3_inner", "finger2_spread", "finger1_inner"]

@@ -8,8 +8,8 @@ from denavit_hartenberg import frames, row
 from pad_motion import pads_at, push, urdf_efforts
 from published_hands import check_frames
 
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.synergies.select import select
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 

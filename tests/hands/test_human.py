@@ -11,8 +11,8 @@ import pytest
 from paradigmatic_hand import DIGITS, JOINTS, PALMAR, RADIUS, hand_frames
 
 from synergrip.files import bundled
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.synergies.select import select
 
 FINGERS = DIGITS[1:]
 ORIGIN = np.zeros(3)

@@ -10,8 +10,8 @@ import pytest
 from denavit_hartenberg import frames, orthonormal
 
 from synergrip.files import bundled
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
+from synergrip.hands.synergies.select import select
 
 DIGITS = ("index", "middle", "ring", "little", "thumb")
 FINGER = ("mcp_abd", "mcp_flex", "pip", "dip")

@@ -9,7 +9,7 @@ from synergrip.errors import InputError
 from synergrip.hands.bare import bare_hand
 from synergrip.hands.hand import Coupling
 from synergrip.hands.models.model_file import read_model
-from synergrip.hands.synergies import coupling_map
+from synergrip.hands.synergies.matrix import coupling_map
 
 
 def read(folder, text):

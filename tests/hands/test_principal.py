@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.linalg import subspace_angles
 
 from synergrip.errors import InputError
-from synergrip.hands.principal import principal_directions
+from synergrip.hands.synergies.principal import principal_directions
 
 SIZES = st.tuples(st.integers(2, 30), st.integers(1, 8), st.integers(0, 2**32 - 1))
 

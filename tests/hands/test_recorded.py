@@ -7,7 +7,7 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.hands.folder import load_hand
-from synergrip.hands.recorded import read_postures
+from synergrip.hands.synergies.recorded import read_postures
 
 DEG = math.pi / 180
 FREE = ("finger1_inner", "finger2_spread", "finger2_inner", "finger3_spread", "finger3_inner")

@@ -3,7 +3,7 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.hands.models.relations import Relations, couplings
-from synergrip.hands.synergies import coupling_map
+from synergrip.hands.synergies.matrix import coupling_map
 
 NAMES = list("abcdefg")
 

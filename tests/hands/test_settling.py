@@ -6,7 +6,7 @@ import pytest
 from synergrip.errors import InputError
 from synergrip.hands.models.relations import Relations, couplings
 from synergrip.hands.models.settling import Springs, settle
-from synergrip.hands.synergies import coupling_map
+from synergrip.hands.synergies.matrix import coupling_map
 
 NAMES = list("abcdefg")
 NOTHING = Relations(np.zeros((0, 3)), np.zeros(0))

@@ -6,10 +6,10 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.files import bundled
-from synergrip.hands.choice import select
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling, Joint, SynergySet
-from synergrip.hands.synergies import coupling_map, joint_posture, joint_vector, outside_limits, posture, resting
+from synergrip.hands.synergies.matrix import coupling_map, joint_posture, joint_vector, outside_limits, posture, resting
+from synergrip.hands.synergies.select import select
 
 DEG = math.pi / 180
 ABCD = ("a", "b", "c", "d")

@@ -13,7 +13,7 @@ from synergrip.errors import InputError, OutputError
 from synergrip.files import bundled
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling
-from synergrip.hands.synergy_file import (
+from synergrip.hands.synergies.synergy_file import (
     SynergyFile,
     read_synergies,
     read_synergy_file,

@@ -14,7 +14,7 @@ from synergrip.documents.fields import Measured, either, unit_schema
 from synergrip.errors import InputError
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import posture
+from synergrip.hands.synergies.matrix import posture
 from synergrip.hands.units import list_misfits, misfits, synergy_kinds, unit_of
 from synergrip.linalg import frozen
 

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from synergrip.errors import InputError
 from synergrip.hands.hand import Coupling
 from synergrip.hands.models.urdf import read_urdf
-from synergrip.hands.synergies import coupling_map
+from synergrip.hands.synergies.matrix import coupling_map
 
 TWO_LINKS = """<?xml version="1.0"?>
 <robot name="r">

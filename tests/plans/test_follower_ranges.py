@@ -18,7 +18,7 @@ from linkage_gripper import (
 
 from synergrip import InputError, load_problem, plan
 from synergrip.hands.folder import load_hand
-from synergrip.hands.synergies import ranges_of_followers
+from synergrip.hands.synergies.matrix import ranges_of_followers
 
 REPAIR = 'hand.follower_ranges = "ignore"'
 IGNORED = ['hand.follower_ranges="ignore"']

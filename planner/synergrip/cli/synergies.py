@@ -32,9 +32,9 @@ def fit(
 ) -> None:
     """Find the synergies that explain most of recorded postures (principal component analysis)."""
     with answering(form):
-        from synergrip.hands.fitting import fit as make
         from synergrip.hands.folder import load_hand
-        from synergrip.hands.synergy_file import write_synergy_file
+        from synergrip.hands.synergies.fitting import fit as make
+        from synergrip.hands.synergies.synergy_file import write_synergy_file
         from synergrip.reports.json_synergies import fit_document
         from synergrip.reports.text_fit import fit_text
 
@@ -63,7 +63,7 @@ def list_(
     with answering(form):
         from synergrip.hands.folder import bundled_hands, load_hand
         from synergrip.hands.hand_file import FILE
-        from synergrip.hands.synergy_file import SUFFIX, read_synergies, read_synergy_file
+        from synergrip.hands.synergies.synergy_file import SUFFIX, read_synergies, read_synergy_file
         from synergrip.reports.json_synergies import list_document
         from synergrip.reports.text_synergies import list_text
 
@@ -87,10 +87,10 @@ def show_(
 ) -> None:
     """Show S with a row for each joint, its rank, and what repeats; draw what each synergy does."""
     with answering(form):
-        from synergrip.hands.choice import first_of, select
         from synergrip.hands.folder import load_hand
-        from synergrip.hands.synergies import posture as take
-        from synergrip.hands.synergies import resting
+        from synergrip.hands.synergies.matrix import posture as take
+        from synergrip.hands.synergies.matrix import resting
+        from synergrip.hands.synergies.select import first_of, select
         from synergrip.reports.json_synergies import show_document
         from synergrip.reports.text_synergies import show_text
 
@@ -119,9 +119,9 @@ def compare(
 ) -> None:
     """Compare the ranges of two sets: principal angles, and what each reproduces of the other."""
     with answering(form):
-        from synergrip.hands.angles import compare as measure
         from synergrip.hands.folder import load_hand
-        from synergrip.hands.pairing import pair_of_files, pair_of_hand
+        from synergrip.hands.synergies.angles import compare as measure
+        from synergrip.hands.synergies.pairing import pair_of_files, pair_of_hand
         from synergrip.reports.json_synergies import compare_document
         from synergrip.reports.text_synergies import compare_text
 

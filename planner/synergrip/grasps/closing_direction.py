@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import coupling_map, joint_vector, names_known, set_named
+from synergrip.hands.synergies.matrix import coupling_map, joint_vector, names_known, set_named
 from synergrip.linalg import Array, frozen
 
 

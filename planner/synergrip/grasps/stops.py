@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from synergrip.hands.follower_ranges import likewise
 from synergrip.hands.hand import Coupling, Hand
 from synergrip.hands.hand_file import FILE
-from synergrip.hands.synergies import drivers, ranges_of_followers
+from synergrip.hands.synergies.matrix import drivers, ranges_of_followers
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 

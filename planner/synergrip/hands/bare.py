@@ -11,7 +11,7 @@ from synergrip.hands.follower_ranges import FollowerRanges, led
 from synergrip.hands.hand import Coupling, Drives, Hand, Joint, SynergySet
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.models.tree import LinkTree
-from synergrip.hands.synergies import JOINTS, coupling_map, drivers, joint_posture, joint_set
+from synergrip.hands.synergies.matrix import JOINTS, coupling_map, drivers, joint_posture, joint_set
 from synergrip.linalg import Array, frozen, split
 
 FREE = "free"

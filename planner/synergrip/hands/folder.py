@@ -23,14 +23,14 @@ from synergrip.hands.kinematics import kinematics
 from synergrip.hands.models.foreign_files import XACRO
 from synergrip.hands.models.model_file import SUFFIXES, read_model
 from synergrip.hands.models.tree import LinkTree
-from synergrip.hands.sets import each_of, synergy_sets
-from synergrip.hands.synergies import (
+from synergrip.hands.synergies.matrix import (
     coupling_map,
     joint_posture,
     joint_values,
     outside_limits,
     override,
 )
+from synergrip.hands.synergies.sets import each_of, synergy_sets
 from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 

@@ -10,7 +10,7 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError
 from synergrip.hands.arm import palm_of
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import JOINTS
+from synergrip.hands.synergies.matrix import JOINTS
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.hands.angles import Comparison, Side
-from synergrip.hands.fitting import Fit
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.pairing import Pair
-from synergrip.hands.spans import Span, span
+from synergrip.hands.synergies.angles import Comparison, Side
+from synergrip.hands.synergies.fitting import Fit
+from synergrip.hands.synergies.pairing import Pair
+from synergrip.hands.synergies.span import Span, span
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.quantities import SHOWN_IN
-from synergrip.hands.fitting import Fit
+from synergrip.hands.synergies.fitting import Fit
 from synergrip.hands.units import SI_UNITS
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many

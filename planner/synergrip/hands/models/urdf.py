@@ -17,7 +17,7 @@ from synergrip.hands.models.foreign_files import refuse_macros
 from synergrip.hands.models.tree import MOST_MOVING, LinkTree, TreeJoint, order_of_links
 from synergrip.hands.models.urdf_palm import carried_by
 from synergrip.hands.models.xml_elements import Element, read_xml
-from synergrip.hands.synergies import coupling_map
+from synergrip.hands.synergies.matrix import coupling_map
 
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide", "fixed": "fixed"}
 """URDF joint type -> kind."""

@@ -22,8 +22,8 @@ from synergrip.documents.fields import (
 from synergrip.documents.quantities import ratio
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
-from synergrip.hands.choice import SetChoice
 from synergrip.hands.follower_ranges import FollowerRanges
+from synergrip.hands.synergies.select import SetChoice
 
 
 def _posture(value: object) -> str | dict[str, float]:

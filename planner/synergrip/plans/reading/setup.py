@@ -19,12 +19,12 @@ from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.arm import arm_notes
-from synergrip.hands.choice import select
+from synergrip.hands.coupling_notes import parted_notes
 from synergrip.hands.folder import load_hand
 from synergrip.hands.follower_ranges import contradictions
 from synergrip.hands.hand import Hand, Pad, SynergySet
-from synergrip.hands.parted import parted_notes
-from synergrip.hands.synergies import posture, ranges_of_followers, stands_still
+from synergrip.hands.synergies.matrix import posture, ranges_of_followers, stands_still
+from synergrip.hands.synergies.select import select
 from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen

@@ -10,12 +10,12 @@ import numpy as np
 
 from synergrip.documents.csv_cells import Cell, CellReader
 from synergrip.errors import one_of
-from synergrip.hands.column_names import UNITS, beside_joints, joint_and_unit, may_count
-from synergrip.hands.doubts import NOTHING, counts, doubts, left_out_notes, refuse_endless, refuse_numbers
 from synergrip.hands.hand import Hand
-from synergrip.hands.meant_units import Column, refuse_unit, unit_notes
-from synergrip.hands.sheet import Sheet, is_number
-from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.hands.synergies.column_names import UNITS, beside_joints, joint_and_unit, may_count
+from synergrip.hands.synergies.doubts import NOTHING, counts, doubts, left_out_notes, refuse_endless, refuse_numbers
+from synergrip.hands.synergies.matrix import coupling_map, drivers
+from synergrip.hands.synergies.meant_units import Column, refuse_unit, unit_notes
+from synergrip.hands.synergies.sheet import Sheet, is_number
 from synergrip.hands.units import joint_kinds
 from synergrip.linalg import Array, frozen
 

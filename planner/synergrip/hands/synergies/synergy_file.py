@@ -15,7 +15,7 @@ from synergrip.documents.fields import Name, Number, Table, Version
 from synergrip.errors import InputError, Issue, OutputError, one_of, raise_issues, repeated
 from synergrip.files import IMPOSSIBLE, atomic_path
 from synergrip.hands.hand import Coupling, SynergySet
-from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.hands.synergies.matrix import coupling_map, drivers
 from synergrip.linalg import Array, frozen
 
 SUFFIX = ".toml"

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from synergrip.errors import InputError, one_of
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergies import ALL, JOINTS, columns_of, stands_still
-from synergrip.hands.synergy_file import SUFFIX, read_synergies
+from synergrip.hands.synergies.matrix import ALL, JOINTS, columns_of, stands_still
+from synergrip.hands.synergies.synergy_file import SUFFIX, read_synergies
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.hands.hand import Hand
-from synergrip.hands.synergies import coupling_map, drivers
+from synergrip.hands.synergies.matrix import coupling_map, drivers
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 

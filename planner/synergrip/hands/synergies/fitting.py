@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from synergrip.hands.hand import Hand
-from synergrip.hands.principal import Principal, principal_directions
-from synergrip.hands.recorded import Recorded, read_postures
-from synergrip.hands.synergy_file import SynergyFile
+from synergrip.hands.synergies.principal import Principal, principal_directions
+from synergrip.hands.synergies.recorded import Recorded, read_postures
+from synergrip.hands.synergies.synergy_file import SynergyFile
 
 PREFIX = "pc"
 """Principal synergies are called pc1, pc2, ..."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from synergrip.errors import InputError
-from synergrip.hands.choice import first_of, select
 from synergrip.hands.hand import Hand, SynergySet
-from synergrip.hands.synergy_file import SUFFIX, read_synergies, read_synergy_file
+from synergrip.hands.synergies.select import first_of, select
+from synergrip.hands.synergies.synergy_file import SUFFIX, read_synergies, read_synergy_file
 
 
 @dataclass(frozen=True, eq=False)

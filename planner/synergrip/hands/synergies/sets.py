@@ -13,8 +13,8 @@ import numpy as np
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.hands.hand import Coupling, SynergySet
 from synergrip.hands.hand_file import HandFile, SynergyTable
-from synergrip.hands.synergies import ALL, JOINTS, coupling_map, joint_set, joint_vector
-from synergrip.hands.synergy_file import read_synergies
+from synergrip.hands.synergies.matrix import ALL, JOINTS, coupling_map, joint_set, joint_vector
+from synergrip.hands.synergies.synergy_file import read_synergies
 from synergrip.hands.units import misfits, synergy_kinds
 from synergrip.linalg import frozen
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from synergrip.documents.csv_cells import CellReader
 from synergrip.hands.hand import Hand
-from synergrip.hands.meant_units import TURN, Column
-from synergrip.hands.sheet import Sheet, is_number
+from synergrip.hands.synergies.meant_units import TURN, Column
+from synergrip.hands.synergies.sheet import Sheet, is_number
 from synergrip.linalg import Array
 
 NOTHING = "nothing"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.hands.spans import Span, span
+from synergrip.hands.synergies.span import Span, span
 from synergrip.linalg import RANK_TOLERANCE, Array, frozen
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.documents.csv_cells import Cell, CellReader
-from synergrip.hands.column_names import UNITS
 from synergrip.hands.hand import Hand
+from synergrip.hands.synergies.column_names import UNITS
 from synergrip.linalg import Array
 
 TURN = 2 * math.pi

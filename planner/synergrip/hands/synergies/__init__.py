@@ -1,0 +1,1 @@
+"""Synergies: matrices and their files, recorded postures and their principal components."""
