@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, frozen
 
 

@@ -14,9 +14,9 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.situation import situate
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.question import Question

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from synergrip.grasps.kinds import contact_kind
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.placing import Touch
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad
 from synergrip.hands.kinematics import kinematics

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from synergrip.errors import InputError as InputError
     from synergrip.errors import Refusal as Refusal
     from synergrip.errors import SynergripError as SynergripError
-    from synergrip.grasps.contact import Contact as Contact
+    from synergrip.grasps.contacts.contact import Contact as Contact
     from synergrip.grasps.grasp import Grasp as Grasp
     from synergrip.grasps.matrices import read_matrices as read_matrices
     from synergrip.hands.folder import load_hand as load_hand
@@ -38,7 +38,7 @@ _HOMES = {
     "errors": ("SynergripError", "InputError", "Refusal"),
     "hands.hand": ("Hand",),
     "hands.folder": ("load_hand",),
-    "grasps.contact": ("Contact",),
+    "grasps.contacts.contact": ("Contact",),
     "grasps.grasp": ("Grasp",),
     "grasps.matrices": ("read_matrices",),
     "statics": ("respond", "subspaces", "coordinates"),

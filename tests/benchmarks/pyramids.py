@@ -26,9 +26,9 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from random_tasks import RADIUS, random_task_on_grasp
 
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan

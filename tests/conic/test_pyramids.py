@@ -28,8 +28,8 @@ from synergrip.conic.rows import Item, Kind
 from synergrip.conic.situation import Situation, Units, situate
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_, qpsolvers_
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.question import Question

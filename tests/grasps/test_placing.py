@@ -11,9 +11,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
-from synergrip.grasps.contact import contact_frame
+from synergrip.grasps.contacts.contact import contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.hand import Hand, Joint, Kinematics, Pad, PointMotion, SynergySet

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from random_grasps import random_grasp
 
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.dimensions import DimensionColumn, dimension_table, with_kind

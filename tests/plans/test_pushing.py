@@ -10,7 +10,7 @@ from driven_grasp import driven, touch
 from random_tasks import random_task_on_grasp
 
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.grasps.contact import Contact
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan

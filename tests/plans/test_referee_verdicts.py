@@ -9,9 +9,9 @@ import pytest
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.limits.joint_torque import JointTorque
-from synergrip.grasps.contact import contact_frame
+from synergrip.grasps.contacts.contact import contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.analysis import analyse
 from synergrip.plans.planning import plan

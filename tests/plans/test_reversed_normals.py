@@ -14,9 +14,9 @@ import pytest
 from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan

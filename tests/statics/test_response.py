@@ -9,9 +9,9 @@ import pytest
 from random_grasps import compliance, random_grasp
 
 from synergrip.errors import NotRestrainedError, RigidContactError
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.kinds import contact_kind
 from synergrip.linalg import frozen
 from synergrip.statics import coordinates, respond, subspaces
 from synergrip.statics.motion import forward

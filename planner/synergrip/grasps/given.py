@@ -9,9 +9,9 @@ import numpy as np
 
 from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, Issue
-from synergrip.grasps.contact import Contact, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrices import ContactData, Matrices, read_matrices
 from synergrip.linalg import Array, frozen
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.errors import raise_issues
-from synergrip.grasps.contact import Contact
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, block_diagonal, frozen
 

@@ -16,7 +16,7 @@ from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.grasps.kinds import KINDS
+from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.grasps.matrix_reading import Count, MatrixReader
 from synergrip.linalg import Array, frozen
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.ball import REACH, ball_centre
-from synergrip.grasps.contact import Contact, ContactKind, contact_frame
+from synergrip.grasps.contacts.contact import Contact, ContactKind, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.objects import Object, Sphere
 from synergrip.hands.hand import Hand, Pad, PointMotion, SynergySet

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.errors import NotRestrainedError
-from synergrip.grasps.contact import Contact, ContactKind
+from synergrip.grasps.contacts.contact import Contact, ContactKind
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
-from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from synergrip.errors import SynergripError
-from synergrip.grasps.contact import Contact
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen

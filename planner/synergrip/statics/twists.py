@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from synergrip.grasps.contact import Contact
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
 
 

@@ -13,8 +13,8 @@ from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.clearance import collision_notes
 from synergrip.grasps.closing import close, unknown_surface
 from synergrip.grasps.closing_direction import closing_direction
+from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.kinds import contact_kind
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.grasps.placing import Touch, place

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.grasps.contact import Contact
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 

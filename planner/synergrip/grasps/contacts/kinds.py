@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from synergrip.errors import InputError, one_of
-from synergrip.grasps.contact import ContactKind
-from synergrip.grasps.frictionless import Frictionless
-from synergrip.grasps.hard_finger import HardFinger
-from synergrip.grasps.soft_finger import SoftFinger
+from synergrip.grasps.contacts.contact import ContactKind
+from synergrip.grasps.contacts.frictionless import Frictionless
+from synergrip.grasps.contacts.hard_finger import HardFinger
+from synergrip.grasps.contacts.soft_finger import SoftFinger
 
 KINDS: dict[str, ContactKind] = {kind.name: kind for kind in (HardFinger(), SoftFinger(), Frictionless())}
 

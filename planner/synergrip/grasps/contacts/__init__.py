@@ -1,0 +1,1 @@
+"""Contacts, one file a kind: what it transmits and what it withstands."""
