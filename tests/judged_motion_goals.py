@@ -29,11 +29,11 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.task import GoalName, Task
+from synergrip.statics.analysis import analyse
 
 GOALS: tuple[GoalName, ...] = ("references", "travel", "smooth")
 SAME = 1e-4

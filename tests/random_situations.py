@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from random_grasps import random_grasp
 
+from synergrip.conic.formulation import Situation, Units, situate
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
@@ -16,9 +17,8 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.situation import Situation, Units, situate
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
+from synergrip.statics.analysis import analyse
 
 KNOTS = 4
 LIMITS = {

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.conic.formulation import situate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -13,17 +14,16 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.situation import situate
+from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
-from synergrip.plans.analysis import analyse
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS, ask
 from synergrip.plans.task import GoalName, Task, Wanted, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
+from synergrip.statics.analysis import analyse
 
 RADIUS = 0.02  # [m] of the object
 LEVER = 0.05  # [m] from a joint to its contact

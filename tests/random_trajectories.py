@@ -23,10 +23,10 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.task import GoalName, Task, Wanted, still
+from synergrip.statics.analysis import Analysis, analyse
 
 ORDERS: tuple[tuple[GoalName, ...], ...] = (
     ("effort",), ("torque",), ("actuator",), ("margin",), ("peak_force",), ("references",), ("travel",), ("smooth",),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import Problem, bundled_problems, load_problem
+from synergrip.statics.analysis import analyse
 
 NAMES = bundled_problems()
 

@@ -124,8 +124,8 @@ def test_every_key_of_an_answer_is_described(name: str) -> None:
 
 
 def test_the_singular_values_of_table_two_are_those_of_analyse() -> None:
-    from synergrip.plans.analysis import analyse
     from synergrip.plans.problem import load_problem
+    from synergrip.statics.analysis import analyse
 
     keys = {"J S": "redundancy", "part of J S that no rigid motion follows": "rigid"}
     shown = BLOCK.findall((ROOT / "problems" / "README.md").read_text(encoding="utf-8"))[-1][1].splitlines()

@@ -16,8 +16,8 @@ from paradigmatic_hand import DIGITS, JOINTS, RADIUS, hand_frames
 from scipy.spatial.transform import Rotation
 
 from synergrip.files import bundled
-from synergrip.plans.analysis import analyse
 from synergrip.plans.problem import load_problem
+from synergrip.statics.analysis import analyse
 
 PROBLEMS = ("human-ball", "human-glass")
 KINDS = ("hard", "soft")

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from synergrip.grasps.matrices import read_matrices as read_matrices
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
-    from synergrip.plans.analysis import Analysis as Analysis
-    from synergrip.plans.analysis import analyse as analyse
     from synergrip.plans.outcome import Infeasible as Infeasible
     from synergrip.plans.outcome import Plan as Plan
     from synergrip.plans.outcome import Unknown as Unknown
@@ -31,6 +29,8 @@ if TYPE_CHECKING:
     from synergrip.statics import coordinates as coordinates
     from synergrip.statics import respond as respond
     from synergrip.statics import subspaces as subspaces
+    from synergrip.statics.analysis import Analysis as Analysis
+    from synergrip.statics.analysis import analyse as analyse
 
 __version__ = "0.1.0"
 
@@ -44,7 +44,7 @@ _HOMES = {
     "statics": ("respond", "subspaces", "coordinates"),
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
-    "plans.analysis": ("Analysis", "analyse"),
+    "statics.analysis": ("Analysis", "analyse"),
     "plans.task": ("Task",),
     "plans.problem": ("Problem", "load_problem"),
     "plans.outcome": ("Plan", "Infeasible", "Unknown"),

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from synergrip.conic.program import Program
+    from synergrip.conic.question import Question
     from synergrip.conic.solution import Settings, Solution
     from synergrip.plans.problem import Problem
-    from synergrip.plans.question import Question
 
 GOAL = "goal={minimise={effort=1, travel=0.001}}"
 BETWEEN = 'task.between="report"'

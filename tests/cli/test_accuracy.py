@@ -15,12 +15,12 @@ from synergrip.files import bundled
 from synergrip.linalg import frozen
 from synergrip.plans import planning
 from synergrip.plans.accuracy import InDoubtError, accuracy_notes
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Plan, Unknown
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 from synergrip.plans.stages import Stage
 from synergrip.plans.verified import identities, verified_plan
+from synergrip.statics.analysis import Analysis, analyse
 
 
 def pinch_that_yields(share: float) -> str:

@@ -11,12 +11,12 @@ import pytest
 from scipy.interpolate import CubicSpline
 from small_grasps import pinch
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import Rows, within
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan

@@ -8,13 +8,13 @@ from random_situations import KNOTS, LIMITS, random_situation
 
 from synergrip.conic.build import build
 from synergrip.conic.cones import distance_to_cones
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
 from synergrip.statics.motion import Motion, forward
 

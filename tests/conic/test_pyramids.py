@@ -12,6 +12,7 @@ from scipy import sparse
 
 from synergrip.conic.certificate import judge_optimal
 from synergrip.conic.decide import decide
+from synergrip.conic.formulation import Situation, Units, situate
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -24,16 +25,15 @@ from synergrip.conic.pyramids import (
     limit_in_pyramids,
     pyramid,
 )
+from synergrip.conic.question import Question
 from synergrip.conic.rows import Item, Kind
-from synergrip.conic.situation import Situation, Units, situate
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_, qpsolvers_
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, block_diagonal, frozen
-from synergrip.plans.analysis import analyse
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS, ask
+from synergrip.statics.analysis import analyse
 
 FACETS = (3, 4, 5, 6, 8, 16)
 LOAD = np.array([[0.4, 0.7, -1.5, 0.0, 0.01, 0.004]])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from synergrip.conic.assembly import Tile, stacked
 from synergrip.conic.rows import Earlier
-from synergrip.conic.tiles import Tile, stacked
 
 Array = NDArray[np.float64]
 

@@ -11,10 +11,10 @@ from random_grasps import random_grasp
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.dimensions import DimensionColumn, dimension_table, with_kind
 from synergrip.plans.problem import Problem, load_problem
 from synergrip.statics import respond, subspaces
+from synergrip.statics.analysis import analyse
 
 SOFT = ["contacts.model=soft", "contacts.spin_friction=5 mm", "contacts.spin_stiffness=2 N m/rad"]
 HARD = ["contacts.model=hard"]

@@ -11,13 +11,13 @@ import pytest
 from synergrip.conic import relaxed
 from synergrip.conic.certificate import judge_unbounded
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
 
 TOO_MUCH = ("limits.margin=50 N", "limits.normal_force=20 N")

@@ -11,12 +11,12 @@ from typer.testing import CliRunner
 
 from synergrip.cli.app import app
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
 from synergrip.plans.front import ROOM, front, largest
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
 
 

@@ -10,13 +10,13 @@ from random_tasks import moving_random_task
 
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.task import Task
 

@@ -16,11 +16,11 @@ from synergrip.conic.limits.object_error import AXES, ObjectError, axis_weights
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.task import Task, Wanted
+from synergrip.statics.analysis import analyse
 
 
 def moving_task(seed: int) -> tuple[Grasp, Task]:

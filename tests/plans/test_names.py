@@ -20,7 +20,6 @@ from synergrip.documents.csv_cells import cells_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
@@ -28,6 +27,7 @@ from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.task import Task, still
 from synergrip.reports.plan_files import plan_csv
+from synergrip.statics.analysis import analyse
 
 TIMES = np.array([0.0, 0.1, 0.2])
 WEIGHT = np.array([0, 0, -1.0, 0, 0, 0])

@@ -13,13 +13,13 @@ from synergrip.conic.decide import ATTEMPTS
 from synergrip.conic.goals.least_motion import SOFTER, STIFFEST, LeastMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
-from synergrip.plans.question import Question
 from synergrip.plans.solvers import SOLVERS
 
 Spoil = Callable[[Question, Solution], Solution]

@@ -12,6 +12,7 @@ from scipy.optimize import linprog
 
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.rows import Kind
 from synergrip.conic.solution import Claim, Solution
 from synergrip.conic.solvers import qpsolvers_
@@ -21,7 +22,6 @@ from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 from synergrip.plans.pyramids import Comparison, Request, compare, requested
-from synergrip.plans.question import Question
 from synergrip.plans.task import GoalName
 
 

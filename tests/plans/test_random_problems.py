@@ -7,11 +7,11 @@ import pytest
 from random_tasks import random_task_on_grasp
 
 from synergrip.errors import SelfCheckError
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import RefereeAnswer, referee
 from synergrip.plans.stages import SLACKS
+from synergrip.statics.analysis import analyse
 
 CHUNK = 25
 CHUNKS = 12

@@ -11,6 +11,7 @@ from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.decide import decide, judge
+from synergrip.conic.formulation import Situation, situate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -21,21 +22,20 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.situation import Situation, situate
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.question import Question
 from synergrip.plans.referee.judge import referee, solve
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.stages import LOOSE
 from synergrip.plans.task import Task, still
 from synergrip.plans.tracking import rigid_coordinates
 from synergrip.plans.units import units_of
+from synergrip.statics.analysis import analyse
 
 REDUNDANT = (89, 130, 146, 213, 296)
 """Seeds whose reference limits force the plan to use its redundancy."""

@@ -13,10 +13,10 @@ from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.task import Task, Wanted, still
+from synergrip.statics.analysis import analyse
 
 
 def test_the_referee_judges_wanted_motions() -> None:

@@ -12,13 +12,13 @@ from random_tasks import hand_like_grasp
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.task import Task, Wanted, still
 from synergrip.plans.tracking import rigid_coordinates
+from synergrip.statics.analysis import Analysis, analyse
 
 LENGTH = 0.04
 """Characteristic length of the tripod, whose synergies lift the puck along z and twist it about z [m]."""

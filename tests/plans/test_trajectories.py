@@ -28,13 +28,13 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.analysis import analyse
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.problem import load_problem
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import analyse
 
 COUNT, CHUNK = 40, 8
 ONE_FOR_ALL: dict[str, Callable[[Grasp, float], Limit]] = {

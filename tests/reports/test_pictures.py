@@ -23,7 +23,6 @@ from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere, Turned
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.linalg import Array, frozen
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.problem import load_problem
 from synergrip.reports.pictures.effects import effects, squeeze_shares
 from synergrip.reports.pictures.forces import ContactForces, contact_forces, places_known
@@ -38,6 +37,7 @@ from synergrip.reports.pictures.steps import DEGREE, LARGEST_TURN, MILLIMETRE, P
 from synergrip.reports.pictures.synergies import draw_synergies
 from synergrip.reports.pictures.variance import draw_variance
 from synergrip.reports.pictures.view import best_view, view_from
+from synergrip.statics.analysis import Analysis, analyse
 
 SVG = "{http://www.w3.org/2000/svg}"
 PROBLEMS = ["table2-hard-motors", "table2-soft-motors", "barrett-ball-hold"]
@@ -455,7 +455,7 @@ def test_another_process_draws_the_same_without_a_screen(tmp_path: Path) -> None
 import sys
 from pathlib import Path
 from synergrip.plans.problem import load_problem
-from synergrip.plans.analysis import analyse
+from synergrip.statics.analysis import analyse
 from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 assert "matplotlib" not in sys.modules
 problem = load_problem("table2-soft-motors")

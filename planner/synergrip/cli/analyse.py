@@ -24,9 +24,9 @@ from synergrip.cli.running import (
 
 if TYPE_CHECKING:
     from synergrip.errors import NotRestrainedError
-    from synergrip.plans.analysis import Analysis
     from synergrip.plans.dimensions import DimensionColumn
     from synergrip.plans.problem import Problem
+    from synergrip.statics.analysis import Analysis
 
     Columns = tuple[DimensionColumn, DimensionColumn]
 
@@ -47,9 +47,9 @@ def analyse(
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
     with answering(form):
         from synergrip.errors import NotRestrainedError, SynergripError
-        from synergrip.plans.analysis import analyse as work_out
         from synergrip.plans.dimensions import dimension_table
         from synergrip.plans.problem import load_problem, located
+        from synergrip.statics.analysis import analyse as work_out
 
         picture_place(picture)
         loaded = load_problem(problem, overrides or [])

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from synergrip.conic.program import Program
+    from synergrip.conic.question import Question
     from synergrip.conic.solution import Settings, Solution
-    from synergrip.plans.question import Question
     from synergrip.plans.solvers import Answerer
 
 LONG = 50_000

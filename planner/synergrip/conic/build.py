@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.box import box, farthest
+from synergrip.conic.assembly import Tile, stacked, without_rounding
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
-from synergrip.conic.tiles import Tile, stacked, without_rounding
+from synergrip.conic.variable_bounds import box, farthest
 from synergrip.linalg import Array, frozen
 
 

@@ -14,13 +14,13 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from synergrip.conic.box import LARGEST
 from synergrip.conic.certificate import Certificate, judge_infeasible
 from synergrip.conic.cones import project_on_dual, row_sizes
 from synergrip.conic.decide import Solver
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.conic.variable_bounds import LARGEST
 from synergrip.linalg import Array, frozen
 
 POLISHES = 60

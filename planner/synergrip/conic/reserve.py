@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.bend import Bend, Looks, knots_in
+from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.intersample import Bend, Looks, knots_in
 from synergrip.conic.rows import Kind, Rows
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen, interpolated
 
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.instants import bend_of
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
 
 STRAIGHT = 1e-9

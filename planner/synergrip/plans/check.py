@@ -6,12 +6,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage
-from synergrip.conic.situation import Situation
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.between import Between, between
 from synergrip.plans.claims import Claims, compared
 from synergrip.plans.marks import SAME_TIME
@@ -24,6 +23,7 @@ from synergrip.plans.stated import stated
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import wished
 from synergrip.plans.verified import between_checks, identities, limit_checks, limit_usages
+from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 
 TRACKED = 1e-6

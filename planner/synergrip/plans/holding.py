@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from synergrip.conic.situation import Situation
-from synergrip.plans.analysis import Analysis
+from synergrip.conic.formulation import Situation
 from synergrip.plans.instants import bend_of
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 
 
 def held(task: Task, analysis: Analysis, situation: Situation, answer: Callable[[Situation], Outcome]) -> Outcome:

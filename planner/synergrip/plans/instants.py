@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.conic.bend import Bend, Looks, samples_for, shares
+from synergrip.conic.intersample import Bend, Looks, samples_for, shares
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.marks import SAME_TIME, Jump, Marks
 from synergrip.plans.task import Course, Task
 from synergrip.plans.tracking import wished
+from synergrip.statics.analysis import Analysis
 
 SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""

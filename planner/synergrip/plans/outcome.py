@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.conic.certificate import Certificate
+from synergrip.conic.conflicts import Clash
 from synergrip.conic.decide import Decision
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
-from synergrip.conic.situation import Situation
 from synergrip.errors import Refusal
 from synergrip.linalg import Array
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.between import Between
-from synergrip.plans.clash import Clash
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 
 

@@ -5,24 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from synergrip.conic.conflicts import Clash, beside_friction, clashes
 from synergrip.conic.decide import Decision
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proof
-from synergrip.conic.situation import Situation
 from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
-from synergrip.plans.analysis import Analysis, analyse
-from synergrip.plans.clash import Clash, beside_friction, clashes
 from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.holding import held
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
-from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.reversed_normals import with_hint
@@ -32,6 +31,7 @@ from synergrip.plans.stages import Stage, not_the_best, through
 from synergrip.plans.task import Task
 from synergrip.plans.units import caps, grips
 from synergrip.plans.verified import verified_plan
+from synergrip.statics.analysis import Analysis, analyse
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""

@@ -25,13 +25,13 @@ from synergrip.conic.pyramids import (
     goal_in_pyramids,
     limit_in_pyramids,
 )
+from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import Issue, SelfCheckError, one_of, raise_issues
 from synergrip.plans.check import judge_references
 from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.outcome import Check, Plan
-from synergrip.plans.question import Question
 from synergrip.plans.references import References
 from synergrip.plans.solvers import SOLVERS, ask
 from synergrip.plans.stages import Stage, through

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from synergrip.conic.situation import Situation, situate
-from synergrip.plans.analysis import Analysis
+from synergrip.conic.formulation import Situation, situate
 from synergrip.plans.task import Task
 from synergrip.plans.tracking import followed
 from synergrip.plans.units import expected_units, units_of
+from synergrip.statics.analysis import Analysis
 
 
 def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:

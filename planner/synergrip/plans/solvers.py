@@ -10,18 +10,18 @@ import numpy as np
 
 from synergrip.conic.certificate import GAP_TOLERANCE
 from synergrip.conic.decide import Decision, decide, rank
+from synergrip.conic.formulation import Units
 from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proven
-from synergrip.conic.situation import Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
-from synergrip.plans.question import Question
 
 Answerer = Callable[[Question, Program, Settings], Solution]
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from synergrip.conic.certificate import SHARP
 from synergrip.conic.decide import Decision
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.situation import Situation
+from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
-from synergrip.plans.question import Question
 from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.solvers import Answerer, ask
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array
 from synergrip.plans.instants import bend_of
 from synergrip.plans.told import (

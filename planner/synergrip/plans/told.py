@@ -10,10 +10,10 @@ import numpy as np
 from synergrip.conic.limits.limit import Usage
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.between import Between
 from synergrip.plans.outcome import Check
 from synergrip.plans.verified import LIMIT
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 
 AXES = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")

@@ -9,8 +9,8 @@ import numpy as np
 from synergrip.conic.limits.object_error import AXES, axis_weights
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
 from synergrip.linalg import RANK_TOLERANCE, Array, frozen, split
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.statics.twists import describe_displacement
 

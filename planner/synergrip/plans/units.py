@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation, Units
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.friction_cone import cone_unit
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.situation import Situation, Units
 from synergrip.linalg import Array, split
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
 
 

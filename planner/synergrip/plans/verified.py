@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Usage
-from synergrip.conic.situation import Situation
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
 from synergrip.plans.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.between import Between, between
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start, forward, largest_term
 
 EXACT = 1e-8

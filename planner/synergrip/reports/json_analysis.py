@@ -7,8 +7,8 @@ from typing import Any
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.accuracy import accuracy_notes
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.told import structure_document
+from synergrip.statics.analysis import Analysis
 
 
 def analysis_document(analysis: Analysis) -> dict[str, Any]:

@@ -9,10 +9,10 @@ import numpy as np
 
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.plans.accuracy import accuracy_notes
-from synergrip.plans.analysis import Analysis, analyse
 from synergrip.plans.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import problem_lines
+from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.twists import describe_twist
 
 WIDTH = 120

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array
 
 

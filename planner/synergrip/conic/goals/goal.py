@@ -8,8 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine, Situation
 from synergrip.conic.rows import Earlier, Rows
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 
 
 @dataclass(frozen=True)

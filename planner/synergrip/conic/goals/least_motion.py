@@ -8,9 +8,9 @@ from typing import Literal, Self
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective, Squares, squares_of
 from synergrip.conic.rows import Earlier, Rows
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 
 STIFFEST, SOFTER = 1e6, 1e4

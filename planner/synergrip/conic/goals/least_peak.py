@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
 from synergrip.conic.rows import Kind, Rows, items_of
-from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
 
 

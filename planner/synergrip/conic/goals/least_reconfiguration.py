@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 
 
 @dataclass(frozen=True)

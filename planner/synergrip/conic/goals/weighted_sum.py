@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 from synergrip.linalg import frozen
 
 

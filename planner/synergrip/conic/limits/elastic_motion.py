@@ -8,10 +8,10 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine, Situation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import norm_usage
 from synergrip.conic.rows import Rows, norm_within
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 

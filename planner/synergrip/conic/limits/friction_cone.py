@@ -8,9 +8,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Kind, Rows, items_of
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion, largest_term
 

@@ -8,10 +8,10 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 

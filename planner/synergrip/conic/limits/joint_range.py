@@ -8,9 +8,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine, Situation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 

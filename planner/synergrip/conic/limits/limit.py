@@ -8,8 +8,8 @@ from typing import Literal, Protocol
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine, Situation
 from synergrip.conic.rows import Rows
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 

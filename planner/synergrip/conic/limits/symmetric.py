@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.rows import Rows, within
-from synergrip.conic.situation import Affine
 from synergrip.linalg import Array, frozen
 
 

@@ -13,21 +13,21 @@ from functools import partial
 
 import numpy as np
 
-from synergrip.conic.bend import Looks
+from synergrip.conic.formulation import Situation, Units
+from synergrip.conic.intersample import Looks
 from synergrip.conic.program import Program
+from synergrip.conic.question import Question
 from synergrip.conic.rows import Item
-from synergrip.conic.situation import Situation, Units
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.goals import goals_of
-from synergrip.plans.question import Question
 from synergrip.plans.referee.formulas import friction, write_goal, write_limit
 from synergrip.plans.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
 from synergrip.plans.referee.reserve import cones_of
 from synergrip.plans.referee.wishes import followed
 from synergrip.plans.task import Task
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
 
 CLAIMS = {

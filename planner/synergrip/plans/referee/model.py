@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.formulation import Units
 from synergrip.conic.rows import Item, items_of
-from synergrip.conic.situation import Units
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response
 from synergrip.statics.motion import forces_at_start

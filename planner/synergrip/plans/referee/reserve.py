@@ -8,11 +8,11 @@ from functools import partial
 
 import numpy as np
 
-from synergrip.conic.bend import Bend, Looks
 from synergrip.conic.goals.goal import Goal
+from synergrip.conic.intersample import Bend, Looks
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.question import Question
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.question import Question
 from synergrip.plans.referee.formulas import write_goal, write_limit
 from synergrip.plans.referee.model import Cone, Expression, Model, Wish
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.linalg import RANK_TOLERANCE, SINGULAR, Array, frozen
-from synergrip.plans.analysis import Analysis
 from synergrip.reports.pictures.forces import ContactForces, contact_forces
 from synergrip.reports.pictures.steps import Unit
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.response import Response
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.problem import Problem
 from synergrip.reports.pictures.effects import Effect, effects
 from synergrip.reports.pictures.forces import places_known
@@ -23,6 +22,7 @@ from synergrip.reports.pictures.sheet import GREY, Sheet
 from synergrip.reports.pictures.solids import outline
 from synergrip.reports.pictures.steps import PLAIN
 from synergrip.reports.pictures.view import View, best_view
+from synergrip.statics.analysis import Analysis
 
 TITLE, TITLES = 0.32, 0.5  # [inch]
 ARROW = 1.6

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.linalg import Array
-from synergrip.plans.analysis import Analysis
 from synergrip.plans.problem import Problem
 from synergrip.reports.pictures.layout import MOST
 from synergrip.reports.text_problem import many
+from synergrip.statics.analysis import Analysis
 
 PER_TORQUE = "rad/(N\u00a0m)"
 """Kept on one line."""

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from synergrip.conic.build import build
 from synergrip.conic.certificate import SHARP
+from synergrip.conic.formulation import Situation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
-from synergrip.conic.situation import Situation
 
 
 @dataclass(frozen=True)

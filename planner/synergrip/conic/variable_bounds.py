@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from synergrip.conic.formulation import Affine, Situation
 from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.situation import Affine, Situation
 from synergrip.linalg import Array, split
 
 LARGEST = 1e6

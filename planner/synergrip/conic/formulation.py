@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.bend import Bend
+from synergrip.conic.intersample import Bend
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
