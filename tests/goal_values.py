@@ -7,7 +7,7 @@ from elastic_grasp import Course, length_of, normal_forces, slip_margins
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.plans.task import GoalName, Task
+from synergrip.tasks.task import GoalName, Task
 
 
 def goal_value(name: GoalName, grasp: Grasp, task: Task, found: Course, units: tuple[float, float] = (1, 1)) -> float:

@@ -22,8 +22,8 @@ from synergrip.linalg import Array
 from synergrip.plans.check import judge_references
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.references import read_references
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import write_outcome
 

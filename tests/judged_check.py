@@ -21,8 +21,8 @@ from synergrip.plans.check import judge_references
 from synergrip.plans.digest import unchanged
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.references import references_of
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 
 SHARE = 0.05

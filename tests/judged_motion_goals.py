@@ -32,8 +32,8 @@ from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
-from synergrip.plans.task import GoalName, Task
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.task import GoalName, Task
 
 GOALS: tuple[GoalName, ...] = ("references", "travel", "smooth")
 SAME = 1e-4

@@ -26,7 +26,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Outcome, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.task import Task
+from synergrip.tasks.task import Task
 
 CAPS = (1.0, 1e3, 1e6, 1e9)
 LOADS = (1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6)

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from synergrip.documents.time_table import MOTION
 from synergrip.grasps.objects import Box, Object, Shape, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.task_file import TaskTable
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
 SHIFT = np.array([0.3, -0.1, 0.2])

@@ -20,10 +20,10 @@ from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.plans.solvers import SOLVERS, ask
-from synergrip.plans.task import GoalName, Task, Wanted, still
-from synergrip.plans.tracking import rigid_coordinates
-from synergrip.plans.units import units_of
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.scaling import units_of
+from synergrip.tasks.task import GoalName, Task, Wanted, still
+from synergrip.tasks.tracking import rigid_coordinates
 
 RADIUS = 0.02  # [m] of the object
 LEVER = 0.05  # [m] from a joint to its contact

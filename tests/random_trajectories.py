@@ -25,8 +25,8 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.task import GoalName, Task, Wanted, still
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.tasks.task import GoalName, Task, Wanted, still
 
 ORDERS: tuple[tuple[GoalName, ...], ...] = (
     ("effort",), ("torque",), ("actuator",), ("margin",), ("peak_force",), ("references",), ("travel",), ("smooth",),

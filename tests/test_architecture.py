@@ -12,7 +12,7 @@ import synergrip
 
 PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
-ROOMS = ["", "documents", "hands", "grasps", "statics", "conic", "plans", "reports", "cli"]
+ROOMS = ["", "documents", "hands", "grasps", "statics", "conic", "tasks", "problems", "plans", "reports", "cli"]
 """From left to right; "" is the ground the house stands on: errors, quantities, linear algebra, files."""
 ONLY_IN = {
     "matplotlib": {"reports/pictures/sheet.py"},

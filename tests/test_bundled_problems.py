@@ -6,7 +6,7 @@ import pytest
 
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, bundled_problems, load_problem
+from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.statics.analysis import analyse
 
 NAMES = bundled_problems()

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from synergrip.plans.reading.problem_file import problem_schema
+from synergrip.problems.problem_file import problem_schema
 
 ROOT = Path(__file__).parent.parent
 BLOCK = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
@@ -102,7 +102,7 @@ def test_every_key_of_a_problem_file_is_described() -> None:
 
 def test_the_examples_of_the_problem_file_are_in_order() -> None:
     from synergrip.documents.documents import Document, parse
-    from synergrip.plans.reading.problem_file import ProblemFile
+    from synergrip.problems.problem_file import ProblemFile
 
     text = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
     examples = [code for kind, code in BLOCK.findall(text) if kind == "toml"]
@@ -114,7 +114,7 @@ def test_the_examples_of_the_problem_file_are_in_order() -> None:
 @pytest.mark.parametrize("name", ["tripod", "pinch-hard", "barrett-ball-lift"])
 def test_every_key_of_an_answer_is_described(name: str) -> None:
     from synergrip.plans.planning import plan
-    from synergrip.plans.problem import load_problem
+    from synergrip.problems.problem import load_problem
     from synergrip.reports.json_plan import outcome_document
 
     text = (ROOT / "docs" / "answers.md").read_text(encoding="utf-8")
@@ -124,7 +124,7 @@ def test_every_key_of_an_answer_is_described(name: str) -> None:
 
 
 def test_the_singular_values_of_table_two_are_those_of_analyse() -> None:
-    from synergrip.plans.problem import load_problem
+    from synergrip.problems.problem import load_problem
     from synergrip.statics.analysis import analyse
 
     keys = {"J S": "redundancy", "part of J S that no rigid motion follows": "rigid"}

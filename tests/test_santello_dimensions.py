@@ -16,7 +16,7 @@ from paradigmatic_hand import DIGITS, JOINTS, RADIUS, hand_frames
 from scipy.spatial.transform import Rotation
 
 from synergrip.files import bundled
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.statics.analysis import analyse
 
 PROBLEMS = ("human-ball", "human-glass")

@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from synergrip.plans.outcome import Plan as Plan
     from synergrip.plans.outcome import Unknown as Unknown
     from synergrip.plans.planning import plan as plan
-    from synergrip.plans.problem import Problem as Problem
-    from synergrip.plans.problem import load_problem as load_problem
-    from synergrip.plans.task import Task as Task
+    from synergrip.problems.problem import Problem as Problem
+    from synergrip.problems.problem import load_problem as load_problem
     from synergrip.statics import coordinates as coordinates
     from synergrip.statics import respond as respond
     from synergrip.statics import subspaces as subspaces
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
+    from synergrip.tasks.task import Task as Task
 
 __version__ = "0.1.0"
 
@@ -45,8 +45,8 @@ _HOMES = {
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
     "statics.analysis": ("Analysis", "analyse"),
-    "plans.task": ("Task",),
-    "plans.problem": ("Problem", "load_problem"),
+    "tasks.task": ("Task",),
+    "problems.problem": ("Problem", "load_problem"),
     "plans.outcome": ("Plan", "Infeasible", "Unknown"),
     "plans.planning": ("plan",),
 }

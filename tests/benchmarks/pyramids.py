@@ -33,7 +33,7 @@ from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.pyramids import Comparison, compare, requested
-from synergrip.plans.task import Task, still
+from synergrip.tasks.task import Task, still
 
 FACETS = (4, 8, 16)
 Maker = Callable[[np.random.Generator], tuple[Grasp, Task]]

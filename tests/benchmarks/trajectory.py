@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from synergrip.conic.program import Program
     from synergrip.conic.question import Question
     from synergrip.conic.solution import Settings, Solution
-    from synergrip.plans.problem import Problem
+    from synergrip.problems.problem import Problem
 
 GOAL = "goal={minimise={effort=1, travel=0.001}}"
 BETWEEN = 'task.between="report"'
@@ -45,8 +45,8 @@ def child(what: str, knots: int) -> None:
     from synergrip.conic.solvers import clarabel_
     from synergrip.plans.outcome import Plan
     from synergrip.plans.planning import plan
-    from synergrip.plans.problem import load_problem
     from synergrip.plans.referee import judge as referee
+    from synergrip.problems.problem import load_problem
 
     problem = load_problem("barrett-ball-hold", [f"task.knots={knots}", GOAL, BETWEEN, LIMITS])
     small = load_problem("barrett-ball-hold", ["task.knots=3", GOAL, BETWEEN, LIMITS])

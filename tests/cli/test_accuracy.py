@@ -17,9 +17,9 @@ from synergrip.plans import planning
 from synergrip.plans.accuracy import InDoubtError, accuracy_notes
 from synergrip.plans.outcome import Plan, Unknown
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.stages import Stage
 from synergrip.plans.verified import identities, verified_plan
+from synergrip.problems.problem import load_problem
 from synergrip.statics.analysis import Analysis, analyse
 
 

@@ -10,7 +10,7 @@ import command_line
 import pytest
 
 from synergrip.plans.dimensions import dimension_table
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 run, document = partial(command_line.run, "analyse"), partial(command_line.document, "analyse")
 

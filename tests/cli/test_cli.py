@@ -24,7 +24,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.files import bundled
 from synergrip.plans import planning, solvers, verified
-from synergrip.plans.problem import bundled_problems
+from synergrip.problems.problem import bundled_problems
 from synergrip.reports import plan_files
 
 TOO_MUCH = "limits.margin=100 N"

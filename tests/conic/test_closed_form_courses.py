@@ -20,7 +20,7 @@ from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.task import GoalName, Task, Wanted, still
+from synergrip.tasks.task import GoalName, Task, Wanted, still
 
 COMPLIANCE = 1e-3  # [m/N] of each contact of the pinch: n = dz_r / COMPLIANCE
 MU, MARGIN = 0.5, 0.3

@@ -17,7 +17,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.task import Task, still
+from synergrip.tasks.task import Task, still
 
 
 def task(wrench: Array, margin: float, goal: str, *limits) -> Task:

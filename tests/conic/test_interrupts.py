@@ -11,8 +11,8 @@ from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.solvers.interrupts import interruptible
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.solvers import Answerer
+from synergrip.problems.problem import load_problem
 
 
 def test_an_interrupt_is_told_to_the_solver_and_raised_when_it_has_stopped() -> None:

@@ -17,7 +17,7 @@ from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 
 def program_of(A: list[list[float]], b: list[float], *cones: tuple[Kind, int]) -> Program:

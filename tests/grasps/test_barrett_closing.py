@@ -16,7 +16,7 @@ from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import SynergySet
 from synergrip.hands.synergies.matrix import posture
 from synergrip.linalg import Array, frozen
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 HELD = load_problem("barrett-ball-hold").held
 assert HELD is not None

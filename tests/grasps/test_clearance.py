@@ -11,7 +11,7 @@ from small_hands import hand_of, hinge, pad, slide, touching
 from synergrip.grasps.clearance import collision_notes, depth
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import frozen
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 ORIGIN = frozen(np.zeros(3))
 SHAPES: list[Shape] = [

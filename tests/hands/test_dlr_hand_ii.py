@@ -10,7 +10,7 @@ from published_hands import check_fingertip, check_frames
 
 from synergrip.hands.folder import load_hand
 from synergrip.hands.synergies.select import select
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 DEG = math.pi / 180
 FINGERS = ("thumb", "index", "middle", "ring")

@@ -11,7 +11,7 @@ from published_hands import check_frames
 from synergrip.hands.folder import load_hand
 from synergrip.hands.synergies.select import select
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 DEG = math.pi / 180
 JOINTS = ("left_proximal", "left_distal", "right_proximal", "right_distal")

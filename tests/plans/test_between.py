@@ -13,13 +13,13 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.marks import Marks
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import Task, still
+from synergrip.problems.problem import load_problem
 from synergrip.statics.motion import forward
+from synergrip.tasks.marks import Marks
+from synergrip.tasks.task import Task, still
 
 
 @dataclass(frozen=True)

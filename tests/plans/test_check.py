@@ -15,11 +15,11 @@ from synergrip.linalg import Array, frozen
 from synergrip.plans.check import Judgement, judge_references
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.references import References, read_references
-from synergrip.plans.task import Wanted
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import plan_csv, write_outcome
+from synergrip.tasks.task import Wanted
 
 TRIPOD = (
     "tripod", "goal={minimise='effort'}", "limits={margin='1 N', normal_force='20 N', joint_torque=4}",

@@ -16,9 +16,9 @@ from synergrip.plans.check import judge_references
 from synergrip.plans.claims import compared
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, bundled_problems, load_problem
 from synergrip.plans.references import read_references
 from synergrip.plans.sizes import Sizes
+from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import write_outcome
 

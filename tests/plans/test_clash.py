@@ -8,7 +8,7 @@ import pytest
 from synergrip.documents.quantities import apart
 from synergrip.plans.outcome import Infeasible
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 
 def refused(name: str, *overrides: str) -> Infeasible:

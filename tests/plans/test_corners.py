@@ -14,14 +14,14 @@ from synergrip.files import bundled
 from synergrip.linalg import Array, frozen
 from synergrip.plans.check import judge_references
 from synergrip.plans.instants import bend_of
-from synergrip.plans.marks import Marks
 from synergrip.plans.outcome import Infeasible, Plan, Unknown
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.references import References
 from synergrip.plans.solvers import SOLVERS
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.text_between import between_lines
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.marks import Marks
 
 HEADER = "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm"
 TRIPOD = bundled("problems") / "tripod.json"

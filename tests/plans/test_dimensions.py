@@ -12,7 +12,7 @@ from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.dimensions import DimensionColumn, dimension_table, with_kind
-from synergrip.plans.problem import Problem, load_problem
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics import respond, subspaces
 from synergrip.statics.analysis import analyse
 

@@ -17,8 +17,8 @@ from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.solvers import SOLVERS
+from synergrip.problems.problem import load_problem
 
 TOO_MUCH = ("limits.margin=50 N", "limits.normal_force=20 N")
 CLASHING = ("limits.normal_force=['10 N', '20 N']", "limits.joint_torque=0.001")

@@ -16,8 +16,8 @@ from synergrip.conic.solution import Settings, Solution
 from synergrip.plans.front import ROOM, front, largest
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.solvers import SOLVERS
+from synergrip.problems.problem import load_problem
 
 
 @pytest.mark.parametrize("name", ["barrett-ball-hold", "utah-mit-ball"])

@@ -18,7 +18,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import Task
+from synergrip.tasks.task import Task
 
 ORDERS = [
     ("margin", "effort", "travel"),

@@ -10,7 +10,7 @@ import pytest
 
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 FEW = ("task.knots=11", "task.between=report")
 LOAD = np.hypot(1.0, 0.2)

@@ -19,8 +19,8 @@ from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
-from synergrip.plans.task import Task, Wanted
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.task import Task, Wanted
 
 
 def moving_task(seed: int) -> tuple[Grasp, Task]:

@@ -22,12 +22,12 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import Task, still
+from synergrip.problems.problem import load_problem
 from synergrip.reports.plan_files import plan_csv
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.task import Task, still
 
 TIMES = np.array([0.0, 0.1, 0.2])
 WEIGHT = np.array([0, 0, -1.0, 0, 0, 0])

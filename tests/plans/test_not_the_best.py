@@ -19,8 +19,8 @@ from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Outcome, Plan, Unknown
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.solvers import SOLVERS
+from synergrip.problems.problem import load_problem
 
 Spoil = Callable[[Question, Solution], Solution]
 

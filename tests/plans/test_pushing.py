@@ -16,7 +16,7 @@ from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import GoalName, Task, still
+from synergrip.tasks.task import GoalName, Task, still
 
 
 def slippery(rng: np.random.Generator, grasp: Grasp) -> Grasp:

@@ -20,9 +20,9 @@ from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.pyramids import Comparison, Request, compare, requested
-from synergrip.plans.task import GoalName
+from synergrip.problems.problem import load_problem
+from synergrip.tasks.task import GoalName
 
 
 def planned(seeds: range, goal: GoalName, kinds: tuple[str, ...] = ("hard", "soft")) -> Iterator[Plan]:

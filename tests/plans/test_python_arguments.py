@@ -16,7 +16,7 @@ from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.task import Task, Wanted, still
+from synergrip.tasks.task import Task, Wanted, still
 
 TIMES = np.linspace(0.0, 1.0, 3)
 WEIGHT = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]

@@ -32,10 +32,10 @@ from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee, solve
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.stages import LOOSE
-from synergrip.plans.task import Task, still
-from synergrip.plans.tracking import rigid_coordinates
-from synergrip.plans.units import units_of
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.scaling import units_of
+from synergrip.tasks.task import Task, still
+from synergrip.tasks.tracking import rigid_coordinates
 
 REDUNDANT = (89, 130, 146, 213, 296)
 """Seeds whose reference limits force the plan to use its redundancy."""

@@ -15,8 +15,8 @@ from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.plans.planning import plan
 from synergrip.plans.referee.judge import referee
-from synergrip.plans.task import Task, Wanted, still
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.task import Task, Wanted, still
 
 
 def test_the_referee_judges_wanted_motions() -> None:

@@ -20,8 +20,8 @@ from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.reversed_normals import reversed_normals
+from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_plan import verdict_lines
 from synergrip.statics import respond

@@ -6,7 +6,7 @@ import pytest
 
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 
 STEEP = (
     'hand.posture={spread="45 deg", finger1="62 deg", finger2="71 deg", finger3="73 deg"}',

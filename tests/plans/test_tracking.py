@@ -14,11 +14,11 @@ from synergrip.grasps.scale import scale_of
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
 from synergrip.plans.refusals import refusal_certificate
-from synergrip.plans.task import Task, Wanted, still
-from synergrip.plans.tracking import rigid_coordinates
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.tasks.task import Task, Wanted, still
+from synergrip.tasks.tracking import rigid_coordinates
 
 LENGTH = 0.04
 """Characteristic length of the tripod, whose synergies lift the puck along z and twist it about z [m]."""

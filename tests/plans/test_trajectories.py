@@ -30,11 +30,11 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.referee.judge import referee
 from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.task import Task
+from synergrip.problems.problem import load_problem
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.task import Task
 
 COUNT, CHUNK = 40, 8
 ONE_FOR_ALL: dict[str, Callable[[Grasp, float], Limit]] = {

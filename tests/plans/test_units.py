@@ -19,11 +19,11 @@ from synergrip.linalg import frozen
 from synergrip.plans.check import judge_references
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.references import References
-from synergrip.plans.task import GoalName, Task, still
+from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_plan import verdict_lines
+from synergrip.tasks.task import GoalName, Task, still
 
 
 def asked(goal: GoalName, *limits: Limit, load: float = 1.0, margin: float = 0.0) -> Task:

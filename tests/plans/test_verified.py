@@ -12,10 +12,10 @@ from synergrip.errors import SelfCheckError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
 from synergrip.plans.stages import Stage
-from synergrip.plans.task import Task
 from synergrip.plans.verified import identities, verified_plan
+from synergrip.problems.problem import load_problem
+from synergrip.tasks.task import Task
 
 
 def tripod() -> Plan:

@@ -7,7 +7,7 @@ import pytest
 from synergrip.conic.limits.limit import Usage
 from synergrip.plans.between import Between
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import between_document, outcome_document
 from synergrip.reports.text_between import between_lines
 

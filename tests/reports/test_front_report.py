@@ -5,7 +5,7 @@ import pytest
 
 from synergrip.plans.front import FrontPoint
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.reports.front_report import front_text
 
 

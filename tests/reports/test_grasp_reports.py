@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_grasp import in_order_document
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_grasp import in_order_text

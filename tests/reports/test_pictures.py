@@ -23,7 +23,7 @@ from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere, Turned
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.linalg import Array, frozen
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.reports.pictures.effects import effects, squeeze_shares
 from synergrip.reports.pictures.forces import ContactForces, contact_forces, places_known
 from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
@@ -454,7 +454,7 @@ def test_another_process_draws_the_same_without_a_screen(tmp_path: Path) -> None
     code = """
 import sys
 from pathlib import Path
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.statics.analysis import analyse
 from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 assert "matplotlib" not in sys.modules

@@ -11,7 +11,7 @@ from command_line import document, run
 
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem
+from synergrip.problems.problem import load_problem
 from synergrip.reports.pictures.courses import Chart, charts
 from synergrip.reports.pictures.plan_picture import draw_plan
 

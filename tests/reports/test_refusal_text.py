@@ -1,7 +1,7 @@
 import pytest
 
 from synergrip.errors import InputError, Issue
-from synergrip.plans.reading.problem_file import read_problem_file
+from synergrip.problems.problem_file import read_problem_file
 from synergrip.reports.refusal_text import WIDTH, error_json, error_text
 
 BALL = """\

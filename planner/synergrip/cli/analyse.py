@@ -25,7 +25,7 @@ from synergrip.cli.running import (
 if TYPE_CHECKING:
     from synergrip.errors import NotRestrainedError
     from synergrip.plans.dimensions import DimensionColumn
-    from synergrip.plans.problem import Problem
+    from synergrip.problems.problem import Problem
     from synergrip.statics.analysis import Analysis
 
     Columns = tuple[DimensionColumn, DimensionColumn]
@@ -48,7 +48,7 @@ def analyse(
     with answering(form):
         from synergrip.errors import NotRestrainedError, SynergripError
         from synergrip.plans.dimensions import dimension_table
-        from synergrip.plans.problem import load_problem, located
+        from synergrip.problems.problem import load_problem, located
         from synergrip.statics.analysis import analyse as work_out
 
         picture_place(picture)

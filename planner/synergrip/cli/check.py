@@ -20,8 +20,8 @@ def check(
     with answering(form):
         from synergrip.errors import Refusal, SynergripError
         from synergrip.plans.check import judge_references
-        from synergrip.plans.problem import load_problem, located
         from synergrip.plans.references import read_references
+        from synergrip.problems.problem import load_problem, located
         from synergrip.reports.json_analysis import refused_document
         from synergrip.reports.text_check import judgement_document, judgement_text, refused_text
 

@@ -22,8 +22,8 @@ def front(
         from synergrip.plans.front import front as points_of
         from synergrip.plans.front import largest
         from synergrip.plans.outcome import Plan
-        from synergrip.plans.problem import load_problem, located
         from synergrip.plans.solvers import SOLVERS
+        from synergrip.problems.problem import load_problem, located
         from synergrip.reports.front_report import front_document, front_text
         from synergrip.reports.json_plan import outcome_document
         from synergrip.reports.text_plan import verdict_lines

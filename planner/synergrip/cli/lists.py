@@ -15,8 +15,8 @@ def problems(form: FormatOption = Format.TEXT) -> None:
     """List the bundled problems."""
     with answering(form):
         from synergrip.files import bundled
-        from synergrip.plans.problem import bundled_problems
-        from synergrip.plans.reading.problem_file import read_problem_file
+        from synergrip.problems.problem import bundled_problems
+        from synergrip.problems.problem_file import read_problem_file
         from synergrip.reports.tables import table
 
         rows = []
@@ -58,6 +58,6 @@ def _text(hand: Hand) -> str:
 def schema() -> None:
     """Print the JSON Schema of the problem file, for editors."""
     with answering(Format.TEXT):
-        from synergrip.plans.reading.problem_file import problem_schema
+        from synergrip.problems.problem_file import problem_schema
 
         say(json.dumps(problem_schema(), indent=2))

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from synergrip.plans.outcome import Outcome
-    from synergrip.plans.problem import Problem
     from synergrip.plans.solvers import Answerer
+    from synergrip.problems.problem import Problem
 
 
 def plan(
@@ -63,8 +63,8 @@ def plan(
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
         from synergrip.plans.planning import plan as make
-        from synergrip.plans.problem import load_problem
         from synergrip.plans.solvers import answerer
+        from synergrip.problems.problem import load_problem
         from synergrip.reports.json_plan import outcome_document
         from synergrip.reports.plan_files import FORMATS, refuse_place, write_outcome
         from synergrip.reports.text_plan import outcome_text
@@ -102,7 +102,7 @@ def plan(
 def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
     """Plan; an interrupt keeps what the goals so far have led to."""
     from synergrip.errors import SynergripError
-    from synergrip.plans.problem import located
+    from synergrip.problems.problem import located
 
     try:
         with heard():

@@ -8,7 +8,7 @@ from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOpti
 def validate(problem: ProblemArgument, form: FormatOption = Format.TEXT, overrides: SetOption = None) -> None:
     """Check a problem file and everything it names, without solving anything; show posture and contacts."""
     with answering(form):
-        from synergrip.plans.problem import load_problem
+        from synergrip.problems.problem import load_problem
         from synergrip.reports.json_grasp import in_order_document
         from synergrip.reports.text_grasp import in_order_text
 

@@ -10,9 +10,9 @@ from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array, interpolated
 from synergrip.plans.instants import bend_of
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
+from synergrip.tasks.task import Task
 
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""

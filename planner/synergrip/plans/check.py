@@ -13,18 +13,17 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.plans.between import Between, between
 from synergrip.plans.claims import Claims, compared
-from synergrip.plans.marks import SAME_TIME
 from synergrip.plans.outcome import Check
-from synergrip.plans.reading.knots import distinct
 from synergrip.plans.references import References
 from synergrip.plans.situated import situated
 from synergrip.plans.sizes import sizes_of
 from synergrip.plans.stated import stated
-from synergrip.plans.task import Task
-from synergrip.plans.tracking import wished
 from synergrip.plans.verified import between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
+from synergrip.tasks.marks import SAME_TIME, distinct
+from synergrip.tasks.task import Task
+from synergrip.tasks.tracking import wished
 
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""

@@ -17,7 +17,7 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 from synergrip.statics import respond, subspaces
 
 

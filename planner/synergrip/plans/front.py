@@ -11,7 +11,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.plans.outcome import Outcome, Plan
 from synergrip.plans.planning import plan
 from synergrip.plans.solvers import SOLVERS, Answerer
-from synergrip.plans.task import Task
+from synergrip.tasks.task import Task
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from dataclasses import replace
 from synergrip.conic.formulation import Situation
 from synergrip.plans.instants import bend_of
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.task import Task
 
 
 def held(task: Task, analysis: Analysis, situation: Situation, answer: Callable[[Situation], Outcome]) -> Outcome:

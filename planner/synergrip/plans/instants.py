@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from synergrip.conic.intersample import Bend, Looks, samples_for, shares
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.marks import SAME_TIME, Jump, Marks
-from synergrip.plans.task import Course, Task
-from synergrip.plans.tracking import wished
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.marks import SAME_TIME, Jump, Marks
+from synergrip.tasks.task import Course, Task
+from synergrip.tasks.tracking import wished
 
 SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""

@@ -13,9 +13,9 @@ from synergrip.conic.program import Program
 from synergrip.errors import Refusal
 from synergrip.linalg import Array
 from synergrip.plans.between import Between
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
+from synergrip.tasks.task import Task
 
 
 @dataclass(frozen=True)

@@ -19,19 +19,18 @@ from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
-from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.holding import held
 from synergrip.plans.outcome import Infeasible, Outcome, Unknown
-from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.refusals import refusal_certificate
 from synergrip.plans.reversed_normals import with_hint
 from synergrip.plans.situated import situated
 from synergrip.plans.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.plans.stages import Stage, not_the_best, through
-from synergrip.plans.task import Task
-from synergrip.plans.units import caps, grips
 from synergrip.plans.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.tasks.goals import goals_of, unasked_goals
+from synergrip.tasks.scaling import caps, grips
+from synergrip.tasks.task import Task, unbounded
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""

@@ -30,13 +30,13 @@ from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import Issue, SelfCheckError, one_of, raise_issues
 from synergrip.plans.check import judge_references
-from synergrip.plans.goals import goals_of, unasked_goals
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.references import References
 from synergrip.plans.solvers import SOLVERS, ask
 from synergrip.plans.stages import Stage, through
-from synergrip.plans.task import EFFORTS
 from synergrip.plans.verified import verified_plan
+from synergrip.tasks.goals import goals_of, unasked_goals
+from synergrip.tasks.task import EFFORTS
 
 MOST = 64
 """Facets: a pyramid of 64 is 0.12 % narrower than its cone, at most, and 64 rows for each contact and knot."""

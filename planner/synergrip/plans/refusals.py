@@ -10,9 +10,9 @@ from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrain
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
-from synergrip.plans.task import Task
-from synergrip.plans.tracking import RIGID_TOLERANCE, apart_by
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.task import Task
+from synergrip.tasks.tracking import RIGID_TOLERANCE, apart_by
 
 
 def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Certificate:

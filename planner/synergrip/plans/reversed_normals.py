@@ -14,7 +14,7 @@ from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.task import Task
+from synergrip.tasks.task import Task
 
 EVERY_SET = 5
 """Up to so many stated normals every set of them is tried; of more, each by itself, all of them, and those that point

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from synergrip.conic.formulation import Situation, situate
-from synergrip.plans.task import Task
-from synergrip.plans.tracking import followed
-from synergrip.plans.units import expected_units, units_of
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.scaling import expected_units, units_of
+from synergrip.tasks.task import Task
+from synergrip.tasks.tracking import followed
 
 
 def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:

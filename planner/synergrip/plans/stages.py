@@ -16,8 +16,8 @@ from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
-from synergrip.plans.reading.limits_table import unbounded
 from synergrip.plans.solvers import Answerer, ask
+from synergrip.tasks.task import unbounded
 
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:

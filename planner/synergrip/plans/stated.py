@@ -22,7 +22,7 @@ from synergrip.plans.told import (
     structure_document,
     usage_document,
 )
-from synergrip.plans.units import units_of
+from synergrip.tasks.scaling import units_of
 
 if TYPE_CHECKING:
     from synergrip.plans.check import Judgement

@@ -16,9 +16,9 @@ from synergrip.plans.accuracy import InDoubtError, accuracy_notes, refuse_doubtf
 from synergrip.plans.between import Between, between
 from synergrip.plans.outcome import Check, Plan
 from synergrip.plans.stages import Stage
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start, forward, largest_term
+from synergrip.tasks.task import Task
 
 EXACT = 1e-8
 """Relative tolerance of the identities: equilibrium, internal force, forward maps."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.hands.units import torque_unit
 from synergrip.plans.front import FrontPoint
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table
 from synergrip.reports.text_problem import problem_lines
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 
 
 def in_order_document(problem: Problem) -> dict[str, Any]:

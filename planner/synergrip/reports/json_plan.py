@@ -20,8 +20,8 @@ from synergrip.plans.told import (
     structure_document,
     usage_document,
 )
-from synergrip.plans.units import units_of
 from synergrip.reports.json_analysis import refusal_document
+from synergrip.tasks.scaling import units_of
 
 
 def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:

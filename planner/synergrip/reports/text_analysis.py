@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.plans.accuracy import accuracy_notes
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import problem_lines
 from synergrip.statics.analysis import Analysis, analyse

@@ -9,7 +9,6 @@ from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
 from synergrip.plans.check import Judgement
 from synergrip.plans.claims import Claims, Difference
-from synergrip.plans.problem import Problem
 from synergrip.plans.told import (
     between_document,
     check_document,
@@ -19,6 +18,7 @@ from synergrip.plans.told import (
     usage_document,
 )
 from synergrip.plans.verified import LIMIT
+from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import looked_at
 from synergrip.reports.text_plan import refused_lines, usage_rows, verdict_word

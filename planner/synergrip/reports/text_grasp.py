@@ -8,8 +8,8 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
-from synergrip.plans.problem import Problem
-from synergrip.plans.reading.setup import Held
+from synergrip.problems.holding import Held
+from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many
 

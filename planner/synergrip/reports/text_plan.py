@@ -13,9 +13,9 @@ from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.linalg import Array
 from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.problem import Problem
 from synergrip.plans.repairs import repairs
 from synergrip.plans.verified import LIMIT
+from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import between_lines
 from synergrip.reports.text_problem import many, problem_lines

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.conic.goals.centred_joints import CentredJoints
-from synergrip.plans.goals import SIMPLE
-from synergrip.plans.problem import Problem
-from synergrip.plans.task import GoalName, Task
+from synergrip.problems.problem import Problem
+from synergrip.tasks.goals import SIMPLE
+from synergrip.tasks.task import GoalName, Task
 
 
 def problem_lines(problem: Problem) -> Iterator[str]:

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.reading.loads import loads
-from synergrip.plans.reading.problem_file import read_problem_file
+from synergrip.problems.loads import loads
+from synergrip.problems.problem_file import read_problem_file
 from synergrip.reports.refusal_text import error_text
 
 INTACT = (Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml").read_text(encoding="utf-8")

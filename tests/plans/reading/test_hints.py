@@ -9,7 +9,7 @@ import pytest
 
 from synergrip.documents.quantities import EXAMPLES, UNITS, quantity
 from synergrip.errors import InputError, Issue
-from synergrip.plans.problem import Problem, load_problem
+from synergrip.problems.problem import Problem, load_problem
 
 LIFT, HOLD, PEG = "barrett-ball-lift", "barrett-ball-hold", "gripper-peg"
 

@@ -12,12 +12,12 @@ from scipy.spatial.transform import Rotation
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.inertia import uniform_tensor
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.motion_tables import PalmTable
-from synergrip.plans.reading.palm_motion import palm_motion
-from synergrip.plans.reading.profiles import Course
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.motion_tables import PalmTable
+from synergrip.problems.task_file import TaskTable
+from synergrip.tasks.inertia import uniform_tensor
+from synergrip.tasks.palm_motion import palm_motion
+from synergrip.tasks.profiles import Course
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
 SHIFT = np.array([0.3, -0.1, 0.2])

@@ -11,7 +11,7 @@ from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.errors import InputError
-from synergrip.plans.problem import Problem, load_problem
+from synergrip.problems.problem import Problem, load_problem
 
 TWO = """<robot name="r">
   <link name="palm"/><link name="left"/><link name="right"/>

@@ -15,8 +15,8 @@ from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.errors import InputError
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import load_problem, located
-from synergrip.plans.reading.problem_file import read_problem_file
+from synergrip.problems.problem import load_problem, located
+from synergrip.problems.problem_file import read_problem_file
 
 HAND = Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml"
 AXES = ("x", "y", "z", "rx", "ry", "rz")

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.reading.knots import MOVING_KNOTS
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.instants import MOVING_KNOTS
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.task_file import TaskTable
 
 WRENCH = "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm"
 MOTION = "t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad"

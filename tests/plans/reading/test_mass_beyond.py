@@ -8,7 +8,7 @@ import pytest
 from synergrip.errors import InputError
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.problem import Problem, load_problem
+from synergrip.problems.problem import Problem, load_problem
 
 SOFT = "model='soft', friction=0.6, spin_friction='8 mm', stiffness='8 N/mm', spin_stiffness='2 N m/rad'"
 PADS = f"contacts={{{SOFT}, normals='pad', at=['left/tip', 'right/tip']}}"

@@ -10,10 +10,10 @@ from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.plans.reading.motion_tables import MoveTable, PalmTable
-from synergrip.plans.reading.moves import Moves, moved
-from synergrip.plans.reading.palm_motion import palm_motion
-from synergrip.plans.reading.profiles import COURSES, Course
+from synergrip.problems.loads import moved, palm_motion
+from synergrip.problems.motion_tables import MoveTable, PalmTable
+from synergrip.tasks.moves import Moves
+from synergrip.tasks.profiles import COURSES, Course
 
 TIMES = np.linspace(0.0, 2.0, 401)
 

@@ -28,11 +28,11 @@ from synergrip.documents.time_table import MOTION, Table, read_table
 from synergrip.files import bundled
 from synergrip.grasps.objects import Sphere
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.inertia import uniform_tensor
-from synergrip.plans.reading.loads import loads
-from synergrip.plans.reading.palm_path import PalmPath, palm_path
-from synergrip.plans.reading.profiles import Course
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.loads import loads
+from synergrip.problems.task_file import TaskTable
+from synergrip.tasks.inertia import uniform_tensor
+from synergrip.tasks.palm_path import PalmPath, palm_path
+from synergrip.tasks.profiles import Course
 
 
 def _course(folder: Path, name: Any, count: int) -> None:

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from synergrip.documents.time_table import MOTION
 from synergrip.errors import InputError
-from synergrip.plans.reading.knots import MOVING_KNOTS
+from synergrip.problems.instants import MOVING_KNOTS
 
 
 def test_what_counts_is_the_motion_from_the_start_of_the_task(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.reading.contact_list import LinkPlace
-from synergrip.plans.reading.problem_file import problem_schema, read_problem_file
+from synergrip.problems.contact_list import LinkPlace
+from synergrip.problems.problem_file import problem_schema, read_problem_file
 
 DATA = Path(__file__).parent.parent.parent / "data" / "bad_inputs"
 HAND = DATA / "hand.toml"
@@ -278,6 +278,6 @@ def test_the_schema_knows_the_units():
 
 def test_reading_a_problem_needs_no_heavy_library():
     heavy = "('scipy', 'cvxpy', 'mujoco')"
-    code = f"import sys, synergrip.plans.reading.problem_file; print([m for m in {heavy} if m in sys.modules])"
+    code = f"import sys, synergrip.problems.problem_file; print([m for m in {heavy} if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

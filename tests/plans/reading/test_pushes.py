@@ -10,8 +10,8 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.task_file import TaskTable
 
 PUSH = {"force": "3 N", "direction": [0, 3, -4], "at": ["10 mm", "-20 mm", "5 cm"]}
 FORCE = np.array([0, 1.8, -2.4])

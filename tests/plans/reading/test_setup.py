@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.problem import Problem, load_problem
-from synergrip.plans.reading.setup import Held
+from synergrip.problems.holding import Held
+from synergrip.problems.problem import Problem, load_problem
 
 NAME = "barrett-ball-hold"
 PLACE = "object.position=['0 mm', '3.3453861801217856 mm', '148.83719359293873 mm']"
@@ -134,7 +134,7 @@ def test_a_stiffness_that_is_missing_is_found_at_its_link(tmp_path: Path) -> Non
     """A rigid contact with rigid joints is refused at the entry of the link."""
     from synergrip.errors import SynergripError
     from synergrip.plans.planning import plan
-    from synergrip.plans.problem import located
+    from synergrip.problems.problem import located
 
     entries = [f"{{link='finger{i}_tip', stiffness='rigid'}}" for i in (1, 2, 3)]
     overrides = [PLACE, "contacts={friction=0.6}", on_links(*entries), "hand.compliance={joint='0 rad/(N m)'}"]

@@ -10,10 +10,10 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.plans.reading.knots import MOVING_KNOTS
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.profiles import Course
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.instants import MOVING_KNOTS
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.task_file import TaskTable
+from synergrip.tasks.profiles import Course
 
 WAY = [
     {"time": "0.3 s", "position": ["0 mm", "0 mm", "10 mm"]},

@@ -21,14 +21,14 @@ from synergrip.conic.rows import Item
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.goals import goals_of
 from synergrip.plans.referee.formulas import friction, write_goal, write_limit
 from synergrip.plans.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
 from synergrip.plans.referee.reserve import cones_of
 from synergrip.plans.referee.wishes import followed
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
+from synergrip.tasks.goals import goals_of
+from synergrip.tasks.task import Task
 
 CLAIMS = {
     "optimal": Claim.OPTIMAL,

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.linalg import null_space
 
 from synergrip.linalg import Array
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.task import Task
 
 OUTSIDE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs."""

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 from synergrip.reports.pictures.effects import Effect, effects
 from synergrip.reports.pictures.forces import places_known
 from synergrip.reports.pictures.layout import COLUMN, MOST, Columns, Window, window

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.linalg import Array
-from synergrip.plans.problem import Problem
+from synergrip.problems.problem import Problem
 from synergrip.reports.pictures.layout import MOST
 from synergrip.reports.text_problem import many
 from synergrip.statics.analysis import Analysis

@@ -23,15 +23,10 @@ from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import list_misfits, torque_unit
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.limits_file import GoalTable
-from synergrip.plans.reading.problem_file import ProblemFile
+from synergrip.problems.limits_file import GoalTable
+from synergrip.problems.problem_file import ProblemFile
 
 Given = float | str | tuple[float, ...]
-
-BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
-"""Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
-MAXIMISED = "goal.maximise"
-"""The key under which the largest margin is asked for, unless it is one of several goals."""
 
 
 @dataclass(frozen=True)
@@ -129,15 +124,6 @@ class _Bounds:
 
     def synergy(self, value: Given, key: str, of_hand: Array | None = None) -> Array:
         return _each(value, self.grasp.synergies, "synergy", key, of_hand)
-
-
-def unbounded() -> InputError:
-    """Return the error of a largest margin that nothing bounds."""
-    listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
-    message = (
-        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
-    )
-    return InputError.at(MAXIMISED, message)
 
 
 def _each(value: Given, names: tuple[str, ...], what: str, key: str, of_hand: Array | None = None) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
@@ -21,11 +21,8 @@ from synergrip.documents.fields import (
     with_unit,
 )
 from synergrip.errors import Issue
+from synergrip.tasks.profiles import SHORTEST, CourseName
 
-CourseName = Literal["min-jerk", "cubic", "linear"]
-WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]
-SHORTEST = 1e-6
-"""Shortest task, and shortest way from one waypoint to the next [s]."""
 COURSE = "course in time from 0 at the start to the full value at the end"
 
 Lengths = Annotated[

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
 from synergrip.documents.fields import Axis, Force, Table, Time, Written, unit_schema, with_unit
 from synergrip.errors import Issue
-from synergrip.plans.reading.motion_tables import Lengths
+from synergrip.problems.motion_tables import Lengths
+from synergrip.tasks.pushes import PushProfile
 
-PushProfile = Literal["step", "trapezoid", "half-sine"]
 Instant = Annotated[float, Written(with_unit("time", at_least=0), unit_schema("time"))]
 
 

@@ -16,13 +16,13 @@ from synergrip.files import bundled
 from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.reading.limits_table import MAXIMISED, HandLimits, limits_of
-from synergrip.plans.reading.loads import Loads, loads
-from synergrip.plans.reading.problem_file import ProblemFile, read_problem_file
-from synergrip.plans.task import Task
+from synergrip.problems.limits_table import HandLimits, limits_of
+from synergrip.problems.loads import Loads, loads
+from synergrip.problems.problem_file import ProblemFile, read_problem_file
+from synergrip.tasks.task import MAXIMISED, Task
 
 if TYPE_CHECKING:
-    from synergrip.plans.reading.setup import Held
+    from synergrip.problems.holding import Held
 
 T = TypeVar("T")
 
@@ -139,7 +139,7 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
         matrices = path.parent / file.grasp.file
         grasp = read_given(matrices, "grasp.file")
         return _Touching(grasp, None, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
-    from synergrip.plans.reading.setup import hand_grasp
+    from synergrip.problems.holding import hand_grasp
 
     grasp, held = hand_grasp(file, path.parent)
     return _Touching(grasp, held, (*held.notes, *facing_notes(grasp.contacts)))

@@ -7,10 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import Marks
-from synergrip.plans.reading.motion_tables import PalmTable
-from synergrip.plans.reading.profiles import Course
+from synergrip.linalg import Array
+from synergrip.tasks.marks import Marks
+from synergrip.tasks.profiles import Course
 
 
 class Palm(Protocol):
@@ -95,9 +94,3 @@ def acceleration_of(point: Array, origin: Array, omega: Array, alpha: Array) -> 
     ``a + alpha x p + omega x (omega x p)``, all of it in the axes of the body (T, 3).
     """
     return np.asarray(origin + np.cross(alpha, point) + np.cross(omega, np.cross(omega, point)))
-
-
-def palm_motion(table: PalmTable, start: float, end: float) -> PalmMotion:
-    """Return the motion of the palm in a task from `start` to `end` [s]."""
-    axis, shift = table.axis or (0.0, 0.0, 1.0), table.shift or np.zeros(3)
-    return PalmMotion(frozen(axis), table.turn or 0.0, frozen(shift), Course(table.profile, start, end))

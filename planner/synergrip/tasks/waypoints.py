@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import Marks
-from synergrip.plans.reading.motion_tables import WaypointProfile, WaypointTable
-from synergrip.plans.reading.profiles import COURSES
+from synergrip.linalg import Array
+from synergrip.tasks.marks import Marks
+from synergrip.tasks.profiles import COURSES, WaypointProfile
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,11 +39,3 @@ class Waypoints:
     def marks(self) -> Marks:
         """The waypoints, and the way between them."""
         return Marks(self.times, () if self.profile == "linear" else ((float(self.times[0]), float(self.times[-1])),))
-
-
-def passing(waypoints: Sequence[WaypointTable], profile: WaypointProfile) -> Waypoints:
-    """Return the motion through one or more waypoints, from rest in the pose of the start at 0 s."""
-    poses = np.array([point.modes or (*point.position, *point.rotation) for point in waypoints])
-    start = np.zeros((1, poses.shape[1]))
-    times = [0.0, *(point.time for point in waypoints)]
-    return Waypoints(frozen(times), frozen(np.vstack([start, poses])), profile)

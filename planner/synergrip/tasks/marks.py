@@ -41,3 +41,10 @@ def together(parts: Iterable[Marks]) -> Marks:
     corners = np.concatenate([np.zeros(0), *(part.corners for part in each)])
     spans, jumps = (tuple(one for part in each for one in getattr(part, name)) for name in ("curved", "jumps"))
     return Marks(corners, spans, jumps)
+
+
+def distinct(times: Array) -> Array:
+    """Return the times in order, without those that follow another by no more than rounding."""
+    ordered = np.unique(times)
+    apart = np.diff(ordered) > SAME_TIME * max(float(ordered[-1]), 1.0)
+    return np.asarray(ordered[np.append(apart, True)])

@@ -10,8 +10,8 @@ from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
 from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import Marks
-from synergrip.plans.reading.palm_motion import Palm, marks_of
+from synergrip.tasks.marks import Marks
+from synergrip.tasks.palm_motion import Palm, marks_of
 
 KEY = "task.palm.inertia"
 LOOKS = 65

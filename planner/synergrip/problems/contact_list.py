@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from synergrip.errors import Issue, raise_issues, repeated
-from synergrip.plans.reading.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
+from synergrip.problems.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
 
 
 @dataclass(frozen=True)

@@ -8,22 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from synergrip.documents.time_table import Table
-from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import SAME_TIME
-from synergrip.plans.reading.motion_tables import SHORTEST
-from synergrip.plans.reading.palm_motion import acceleration_of
+from synergrip.tasks.palm_motion import acceleration_of
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
     from scipy.spatial.transform import Rotation
-
-KEY = "task.palm.path"
-LEAST_LINES, LEAST_LINES_WITH_INERTIA = 2, 4
-"""A cubic spline through fewer than 4 points is a parabola or a line: its acceleration is made up."""
-LARGEST_TURN = np.pi / 2
-"""From one line to the next [rad]. Beyond half a turn it would count as the smaller one the other way round, and near
-that the way between the lines is a guess; this leaves room for both."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,40 +67,13 @@ def palm_path(table: Table, start: float, end: float) -> PalmPath:
     from scipy.interpolate import CubicSpline
     from scipy.spatial.transform import Rotation
 
-    poses = CubicSpline(table.times, np.hstack([table.values[:, :3], _quaternions(_rotations(table))]))
+    poses = CubicSpline(table.times, np.hstack([table.values[:, :3], _quaternions(rotations_of(table))]))
     inside = table.times[(table.times > start) & (table.times < end)]
     upright = Rotation.from_quat(poses(start)[3:]).as_matrix()
     return PalmPath(poses, frozen([start, *inside, end]), frozen(upright))
 
 
-def judge_path(table: Table, inertia: bool) -> None:
-    """Refuse a path that does not say how the palm moves between its lines.
-
-    Raises:
-        InputError: too few lines, lines that are less than a microsecond apart, or a turn between two lines that is
-            too large to tell which way it goes.
-    """
-    if len(table.times) < (LEAST_LINES_WITH_INERTIA if inertia else LEAST_LINES):
-        needed = f"a path takes at least {LEAST_LINES} lines"
-        if inertia:
-            needed = f"the load by inertia needs accelerations, which take at least {LEAST_LINES_WITH_INERTIA} lines"
-        raise InputError.at(KEY, f"{needed} below the header, got {len(table.times)}")
-    steps, rotations = np.diff(table.times), _rotations(table)
-    if steps.min() < SHORTEST:
-        at = table.times[steps.argmin()]
-        raise InputError.at(KEY, f"lines must be at least 1 us apart; after {at:g} s it is {1e6 * steps.min():.3g} us")
-    turns = np.atleast_1d((rotations[:-1].inv() * rotations[1:]).magnitude())
-    if turns.max() > LARGEST_TURN * (1 + SAME_TIME):
-        index = int(turns.argmax())
-        message = (
-            f"the palm turns by {np.degrees(turns[index]):.3g} deg from {table.times[index]:g} s to "
-            f"{table.times[index + 1]:g} s, and which way is not clear; write lines between them, so that it is at "
-            "most 90 deg from one to the next"
-        )
-        raise InputError.at(KEY, message)
-
-
-def _rotations(table: Table) -> Rotation:
+def rotations_of(table: Table) -> Rotation:
     """Return the rotations (K,) of the palm in the frame of the file."""
     from scipy.spatial.transform import Rotation
 

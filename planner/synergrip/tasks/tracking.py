@@ -9,10 +9,10 @@ import numpy as np
 from synergrip.conic.limits.object_error import AXES, axis_weights
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
 from synergrip.linalg import RANK_TOLERANCE, Array, frozen, split
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.statics.twists import describe_displacement
+from synergrip.tasks.task import Task
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""

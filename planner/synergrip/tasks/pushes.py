@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
-from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.marks import SAME_TIME, Jump, Marks
-from synergrip.plans.reading.push_table import PushProfile, PushTable
+from synergrip.tasks.marks import SAME_TIME, Jump, Marks
 
+PushProfile = Literal["step", "trapezoid", "half-sine"]
 HALF_SINE_PARTS = 16
 """Into how many parts knots divide a half sine: straight lines between them fall short by 0.5 % of the force."""
 
@@ -67,24 +67,3 @@ class Push:
         if self.profile == "half-sine":
             return np.linspace(self.start, self.end, HALF_SINE_PARTS + 1)
         return np.array([time for _, time in self.corners])
-
-
-def pushed(table: PushTable, key: str, start: float, end: float) -> Push:
-    """Return a push in a task from `start` to `end` [s]; `key` is that of its entry, for errors.
-
-    Raises:
-        InputError: it is not over before the task, not after it began, or too short for its ramps.
-    """
-    first, last = start if table.start is None else table.start, end if table.end is None else table.end
-    if last > end + SAME_TIME * max(end, 1.0):
-        message = f"the push ends at {last:g} s, after the task, which ends at {end:g} s; change it or task.duration"
-        raise InputError.at(f"{key}.end", message)
-    if last - first <= SAME_TIME * max(end, 1.0):
-        name = "end" if table.end is not None else "start"
-        raise InputError.at(f"{key}.{name}", f"the push begins at {first:g} s and must end later, not at {last:g} s")
-    ramp = table.ramp or 0.0
-    if 2 * ramp > (last - first) * (1 + SAME_TIME):
-        message = f"two ramps of {ramp:g} s do not fit into a push of {last - first:g} s; at most half of it each"
-        raise InputError.at(f"{key}.ramp", message)
-    force = table.force * np.array(table.direction)
-    return Push(frozen(np.concatenate([force, np.cross(table.at, force)])), table.profile, first, last, ramp)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.polynomial import Polynomial
 
 from synergrip.documents.time_table import Table
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.marks import SAME_TIME, Marks, together
-from synergrip.plans.reading.motion_tables import CourseName
+from synergrip.tasks.marks import SAME_TIME, Marks, together
 
+CourseName = Literal["min-jerk", "cubic", "linear"]
+WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]
+SHORTEST = 1e-6
+"""Shortest task, and shortest way from one waypoint to the next [s]."""
 COURSES: dict[CourseName, Polynomial] = {
     "linear": Polynomial([0, 1]),
     "cubic": Polynomial([0, 0, 3, -2]),

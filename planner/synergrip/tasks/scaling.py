@@ -16,9 +16,9 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array, split
-from synergrip.plans.task import Task
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
+from synergrip.tasks.task import Task
 
 
 def units_of(analysis: Analysis, task: Task) -> Units:

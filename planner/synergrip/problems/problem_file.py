@@ -12,12 +12,12 @@ from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.matrices import MOST_CONTACTS
-from synergrip.plans.reading.contact_list import ContactSpec, contact_list
-from synergrip.plans.reading.contact_tables import ContactEntry, ContactsTable
-from synergrip.plans.reading.hand_table import GraspTable, HandTable
-from synergrip.plans.reading.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
-from synergrip.plans.reading.object_table import ObjectTable
-from synergrip.plans.reading.task_file import TaskTable
+from synergrip.problems.contact_list import ContactSpec, contact_list
+from synergrip.problems.contact_tables import ContactEntry, ContactsTable
+from synergrip.problems.hand_table import GraspTable, HandTable
+from synergrip.problems.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
+from synergrip.problems.object_table import ObjectTable
+from synergrip.problems.task_file import TaskTable
 
 
 class ProblemFile(Table):

@@ -13,7 +13,7 @@ from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.errors import InputError
-from synergrip.plans.task import EFFORTS, GoalName, Task
+from synergrip.tasks.task import EFFORTS, GoalName, Task
 
 SIMPLE: dict[GoalName, Goal] = {
     "margin": LargestMargin(),

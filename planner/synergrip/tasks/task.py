@@ -12,11 +12,11 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
-from synergrip.errors import Issue, one_of, raise_issues
+from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
-from synergrip.plans.marks import Marks
-from synergrip.plans.task_judging import limit_issues, order_issues, size_issues, times_of, word_issues, wrench_of
+from synergrip.tasks.marks import Marks
+from synergrip.tasks.task_judging import limit_issues, order_issues, size_issues, times_of, word_issues, wrench_of
 
 GoalName = Literal[
     "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
@@ -30,6 +30,11 @@ SUMS = tuple(name for name in get_args(GoalName) if name not in ("margin", "peak
 """Those that are sums of squares, and so can be weighted."""
 EFFORTS: frozenset[GoalName] = frozenset({"effort", "torque", "actuator"})
 """Those that leave no force open."""
+
+BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
+"""Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
+MAXIMISED = "goal.maximise"
+"""The key under which the largest margin is asked for, unless it is one of several goals."""
 
 
 class Course(Protocol):
@@ -146,3 +151,12 @@ class Task:
 def still(times: Array) -> Wanted:
     """Return the wish to hold the object."""
     return Wanted("hold", np.zeros((len(times), 0)))
+
+
+def unbounded() -> InputError:
+    """Return the error of a largest margin that nothing bounds."""
+    listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
+    message = (
+        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
+    )
+    return InputError.at(MAXIMISED, message)

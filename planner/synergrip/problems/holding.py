@@ -28,11 +28,11 @@ from synergrip.hands.synergies.select import select
 from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
-from synergrip.plans.reading.contact_list import ContactSpec
-from synergrip.plans.reading.hand_table import HandTable
-from synergrip.plans.reading.limits_table import HandLimits
-from synergrip.plans.reading.object_table import ObjectTable, ShapeTable
-from synergrip.plans.reading.problem_file import ProblemFile
+from synergrip.problems.contact_list import ContactSpec
+from synergrip.problems.hand_table import HandTable
+from synergrip.problems.limits_table import HandLimits
+from synergrip.problems.object_table import ObjectTable, ShapeTable
+from synergrip.problems.problem_file import ProblemFile
 
 
 @dataclass(frozen=True)

@@ -25,15 +25,9 @@ from synergrip.documents.fields import (
 from synergrip.documents.quantities import kind_of, without_unit
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, repeated
-from synergrip.plans.reading.motion_tables import (
-    SHORTEST,
-    MoveTable,
-    PalmTable,
-    WaypointProfile,
-    WaypointTable,
-    waypoint_issues,
-)
-from synergrip.plans.reading.push_table import PushTable
+from synergrip.problems.motion_tables import MoveTable, PalmTable, WaypointTable, waypoint_issues
+from synergrip.problems.push_table import PushTable
+from synergrip.tasks.profiles import SHORTEST, WaypointProfile
 
 _COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 _COMPONENT = {"anyOf": [NUMBER, unit_schema("force", "torque")]}

@@ -10,10 +10,10 @@ import numpy as np
 from synergrip.documents.time_table import Table
 from synergrip.errors import InputError, Issue
 from synergrip.linalg import Array
-from synergrip.plans.marks import SAME_TIME
-from synergrip.plans.reading.motion_tables import SHORTEST
-from synergrip.plans.reading.pushes import Push
-from synergrip.plans.reading.task_file import MOST_KNOTS, TaskTable
+from synergrip.problems.task_file import MOST_KNOTS, TaskTable
+from synergrip.tasks.marks import SAME_TIME, distinct
+from synergrip.tasks.profiles import SHORTEST
+from synergrip.tasks.pushes import Push
 
 MOVING_KNOTS = 41
 """Knots of a task that moves or turns and does not say how many."""
@@ -87,13 +87,6 @@ def _between_knots(task: TaskTable, pushes: Sequence[Push], times: Array) -> Non
             issues.setdefault(key, Issue(message, key=key))
     if issues:
         raise InputError(list(issues.values()))
-
-
-def distinct(times: Array) -> Array:
-    """Return the times in order, without those that follow another by no more than rounding."""
-    ordered = np.unique(times)
-    apart = np.diff(ordered) > SAME_TIME * max(float(ordered[-1]), 1.0)
-    return np.asarray(ordered[np.append(apart, True)])
 
 
 def cover(table: Table, times: Array, key: str) -> None:

@@ -1,1 +1,0 @@
-"""From a problem file to a grasp and a task: what may stand in it, its CSV files, and what its tables mean."""
