@@ -12,6 +12,8 @@ from pathlib import Path
 from synergrip.scratch import scratch, synced
 
 _PACKAGE = Path(__file__).resolve().parent
+_CARRIED = _PACKAGE / "bundled"
+"""Where a wheel has its data: `problems` beside this file is code."""
 _CHECKOUT = _PACKAGE.parent.parent
 IMPOSSIBLE = (errno.ENOTDIR, errno.EEXIST, errno.ENAMETOOLONG, errno.ELOOP)
 """What the system says of a path that can be no file's, whatever the disk and the rights are."""
@@ -22,8 +24,7 @@ def bundled(kind: str) -> Path:
 
     In a checkout they stand at the top of the repository; a wheel carries them inside the package.
     """
-    inside = _PACKAGE / kind
-    return inside if inside.is_dir() else _CHECKOUT / kind
+    return (_CARRIED if _CARRIED.is_dir() else _CHECKOUT) / kind
 
 
 @contextmanager

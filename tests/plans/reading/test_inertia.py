@@ -12,11 +12,10 @@ from scipy.spatial.transform import Rotation
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.problems.loads import Loads, loads
+from synergrip.problems.loads import Loads, loads, palm_motion
 from synergrip.problems.motion_tables import PalmTable
 from synergrip.problems.task_file import TaskTable
 from synergrip.tasks.inertia import uniform_tensor
-from synergrip.tasks.palm_motion import palm_motion
 from synergrip.tasks.profiles import Course
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
