@@ -31,7 +31,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.referee.judge import referee
+from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import GoalName, Task
 

@@ -12,7 +12,20 @@ import synergrip
 
 PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
-ROOMS = ["", "documents", "hands", "grasps", "statics", "conic", "tasks", "problems", "plans", "reports", "cli"]
+ROOMS = [
+    "",
+    "documents",
+    "hands",
+    "grasps",
+    "statics",
+    "conic",
+    "tasks",
+    "problems",
+    "referee",
+    "plans",
+    "reports",
+    "cli",
+]
 """From left to right; "" is the ground the house stands on: errors, quantities, linear algebra, files."""
 ONLY_IN = {
     "matplotlib": {"reports/pictures/sheet.py"},
@@ -20,7 +33,7 @@ ONLY_IN = {
     "clarabel": {"conic/solvers/clarabel_.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
-    "cvxpy": {f"plans/referee/{name}.py" for name in ("judge", "model", "formulas", "motion_formulas", "motion_goals")},
+    "cvxpy": {f"referee/{name}.py" for name in ("judge", "model", "formulas", "motion_formulas", "motion_goals")},
     "typer": {f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "synergies")},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }

@@ -45,8 +45,8 @@ def child(what: str, knots: int) -> None:
     from synergrip.conic.solvers import clarabel_
     from synergrip.plans.outcome import Plan
     from synergrip.plans.planning import plan
-    from synergrip.plans.referee import judge as referee
     from synergrip.problems.problem import load_problem
+    from synergrip.referee import judge as referee
 
     problem = load_problem("barrett-ball-hold", [f"task.knots={knots}", GOAL, BETWEEN, LIMITS])
     small = load_problem("barrett-ball-hold", ["task.knots=3", GOAL, BETWEEN, LIMITS])

@@ -29,9 +29,9 @@ from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.referee.judge import referee, solve
 from synergrip.plans.solvers import SOLVERS
 from synergrip.plans.stages import LOOSE
+from synergrip.referee.judge import referee, solve
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
 from synergrip.tasks.task import Task, still

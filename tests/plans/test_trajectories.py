@@ -30,9 +30,9 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.plans.outcome import Infeasible, Plan
 from synergrip.plans.planning import plan
-from synergrip.plans.referee.judge import referee
 from synergrip.plans.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
+from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task
 

@@ -31,7 +31,7 @@ def _clarabel(question: Question, program: Program, settings: Settings) -> Solut
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:
-    from synergrip.plans.referee import judge as referee
+    from synergrip.referee import judge as referee
 
     return referee.solve(question, program, settings)
 

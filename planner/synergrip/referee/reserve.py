@@ -13,8 +13,8 @@ from synergrip.conic.intersample import Bend, Looks
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.referee.formulas import write_goal, write_limit
-from synergrip.plans.referee.model import Cone, Expression, Model, Wish
+from synergrip.referee.formulas import write_goal, write_limit
+from synergrip.referee.model import Cone, Expression, Model, Wish
 
 Writer = Callable[[Looks, Expression | None], Model]
 """Writes a task down at any instants, with given references or any."""

@@ -10,7 +10,7 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.rows import Item, items_of
 from synergrip.linalg import Array
-from synergrip.plans.referee.model import Cone, Expression, Model
+from synergrip.referee.model import Cone, Expression, Model
 
 
 def synergy_acceleration(model: Model, limit: SynergyAcceleration) -> tuple[Cone, ...]:

@@ -21,10 +21,10 @@ from synergrip.conic.rows import Item
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.referee.formulas import friction, write_goal, write_limit
-from synergrip.plans.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
-from synergrip.plans.referee.reserve import cones_of
-from synergrip.plans.referee.wishes import followed
+from synergrip.referee.formulas import friction, write_goal, write_limit
+from synergrip.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.referee.reserve import cones_of
+from synergrip.referee.targets import followed
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
 from synergrip.tasks.goals import goals_of

@@ -7,8 +7,8 @@ import numpy as np
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
-from synergrip.plans.referee.model import Model, Wish
-from synergrip.plans.referee.motion_formulas import times_rows
+from synergrip.referee.model import Model, Wish
+from synergrip.referee.motion_formulas import times_rows
 
 
 def least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:

@@ -31,9 +31,9 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import items_of
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
-from synergrip.plans.referee.model import Cone, Expression, Model, Wish
-from synergrip.plans.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
-from synergrip.plans.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
+from synergrip.referee.model import Cone, Expression, Model, Wish
+from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
+from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
 
 
 class NotWrittenError(SynergripError, TypeError):
