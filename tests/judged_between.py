@@ -19,10 +19,10 @@ from elastic_grasp import course, normal_forces, sizes_on
 
 from synergrip.files import bundled
 from synergrip.linalg import Array
-from synergrip.plans.check import judge_references
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.references import read_references
+from synergrip.planning.check import judge_references
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.references import read_references
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import write_outcome

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from synergrip.errors import SynergripError
-from synergrip.plans.check import judge_references
-from synergrip.plans.digest import unchanged
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.references import references_of
+from synergrip.planning.check import judge_references
+from synergrip.planning.digest import unchanged
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.references import references_of
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 

@@ -29,8 +29,8 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import GoalName, Task

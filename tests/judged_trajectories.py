@@ -20,8 +20,8 @@ from random_trajectories import random_trajectory
 from synergrip.errors import SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.outcome import Infeasible, Plan, Unknown
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
+from synergrip.planning.planning import plan
 from synergrip.statics.motion import Motion, forward
 
 BETWEEN = 20

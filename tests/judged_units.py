@@ -24,8 +24,8 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Outcome, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.planning import plan
 from synergrip.tasks.task import Task
 
 CAPS = (1.0, 1e3, 1e6, 1e9)

@@ -19,7 +19,7 @@ from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
-from synergrip.plans.solvers import SOLVERS, ask
+from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
 from synergrip.tasks.task import GoalName, Task, Wanted, still

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.statics.analysis import analyse
 

@@ -113,7 +113,7 @@ def test_the_examples_of_the_problem_file_are_in_order() -> None:
 
 @pytest.mark.parametrize("name", ["tripod", "pinch-hard", "barrett-ball-lift"])
 def test_every_key_of_an_answer_is_described(name: str) -> None:
-    from synergrip.plans.planning import plan
+    from synergrip.planning.planning import plan
     from synergrip.problems.problem import load_problem
     from synergrip.reports.json_plan import outcome_document
 

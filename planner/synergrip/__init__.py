@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from synergrip.grasps.matrices import read_matrices as read_matrices
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
-    from synergrip.plans.outcome import Infeasible as Infeasible
-    from synergrip.plans.outcome import Plan as Plan
-    from synergrip.plans.outcome import Unknown as Unknown
-    from synergrip.plans.planning import plan as plan
+    from synergrip.planning.outcome import Infeasible as Infeasible
+    from synergrip.planning.outcome import Plan as Plan
+    from synergrip.planning.outcome import Unknown as Unknown
+    from synergrip.planning.planning import plan as plan
     from synergrip.problems.problem import Problem as Problem
     from synergrip.problems.problem import load_problem as load_problem
     from synergrip.statics import coordinates as coordinates
@@ -47,8 +47,8 @@ _HOMES = {
     "statics.analysis": ("Analysis", "analyse"),
     "tasks.task": ("Task",),
     "problems.problem": ("Problem", "load_problem"),
-    "plans.outcome": ("Plan", "Infeasible", "Unknown"),
-    "plans.planning": ("plan",),
+    "planning.outcome": ("Plan", "Infeasible", "Unknown"),
+    "planning.planning": ("plan",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

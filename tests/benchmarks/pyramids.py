@@ -30,9 +30,9 @@ from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.pyramids import Comparison, compare, requested
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.pyramids import Comparison, compare, requested
 from synergrip.tasks.task import Task, still
 
 FACETS = (4, 8, 16)

@@ -43,8 +43,8 @@ def child(what: str, knots: int) -> None:
     """Measure one thing in this process and print time and memory."""
     from synergrip.conic.solution import Settings
     from synergrip.conic.solvers import clarabel_
-    from synergrip.plans.outcome import Plan
-    from synergrip.plans.planning import plan
+    from synergrip.planning.outcome import Plan
+    from synergrip.planning.planning import plan
     from synergrip.problems.problem import load_problem
     from synergrip.referee import judge as referee
 
@@ -73,7 +73,7 @@ class Asked(Exception):
 
 def first_question(problem: Problem) -> Question:
     """Return the one question that planning asks of this problem, unanswered: an answer would leave memory behind."""
-    from synergrip.plans.planning import plan
+    from synergrip.planning.planning import plan
 
     def stop(question: Question, program: Program, settings: Settings) -> Solution:
         raise Asked(question)

@@ -13,12 +13,12 @@ import pytest
 
 from synergrip.files import bundled
 from synergrip.linalg import frozen
-from synergrip.plans import planning
-from synergrip.plans.accuracy import InDoubtError, accuracy_notes
-from synergrip.plans.outcome import Plan, Unknown
-from synergrip.plans.planning import plan
-from synergrip.plans.stages import Stage
-from synergrip.plans.verified import identities, verified_plan
+from synergrip.planning import planning
+from synergrip.planning.accuracy import InDoubtError, accuracy_notes
+from synergrip.planning.outcome import Plan, Unknown
+from synergrip.planning.planning import plan
+from synergrip.planning.stages import Stage
+from synergrip.planning.verified import identities, verified_plan
 from synergrip.problems.problem import load_problem
 from synergrip.statics.analysis import Analysis, analyse
 

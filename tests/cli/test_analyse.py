@@ -9,8 +9,8 @@ from pathlib import Path
 import command_line
 import pytest
 
-from synergrip.plans.dimensions import dimension_table
 from synergrip.problems.problem import load_problem
+from synergrip.statics.dimensions import dimension_table
 
 run, document = partial(command_line.run, "analyse"), partial(command_line.document, "analyse")
 
@@ -86,7 +86,7 @@ def test_the_document_holds_the_same_table(name: str) -> None:
     found = document(name, "--table")
     table = found.pop("table")
     assert found == document(name)
-    columns = dimension_table(load_problem(name))
+    columns = dimension_table(load_problem(name).grasp)
     assert [row["n_z"] for row in table] == list(range(1, found["structure"]["n_z"] + 1))
     for column in columns:
         for k, row in enumerate(table):

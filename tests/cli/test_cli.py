@@ -23,7 +23,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.files import bundled
-from synergrip.plans import planning, solvers, verified
+from synergrip.planning import planning, solvers, verified
 from synergrip.problems.problem import bundled_problems
 from synergrip.reports import plan_files
 

@@ -179,7 +179,7 @@ def interrupted(
     return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
 
 
-EARLY = ("synergrip.errors", "typer", "synergrip.plans.planning", "numpy", "scipy.sparse._base", "pydantic")
+EARLY = ("synergrip.errors", "typer", "synergrip.planning.planning", "numpy", "scipy.sparse._base", "pydantic")
 
 
 @pytest.mark.parametrize("module", EARLY)
@@ -249,8 +249,8 @@ def planning(*_):
     for _ in range(10**6):
         pass
     print("never", file=sys.stderr)
-import synergrip.plans.planning
-synergrip.plans.planning.plan = planning
+import synergrip.planning.planning
+synergrip.planning.planning.plan = planning
 """
 
 
@@ -265,8 +265,8 @@ def planning(*_):
         signal.raise_signal(signal.SIGINT)
     except BaseException:
         raise ImportError("initialization failed")
-import synergrip.plans.planning
-synergrip.plans.planning.plan = planning
+import synergrip.planning.planning
+synergrip.planning.planning.plan = planning
 """
 
 
@@ -281,8 +281,8 @@ run = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.c_char_p, ctypes.c_int, ctypes.
 run = run(("PyRun_String", ctypes.pythonapi))
 def planning(*_):
     run(b"import signal\\nsignal.raise_signal(2)\\n", 257, {"__builtins__": __builtins__}, {})
-import synergrip.plans.planning
-synergrip.plans.planning.plan = planning
+import synergrip.planning.planning
+synergrip.planning.planning.plan = planning
 """
 
 
@@ -309,7 +309,7 @@ def test_who_was_told_to_ignore_interrupts_does(tmp_path: Path) -> None:
 
 def test_an_interrupt_keeps_the_points_of_a_front_that_are_finished() -> None:
     before = """
-import synergrip.cli.front as front, synergrip.plans.front as points
+import synergrip.cli.front as front, synergrip.planning.front as points
 own = points.front
 def some(*arguments):
     for count, point in enumerate(own(*arguments)):

@@ -19,7 +19,7 @@ from scipy.linalg import subspace_angles
 
 from synergrip.hands.folder import bundled_hands, load_hand
 from synergrip.hands.synergies.synergy_file import SynergyFile, read_synergy_file
-from synergrip.plans.planning import plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.pictures import synergies as drawn_synergies
 from synergrip.reports.pictures import variance as drawn_variance

@@ -18,8 +18,8 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.planning import plan
 from synergrip.tasks.task import GoalName, Task, Wanted, still
 
 COMPLIANCE = 1e-3  # [m/N] of each contact of the pinch: n = dz_r / COMPLIANCE

@@ -15,8 +15,8 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array, frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
 from synergrip.tasks.task import Task, still
 
 

@@ -10,8 +10,8 @@ import pytest
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.solvers.interrupts import interruptible
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import Answerer
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import Answerer
 from synergrip.problems.problem import load_problem
 
 

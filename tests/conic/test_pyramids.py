@@ -32,7 +32,7 @@ from synergrip.conic.solvers import clarabel_, qpsolvers_
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, block_diagonal, frozen
-from synergrip.plans.solvers import SOLVERS, ask
+from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 
 FACETS = (3, 4, 5, 6, 8, 16)

@@ -15,8 +15,8 @@ from synergrip.conic.rows import Kind, items_of
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 
 

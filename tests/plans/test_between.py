@@ -13,9 +13,9 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.statics.motion import forward
 from synergrip.tasks.marks import Marks

@@ -12,10 +12,10 @@ import pytest
 
 from synergrip.errors import InputError, MotionDirectionError, NotRestrainedError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.check import Judgement, judge_references
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.references import References, read_references
+from synergrip.planning.check import Judgement, judge_references
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.references import References, read_references
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import plan_csv, write_outcome

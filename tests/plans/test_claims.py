@@ -12,12 +12,12 @@ import pytest
 from judged_check import accepted, altered, document_of, judged, numbers
 
 from synergrip.errors import InputError
-from synergrip.plans.check import judge_references
-from synergrip.plans.claims import compared
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.references import read_references
-from synergrip.plans.sizes import Sizes
+from synergrip.planning.check import judge_references
+from synergrip.planning.claims import compared
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.references import read_references
+from synergrip.planning.sizes import Sizes
 from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.plan_files import write_outcome

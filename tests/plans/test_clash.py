@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from synergrip.documents.quantities import apart
-from synergrip.plans.outcome import Infeasible
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 
 

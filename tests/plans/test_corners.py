@@ -12,12 +12,12 @@ from judged_between import judged
 
 from synergrip.files import bundled
 from synergrip.linalg import Array, frozen
-from synergrip.plans.check import judge_references
-from synergrip.plans.instants import bend_of
-from synergrip.plans.outcome import Infeasible, Plan, Unknown
-from synergrip.plans.planning import plan
-from synergrip.plans.references import References
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.check import judge_references
+from synergrip.planning.instants import bend_of
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
+from synergrip.planning.planning import plan
+from synergrip.planning.references import References
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.text_between import between_lines
 from synergrip.statics.analysis import analyse

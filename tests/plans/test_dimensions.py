@@ -11,10 +11,10 @@ from random_grasps import random_grasp
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.dimensions import DimensionColumn, dimension_table, with_kind
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics import respond, subspaces
 from synergrip.statics.analysis import analyse
+from synergrip.statics.dimensions import DimensionColumn, dimension_table, with_kind
 
 SOFT = ["contacts.model=soft", "contacts.spin_friction=5 mm", "contacts.spin_stiffness=2 N m/rad"]
 HARD = ["contacts.model=hard"]
@@ -41,7 +41,7 @@ def judge(column: DimensionColumn, n_z: int) -> None:
 def test_every_row_is_what_analyse_says_of_the_problem_with_that_many_synergies(name: str) -> None:
     problem = load_problem(name)
     chosen = problem.held.synergies.name
-    for column, contacts in zip(dimension_table(problem), (HARD, SOFT), strict=True):
+    for column, contacts in zip(dimension_table(problem.grasp), (HARD, SOFT), strict=True):
         judge(column, problem.grasp.n_z)
         for k, found in enumerate(numbers(column), start=1):
             changed = load_problem(name, [*contacts, f'hand.synergies={{ set = "{chosen}", first = {k} }}'])
@@ -49,18 +49,18 @@ def test_every_row_is_what_analyse_says_of_the_problem_with_that_many_synergies(
 
 
 def test_table_two_of_the_paper() -> None:
-    hard, soft = dimension_table(load_problem("table2-hard-motors"))
+    hard, soft = dimension_table(load_problem("table2-hard-motors").grasp)
     assert numbers(hard) == [(0, 0, 1), (1, 0, 1), (2, 0, 1), (3, 0, 1)]
     assert numbers(soft) == [(1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0)]
     assert not any(row.ambiguous for row in (*hard.rows, *soft.rows))
-    joints = [numbers(column)[-1] for column in dimension_table(load_problem("table2-soft-joints"))]
+    joints = [numbers(column)[-1] for column in dimension_table(load_problem("table2-soft-joints").grasp)]
     assert joints == [(3, 2, 3), (6, 1, 1)]
 
 
 @pytest.mark.parametrize(("name", "model"), [("table2-hard-motors", SOFT), ("table2-soft-motors", HARD)])
 def test_contacts_of_another_kind_have_the_rows_of_a_problem_that_has_them(name: str, model: list[str]) -> None:
     kind = contact_kind(model[0].split("=")[1])
-    formed, expected = with_kind(load_problem(name), kind), load_problem(name, model).grasp
+    formed, expected = with_kind(load_problem(name).grasp, kind), load_problem(name, model).grasp
     assert formed is not None
     assert formed.components == expected.components
     for matrix in ("G", "J", "S"):
@@ -70,7 +70,7 @@ def test_contacts_of_another_kind_have_the_rows_of_a_problem_that_has_them(name:
 @pytest.mark.parametrize("kind", ["hard", "soft"])
 def test_the_force_map_is_the_contact_motion_that_no_rigid_motion_follows(kind: str) -> None:
     """With the compliances of the table, in coordinates without units: nothing but geometry decides."""
-    grasp = with_kind(load_problem("barrett-ball-hold"), contact_kind(kind))
+    grasp = with_kind(load_problem("barrett-ball-hold").grasp, contact_kind(kind))
     assert grasp is not None
     response = respond(grasp)
     JS = (grasp.J @ grasp.S) / response.scale.force[:, None]
@@ -81,8 +81,8 @@ def test_the_force_map_is_the_contact_motion_that_no_rigid_motion_follows(kind: 
 
 def test_frictionless_contacts_are_taken_as_hard_and_soft_too() -> None:
     overrides = ["contacts.model=frictionless"]
-    table = dimension_table(load_problem("barrett-ball-hold", overrides))
-    assert [numbers(c) for c in table] == [numbers(c) for c in dimension_table(load_problem("barrett-ball-hold"))]
+    table = dimension_table(load_problem("barrett-ball-hold", overrides).grasp)
+    assert [numbers(c) for c in table] == [numbers(c) for c in dimension_table(load_problem("barrett-ball-hold").grasp)]
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -90,7 +90,7 @@ def test_random_matrices(seed: int) -> None:
     """Soft contacts become hard by leaving the spin out; compliances play no part, and the rank of J S is theirs."""
     rng = np.random.default_rng(seed)
     grasp = random_grasp(rng, ["soft"] * int(rng.integers(3, 5)), degenerate=bool(seed % 2))
-    hard, soft = dimension_table(given(grasp))
+    hard, soft = dimension_table(given(grasp).grasp)
     for column in (hard, soft):
         judge(column, grasp.n_z)
     assert numbers(soft)[-1] == subspaces(respond(grasp)).dimensions
@@ -104,7 +104,7 @@ def test_random_matrices(seed: int) -> None:
 @pytest.mark.parametrize("kinds", [["hard"] * 3, ["hard", "soft", "hard"]])
 def test_matrices_of_hard_contacts_say_nothing_of_soft_ones(kinds: list[str]) -> None:
     grasp = random_grasp(np.random.default_rng(1), kinds)
-    hard, soft = dimension_table(given(grasp))
+    hard, soft = dimension_table(given(grasp).grasp)
     judge(hard, grasp.n_z)
     assert (soft.rows, hard.reason) == ((), "")
     assert "moments about the normals" in soft.reason
@@ -112,13 +112,13 @@ def test_matrices_of_hard_contacts_say_nothing_of_soft_ones(kinds: list[str]) ->
 
 def test_matrices_of_frictionless_contacts_say_nothing_of_either() -> None:
     grasp = random_grasp(np.random.default_rng(2), ["hard"] * 3 + ["frictionless"])
-    hard, soft = dimension_table(given(grasp))
+    hard, soft = dimension_table(given(grasp).grasp)
     assert (hard.rows, soft.rows) == ((), ())
     assert "forces across the normals" in hard.reason
 
 
 def test_two_hard_contacts_do_not_restrain_what_two_soft_ones_do() -> None:
-    hard, soft = dimension_table(load_problem("pinch-soft"))
+    hard, soft = dimension_table(load_problem("pinch-soft").grasp)
     assert hard.rows == ()
     assert "rotation about the line through left and right" in hard.reason
     assert numbers(soft) == [(1, 0, 0)]
@@ -131,5 +131,5 @@ def test_a_synergy_that_hardly_moves_a_contact_is_marked(size: float, ambiguous:
     J[:, 5] *= size
     S[0, 0] = S[1, 1] = S[5, 2] = 1.0
     made = replace(grasp, J=frozen(J), S=frozen(S), C_z=frozen(np.zeros((3, 3))), synergies=("a", "b", "c"))
-    _, soft = dimension_table(given(made))
+    _, soft = dimension_table(given(made).grasp)
     assert [row.ambiguous for row in soft.rows] == [False, False, ambiguous]

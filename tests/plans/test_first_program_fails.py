@@ -15,9 +15,9 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Outcome, Plan, Unknown
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 
 TOO_MUCH = ("limits.margin=50 N", "limits.normal_force=20 N")

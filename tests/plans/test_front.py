@@ -13,10 +13,10 @@ from synergrip.cli.app import app
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
-from synergrip.plans.front import ROOM, front, largest
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.front import ROOM, front, largest
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 
 

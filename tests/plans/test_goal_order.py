@@ -15,9 +15,9 @@ from synergrip.conic.solution import Settings, Solution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.tasks.task import Task
 
 ORDERS = [

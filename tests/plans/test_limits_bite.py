@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 
 FEW = ("task.knots=11", "task.between=report")

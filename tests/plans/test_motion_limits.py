@@ -16,8 +16,8 @@ from synergrip.conic.limits.object_error import AXES, ObjectError, axis_weights
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task, Wanted

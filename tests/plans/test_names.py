@@ -20,10 +20,10 @@ from synergrip.documents.csv_cells import cells_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.situated import situated
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.situated import situated
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.reports.plan_files import plan_csv
 from synergrip.statics.analysis import analyse

@@ -17,9 +17,9 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Outcome, Plan, Unknown
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Outcome, Plan, Unknown
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 
 Spoil = Callable[[Question, Solution], Solution]

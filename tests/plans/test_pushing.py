@@ -13,9 +13,9 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.tasks.task import GoalName, Task, still
 
 

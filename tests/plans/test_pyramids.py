@@ -18,9 +18,9 @@ from synergrip.conic.solution import Claim, Solution
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.pyramids import Comparison, Request, compare, requested
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.pyramids import Comparison, Request, compare, requested
 from synergrip.problems.problem import load_problem
 from synergrip.tasks.task import GoalName
 

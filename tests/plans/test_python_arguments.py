@@ -14,8 +14,8 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.tasks.task import Task, Wanted, still
 
 TIMES = np.linspace(0.0, 1.0, 3)

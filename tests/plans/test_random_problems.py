@@ -7,9 +7,9 @@ import pytest
 from random_tasks import random_task_on_grasp
 
 from synergrip.errors import SelfCheckError
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.stages import SLACKS
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.stages import SLACKS
 from synergrip.referee.judge import RefereeAnswer, referee
 from synergrip.statics.analysis import analyse
 

@@ -27,10 +27,10 @@ from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
-from synergrip.plans.stages import LOOSE
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
+from synergrip.planning.stages import LOOSE
 from synergrip.referee.judge import referee, solve
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of

@@ -13,7 +13,7 @@ from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
-from synergrip.plans.planning import plan
+from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task, Wanted, still

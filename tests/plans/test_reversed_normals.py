@@ -18,9 +18,9 @@ from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.reversed_normals import reversed_normals
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.reversed_normals import reversed_normals
 from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_plan import verdict_lines

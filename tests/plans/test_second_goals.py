@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 
 STEEP = (

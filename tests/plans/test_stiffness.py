@@ -12,8 +12,8 @@ from random_trajectories import random_trajectory
 
 from synergrip.errors import RigidContactError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
 
 
 def test_forces_and_margins_of_a_plan_are_what_its_references_cause() -> None:

@@ -12,9 +12,9 @@ from random_tasks import hand_like_grasp
 from synergrip.errors import InputError, MotionCountError, MotionDirectionError
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.refusals import refusal_certificate
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.refusals import refusal_certificate
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.task import Task, Wanted, still

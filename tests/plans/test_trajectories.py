@@ -28,9 +28,9 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse

@@ -16,10 +16,10 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.check import judge_references
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.references import References
+from synergrip.planning.check import judge_references
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.references import References
 from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import outcome_document
 from synergrip.reports.text_plan import verdict_lines

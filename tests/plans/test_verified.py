@@ -10,10 +10,10 @@ import pytest
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.stages import Stage
-from synergrip.plans.verified import identities, verified_plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.stages import Stage
+from synergrip.planning.verified import identities, verified_plan
 from synergrip.problems.problem import load_problem
 from synergrip.tasks.task import Task
 

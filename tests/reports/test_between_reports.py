@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.plans.between import Between
-from synergrip.plans.planning import plan
+from synergrip.planning.between import Between
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.json_plan import between_document, outcome_document
 from synergrip.reports.text_between import between_lines

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synergrip.plans.front import FrontPoint
-from synergrip.plans.planning import plan
+from synergrip.planning.front import FrontPoint
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.front_report import front_text
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from synergrip.plans.planning import plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.json_grasp import in_order_document
 from synergrip.reports.json_plan import outcome_document

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from command_line import document, run
 
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.pictures.courses import Chart, charts
 from synergrip.reports.pictures.plan_picture import draw_plan

@@ -24,9 +24,9 @@ from synergrip.cli.running import (
 
 if TYPE_CHECKING:
     from synergrip.errors import NotRestrainedError
-    from synergrip.plans.dimensions import DimensionColumn
     from synergrip.problems.problem import Problem
     from synergrip.statics.analysis import Analysis
+    from synergrip.statics.dimensions import DimensionColumn
 
     Columns = tuple[DimensionColumn, DimensionColumn]
 
@@ -47,9 +47,9 @@ def analyse(
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
     with answering(form):
         from synergrip.errors import NotRestrainedError, SynergripError
-        from synergrip.plans.dimensions import dimension_table
         from synergrip.problems.problem import load_problem, located
         from synergrip.statics.analysis import analyse as work_out
+        from synergrip.statics.dimensions import dimension_table
 
         picture_place(picture)
         loaded = load_problem(problem, overrides or [])
@@ -60,7 +60,7 @@ def analyse(
             found = refusal
         except SynergripError as error:
             raise located(loaded, error) from None
-        columns = dimension_table(loaded) if table else None
+        columns = dimension_table(loaded.grasp) if table else None
         written = None
         try:
             with shown_anyway(form, lambda: _text(loaded, found, columns, None),

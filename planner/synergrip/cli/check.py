@@ -19,8 +19,8 @@ def check(
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
         from synergrip.errors import Refusal, SynergripError
-        from synergrip.plans.check import judge_references
-        from synergrip.plans.references import read_references
+        from synergrip.planning.check import judge_references
+        from synergrip.planning.references import read_references
         from synergrip.problems.problem import load_problem, located
         from synergrip.reports.json_analysis import refused_document
         from synergrip.reports.text_check import judgement_document, judgement_text, refused_text

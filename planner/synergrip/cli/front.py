@@ -19,10 +19,10 @@ def front(
     """Trade slip margin against peak force: the least peak for each margin, up to the largest (Pareto front)."""
     with answering(form):
         from synergrip.errors import SynergripError
-        from synergrip.plans.front import front as points_of
-        from synergrip.plans.front import largest
-        from synergrip.plans.outcome import Plan
-        from synergrip.plans.solvers import SOLVERS
+        from synergrip.planning.front import front as points_of
+        from synergrip.planning.front import largest
+        from synergrip.planning.outcome import Plan
+        from synergrip.planning.solvers import SOLVERS
         from synergrip.problems.problem import load_problem, located
         from synergrip.reports.front_report import front_document, front_text
         from synergrip.reports.json_plan import outcome_document

@@ -29,8 +29,8 @@ from synergrip.cli.running import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from synergrip.plans.outcome import Outcome
-    from synergrip.plans.solvers import Answerer
+    from synergrip.planning.outcome import Outcome
+    from synergrip.planning.solvers import Answerer
     from synergrip.problems.problem import Problem
 
 
@@ -62,8 +62,8 @@ def plan(
     with answering(form):
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
-        from synergrip.plans.planning import plan as make
-        from synergrip.plans.solvers import answerer
+        from synergrip.planning.planning import plan as make
+        from synergrip.planning.solvers import answerer
         from synergrip.problems.problem import load_problem
         from synergrip.reports.json_plan import outcome_document
         from synergrip.reports.plan_files import FORMATS, refuse_place, write_outcome
@@ -113,7 +113,7 @@ def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) ->
 
 def _save(outcome: Outcome, path: Path) -> None:
     """Save the program that the answer rests on: the plan's, or that of the proof."""
-    from synergrip.plans.outcome import Infeasible
+    from synergrip.planning.outcome import Infeasible
 
     program = outcome.program if isinstance(outcome, Infeasible) else outcome.decisions[-1].program
     if program is None:
@@ -125,7 +125,7 @@ def _save(outcome: Outcome, path: Path) -> None:
 
 def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
     """Draw a plan; say so when there is none."""
-    from synergrip.plans.outcome import Plan
+    from synergrip.planning.outcome import Plan
     from synergrip.reports.pictures.plan_picture import draw_plan
 
     if not isinstance(outcome, Plan):

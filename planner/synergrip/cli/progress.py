@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from synergrip.conic.program import Program
     from synergrip.conic.question import Question
     from synergrip.conic.solution import Settings, Solution
-    from synergrip.plans.solvers import Answerer
+    from synergrip.planning.solvers import Answerer
 
 LONG = 50_000
 """Rows of a program from which on it takes seconds."""

@@ -8,8 +8,8 @@ from synergrip.cli.running import heard
 from synergrip.errors import InputError
 
 if TYPE_CHECKING:
-    from synergrip.plans.outcome import Outcome
-    from synergrip.plans.pyramids import Request
+    from synergrip.planning.outcome import Outcome
+    from synergrip.planning.pyramids import Request
 
 
 def asked(facets: int | None, backend: str | None) -> Request | None:
@@ -18,7 +18,7 @@ def asked(facets: int | None, backend: str | None) -> Request | None:
         if backend is not None:
             raise InputError.at("--qp-solver", "it solves friction pyramids only; add --pyramids 8")
         return None
-    from synergrip.plans.pyramids import requested
+    from synergrip.planning.pyramids import requested
 
     return requested(facets, backend or "osqp")
 
@@ -27,8 +27,8 @@ def compared(outcome: Outcome, request: Request | None, document: dict[str, Any]
     """Return the lines that the comparison adds to the answer's text; put it into the answer's document."""
     if request is None:
         return ""
-    from synergrip.plans.outcome import Plan
-    from synergrip.plans.pyramids import compare
+    from synergrip.planning.outcome import Plan
+    from synergrip.planning.pyramids import compare
     from synergrip.reports.text_pyramids import comparison_document, comparison_lines
 
     comparison, stopped = None, isinstance(outcome, Plan) and outcome.interrupted

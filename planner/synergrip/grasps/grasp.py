@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from synergrip.errors import raise_issues
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, block_diagonal, frozen
+
+if TYPE_CHECKING:
+    from synergrip.grasps.held import Held
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,8 @@ class Grasp:
     """(6,) external wrench on the object at the start."""
     joints: tuple[str, ...]
     synergies: tuple[str, ...]
+    held: Held | None = None
+    """The hand in its posture, and the object; None for a grasp given as matrices."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a grasp file; a number as a compliance stands for that times the identity.

@@ -3,29 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.errors import InputError, Issue, one_of, raise_issues
-from synergrip.grasps.clearance import collision_notes
 from synergrip.grasps.closing import close, unknown_surface
 from synergrip.grasps.closing_direction import closing_direction
 from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.held import Held
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.grasps.placing import Touch, place
-from synergrip.hands.arm import arm_notes
-from synergrip.hands.coupling_notes import parted_notes
 from synergrip.hands.folder import load_hand
-from synergrip.hands.follower_ranges import contradictions
 from synergrip.hands.hand import Hand, Pad, SynergySet
-from synergrip.hands.synergies.matrix import posture, ranges_of_followers, stands_still
+from synergrip.hands.synergies.matrix import posture, stands_still
 from synergrip.hands.synergies.select import select
-from synergrip.hands.undriven import judge_undriven, undriven_notes, with_springs
+from synergrip.hands.undriven import judge_undriven, with_springs
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.problems.contact_list import ContactSpec
@@ -35,47 +32,8 @@ from synergrip.problems.object_table import ObjectTable, ShapeTable
 from synergrip.problems.problem_file import ProblemFile
 
 
-@dataclass(frozen=True)
-class Held:
-    """What holds the object: a hand in a posture."""
-
-    hand: Hand
-    synergies: SynergySet
-    q: Array
-    """(n_q,) joint values [rad or m]."""
-    C_q: Array
-    """(n_q, n_q) joint compliance."""
-    thing: Object
-    """The object, where it is."""
-    touches: tuple[Touch, ...]
-    """The pads that touch, in the order of the contacts."""
-    gaps: tuple[float | None, ...]
-    """Distance of each pad from the surface, > 0 outside [m]; None for an object without a shape."""
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What is doubtful about it, though it is no error."""
-        touching = [touch.pad.link for touch in self.touches]
-        read = undriven_notes(self.hand, self.synergies, self.q, self.C_q)
-        arm = arm_notes(self.hand, self.synergies, touching)
-        parted = parted_notes(self.hand, self.q)
-        ranges = contradictions(ranges_of_followers(self.hand))
-        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
-
-    @property
-    def limits(self) -> HandLimits:
-        """What the hand itself allows."""
-        torque = frozen([joint.torque_limit for joint in self.hand.joints])
-        kinds = joint_kinds(self.hand.joints)
-        unit = unit_of(kinds.values(), "rad", "m")
-        lower, upper = (frozen([getattr(joint, end) for joint in self.hand.joints]) for end in ("lower", "upper"))
-        ranges = JointRange(self.q, lower, upper, unit)
-        moved = synergy_kinds(self.synergies, kinds.values())
-        return HandLimits(torque, self.synergies.effort_limits, ranges, kinds, moved)
-
-
-def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
-    """Return the grasp, and what holds what in it.
+def hand_grasp(file: ProblemFile, folder: Path) -> Grasp:
+    """Return the grasp, which knows what holds what in it.
 
     Args:
         file: a problem file with [hand], [object] and contacts.
@@ -115,7 +73,8 @@ def hand_grasp(file: ProblemFile, folder: Path) -> tuple[Grasp, Held]:
     if direction is not None:
         q = close(hand, q, direction, thing, touches)
     placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
-    return placed.grasp, Held(hand, synergies, q, C_q, placed.thing, tuple(touches), placed.gaps)
+    held = Held(hand, synergies, q, C_q, placed.thing, tuple(touches), placed.gaps)
+    return replace(placed.grasp, held=held)
 
 
 def _judge_drives(hand: Hand, synergies: SynergySet, table: HandTable, touching: Sequence[str]) -> None:
@@ -197,3 +156,14 @@ def _diagonal(value: float | tuple[float, ...], names: tuple[str, ...], key: str
     if np.max(value) > LARGEST_COMPLIANCE:
         raise InputError.at(key, f"a compliance of {np.max(value):g} is too large")
     return frozen(np.diag(np.broadcast_to(np.asarray(value, dtype=float), (len(names),))))
+
+
+def hand_limits(held: Held) -> HandLimits:
+    """Return what the hand itself allows."""
+    torque = frozen([joint.torque_limit for joint in held.hand.joints])
+    kinds = joint_kinds(held.hand.joints)
+    unit = unit_of(kinds.values(), "rad", "m")
+    lower, upper = (frozen([getattr(joint, end) for joint in held.hand.joints]) for end in ("lower", "upper"))
+    ranges = JointRange(held.q, lower, upper, unit)
+    moved = synergy_kinds(held.synergies, kinds.values())
+    return HandLimits(torque, held.synergies.effort_limits, ranges, kinds, moved)

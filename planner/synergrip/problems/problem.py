@@ -22,7 +22,7 @@ from synergrip.problems.problem_file import ProblemFile, read_problem_file
 from synergrip.tasks.task import MAXIMISED, Task
 
 if TYPE_CHECKING:
-    from synergrip.problems.holding import Held
+    from synergrip.grasps.held import Held
 
 T = TypeVar("T")
 
@@ -37,10 +37,13 @@ class Problem:
     document: Document
     grasp: Grasp
     task: Task
-    held: Held | None
-    """The hand, its synergies and posture, and the object; None for a grasp given as matrices."""
     notes: tuple[str, ...] = ()
     """What is doubtful about the grasp, though it is no error."""
+
+    @property
+    def held(self) -> Held | None:
+        """The hand, its synergies and posture, and the object; None for a grasp given as matrices."""
+        return self.grasp.held
 
     @property
     def title(self) -> str:
@@ -84,7 +87,7 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     file, document = _read(path, overrides)
     issues: list[Issue] = []
     touching = _gather(issues, lambda: _touching(path, file))
-    thing = touching.held.thing if touching is not None and touching.held is not None else None
+    thing = touching.grasp.held.thing if touching is not None and touching.grasp.held is not None else None
     happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), thing))
     if touching is None or happening is None or issues:
         if touching is not None:
@@ -95,9 +98,9 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     except InputError as error:
         raise error.located(document.locate) from None
     grasp = touching.grasp
-    if touching.held is not None and happening.wrench is not None:
+    if grasp.held is not None and happening.wrench is not None:
         grasp = replace(grasp, w_0=frozen(happening.wrench[0]))  # a hand holds its load when the task begins
-    return Problem(path.stem, path, file, document, grasp, task, touching.held, touching.notes)
+    return Problem(path.stem, path, file, document, grasp, task, touching.notes)
 
 
 @dataclass(frozen=True)
@@ -105,12 +108,15 @@ class _Touching:
     """What touches what, and what the hand says of its limits."""
 
     grasp: Grasp
-    held: Held | None
     notes: tuple[str, ...]
 
     @property
     def limits(self) -> HandLimits:
-        return self.held.limits if self.held else HandLimits()
+        if self.grasp.held is None:
+            return HandLimits()
+        from synergrip.problems.holding import hand_limits
+
+        return hand_limits(self.grasp.held)
 
 
 def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
@@ -138,11 +144,12 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
 
         matrices = path.parent / file.grasp.file
         grasp = read_given(matrices, "grasp.file")
-        return _Touching(grasp, None, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
+        return _Touching(grasp, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
     from synergrip.problems.holding import hand_grasp
 
-    grasp, held = hand_grasp(file, path.parent)
-    return _Touching(grasp, held, (*held.notes, *facing_notes(grasp.contacts)))
+    grasp = hand_grasp(file, path.parent)
+    notes = grasp.held.notes if grasp.held else ()
+    return _Touching(grasp, (*notes, *facing_notes(grasp.contacts)))
 
 
 def _spot_notes(matrices: Path) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.hands.units import torque_unit
-from synergrip.plans.front import FrontPoint
+from synergrip.planning.front import FrontPoint
 from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table
 from synergrip.reports.text_problem import problem_lines

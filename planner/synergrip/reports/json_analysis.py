@@ -6,8 +6,8 @@ from typing import Any
 
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
-from synergrip.plans.accuracy import accuracy_notes
-from synergrip.plans.told import structure_document
+from synergrip.planning.accuracy import accuracy_notes
+from synergrip.planning.told import structure_document
 from synergrip.statics.analysis import Analysis
 
 

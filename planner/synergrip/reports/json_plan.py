@@ -7,11 +7,11 @@ from typing import Any
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
+from synergrip.explain.repairs import repairs
 from synergrip.grasps.grasp import Grasp
-from synergrip.plans.digest import with_digest
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.repairs import repairs
-from synergrip.plans.told import (
+from synergrip.planning.digest import with_digest
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.told import (
     arrays_of,
     between_document,
     check_document,

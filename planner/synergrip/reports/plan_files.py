@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from synergrip.files import refuse_unwritable_folder
-from synergrip.plans.digest import digest
-from synergrip.plans.outcome import Outcome, Plan
-from synergrip.plans.told import arrays_of, columns_of, table_of
+from synergrip.planning.digest import digest
+from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.told import arrays_of, columns_of, table_of
 from synergrip.together import refuse_others, replace_together
 
 FORMATS = ("json", "npz", "csv")

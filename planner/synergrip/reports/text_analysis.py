@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
-from synergrip.plans.accuracy import accuracy_notes
+from synergrip.planning.accuracy import accuracy_notes
 from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import problem_lines

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from synergrip.documents.quantities import SHOWN_IN, apart
-from synergrip.plans.between import Between
-from synergrip.plans.outcome import Plan
-from synergrip.plans.verified import LIMIT
+from synergrip.planning.between import Between
+from synergrip.planning.outcome import Plan
+from synergrip.planning.verified import LIMIT
 from synergrip.reports.tables import wrapped
 from synergrip.reports.text_problem import many
 

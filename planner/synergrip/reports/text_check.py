@@ -7,9 +7,9 @@ from typing import Any
 
 from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
-from synergrip.plans.check import Judgement
-from synergrip.plans.claims import Claims, Difference
-from synergrip.plans.told import (
+from synergrip.planning.check import Judgement
+from synergrip.planning.claims import Claims, Difference
+from synergrip.planning.told import (
     between_document,
     check_document,
     finite,
@@ -17,7 +17,7 @@ from synergrip.plans.told import (
     structure_document,
     usage_document,
 )
-from synergrip.plans.verified import LIMIT
+from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import looked_at

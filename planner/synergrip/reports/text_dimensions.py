@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from synergrip.plans.dimensions import DimensionColumn, Dimensions
 from synergrip.reports.tables import table, wrapped
+from synergrip.statics.dimensions import DimensionColumn, Dimensions
 
 _NAMES = ("E_s", "Γ_ucs", "Γ_zr")
 

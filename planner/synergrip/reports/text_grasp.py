@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
-from synergrip.problems.holding import Held
 from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_problem import many

@@ -11,10 +11,10 @@ import numpy as np
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.documents.quantities import SHOWN_IN, apart
+from synergrip.explain.repairs import repairs
 from synergrip.linalg import Array
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
-from synergrip.plans.repairs import repairs
-from synergrip.plans.verified import LIMIT
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.tables import table, wrapped
 from synergrip.reports.text_between import between_lines

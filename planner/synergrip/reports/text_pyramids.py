@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from synergrip.documents.quantities import apart
-from synergrip.plans.pyramids import Answer, Comparison
+from synergrip.planning.pyramids import Answer, Comparison
 from synergrip.reports.tables import wrapped
 
 LABEL = "pyramids "

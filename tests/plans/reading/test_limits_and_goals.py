@@ -13,8 +13,8 @@ from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.errors import InputError
-from synergrip.plans.outcome import Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem, located
 from synergrip.problems.problem_file import read_problem_file
 

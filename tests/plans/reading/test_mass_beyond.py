@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.plans.outcome import Infeasible, Plan
-from synergrip.plans.planning import plan
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, load_problem
 
 SOFT = "model='soft', friction=0.6, spin_friction='8 mm', stiffness='8 N/mm', spin_stiffness='2 N m/rad'"

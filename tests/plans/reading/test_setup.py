@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.problems.holding import Held
+from synergrip.grasps.held import Held
 from synergrip.problems.problem import Problem, load_problem
 
 NAME = "barrett-ball-hold"
@@ -133,7 +133,7 @@ def test_a_turned_ball_is_the_ball() -> None:
 def test_a_stiffness_that_is_missing_is_found_at_its_link(tmp_path: Path) -> None:
     """A rigid contact with rigid joints is refused at the entry of the link."""
     from synergrip.errors import SynergripError
-    from synergrip.plans.planning import plan
+    from synergrip.planning.planning import plan
     from synergrip.problems.problem import located
 
     entries = [f"{{link='finger{i}_tip', stiffness='rigid'}}" for i in (1, 2, 3)]

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.linalg import Array
-from synergrip.plans.outcome import Plan
+from synergrip.planning.outcome import Plan
 
 
 @dataclass(frozen=True)

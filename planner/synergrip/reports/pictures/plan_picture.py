@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.plans.outcome import Plan
+from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.courses import Chart, charts
 from synergrip.reports.pictures.layout import MARGIN
 from synergrip.reports.pictures.page import SPACE, UNDER, Heading

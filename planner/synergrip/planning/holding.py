@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from synergrip.conic.formulation import Situation
-from synergrip.plans.instants import bend_of
-from synergrip.plans.outcome import Infeasible, Outcome, Unknown
+from synergrip.planning.instants import bend_of
+from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.task import Task
 

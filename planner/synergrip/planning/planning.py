@@ -18,15 +18,15 @@ from synergrip.conic.relaxed import proof
 from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
-from synergrip.plans.accuracy import InDoubtError, refuse_doubtful_response
-from synergrip.plans.holding import held
-from synergrip.plans.outcome import Infeasible, Outcome, Unknown
-from synergrip.plans.refusals import refusal_certificate
-from synergrip.plans.reversed_normals import with_hint
-from synergrip.plans.situated import situated
-from synergrip.plans.solvers import SOLVERS, Answered, Answerer, ask
-from synergrip.plans.stages import Stage, not_the_best, through
-from synergrip.plans.verified import verified_plan
+from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
+from synergrip.planning.holding import held
+from synergrip.planning.outcome import Infeasible, Outcome, Unknown
+from synergrip.planning.refusals import refusal_certificate
+from synergrip.planning.reversed_normals import with_hint
+from synergrip.planning.situated import situated
+from synergrip.planning.solvers import SOLVERS, Answered, Answerer, ask
+from synergrip.planning.stages import Stage, not_the_best, through
+from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.goals import goals_of, unasked_goals
 from synergrip.tasks.scaling import caps, grips

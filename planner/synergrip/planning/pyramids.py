@@ -29,12 +29,12 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import Issue, SelfCheckError, one_of, raise_issues
-from synergrip.plans.check import judge_references
-from synergrip.plans.outcome import Check, Plan
-from synergrip.plans.references import References
-from synergrip.plans.solvers import SOLVERS, ask
-from synergrip.plans.stages import Stage, through
-from synergrip.plans.verified import verified_plan
+from synergrip.planning.check import judge_references
+from synergrip.planning.outcome import Check, Plan
+from synergrip.planning.references import References
+from synergrip.planning.solvers import SOLVERS, ask
+from synergrip.planning.stages import Stage, through
+from synergrip.planning.verified import verified_plan
 from synergrip.tasks.goals import goals_of, unasked_goals
 from synergrip.tasks.task import EFFORTS
 

@@ -12,8 +12,8 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.linalg import Array
-from synergrip.plans.instants import bend_of
-from synergrip.plans.told import (
+from synergrip.planning.instants import bend_of
+from synergrip.planning.told import (
     arrays_of,
     between_document,
     check_document,
@@ -25,7 +25,7 @@ from synergrip.plans.told import (
 from synergrip.tasks.scaling import units_of
 
 if TYPE_CHECKING:
-    from synergrip.plans.check import Judgement
+    from synergrip.planning.check import Judgement
 
 
 def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: Array) -> dict[str, Any]:

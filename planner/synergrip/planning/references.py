@@ -18,8 +18,8 @@ from synergrip.documents.documents import read_document
 from synergrip.documents.time_table import REFERENCES, TIME, read_table
 from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
-from synergrip.plans.digest import KEY as DIGEST
-from synergrip.plans.digest import digest, unchanged
+from synergrip.planning.digest import KEY as DIGEST
+from synergrip.planning.digest import digest, unchanged
 
 KEY = "PLAN"
 PER_KNOT = (

@@ -12,10 +12,10 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
-from synergrip.plans.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
-from synergrip.plans.between import Between, between
-from synergrip.plans.outcome import Check, Plan
-from synergrip.plans.stages import Stage
+from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
+from synergrip.planning.between import Between, between
+from synergrip.planning.outcome import Check, Plan
+from synergrip.planning.stages import Stage
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start, forward, largest_term
 from synergrip.tasks.task import Task

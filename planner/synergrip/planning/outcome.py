@@ -12,7 +12,7 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
 from synergrip.errors import Refusal
 from synergrip.linalg import Array
-from synergrip.plans.between import Between
+from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.task import Task

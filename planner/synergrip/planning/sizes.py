@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array
-from synergrip.plans.between import Between
+from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start
 

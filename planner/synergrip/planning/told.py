@@ -10,9 +10,9 @@ import numpy as np
 from synergrip.conic.limits.limit import Usage
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.plans.between import Between
-from synergrip.plans.outcome import Check
-from synergrip.plans.verified import LIMIT
+from synergrip.planning.between import Between
+from synergrip.planning.outcome import Check
+from synergrip.planning.verified import LIMIT
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.plans.outcome import Infeasible
+from synergrip.planning.outcome import Infeasible
 
 
 def repairs(outcome: Infeasible) -> list[dict[str, Any]]:

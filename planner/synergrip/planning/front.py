@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.grasps.grasp import Grasp
-from synergrip.plans.outcome import Outcome, Plan
-from synergrip.plans.planning import plan
-from synergrip.plans.solvers import SOLVERS, Answerer
+from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS, Answerer
 from synergrip.tasks.task import Task
 
 

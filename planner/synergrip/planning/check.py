@@ -11,14 +11,14 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.plans.between import Between, between
-from synergrip.plans.claims import Claims, compared
-from synergrip.plans.outcome import Check
-from synergrip.plans.references import References
-from synergrip.plans.situated import situated
-from synergrip.plans.sizes import sizes_of
-from synergrip.plans.stated import stated
-from synergrip.plans.verified import between_checks, identities, limit_checks, limit_usages
+from synergrip.planning.between import Between, between
+from synergrip.planning.claims import Claims, compared
+from synergrip.planning.outcome import Check
+from synergrip.planning.references import References
+from synergrip.planning.situated import situated
+from synergrip.planning.sizes import sizes_of
+from synergrip.planning.stated import stated
+from synergrip.planning.verified import between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.marks import SAME_TIME, distinct

@@ -17,7 +17,6 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen
-from synergrip.problems.problem import Problem
 from synergrip.statics import respond, subspaces
 
 
@@ -44,18 +43,18 @@ class DimensionColumn:
     """Why there are none; else empty."""
 
 
-def dimension_table(problem: Problem) -> tuple[DimensionColumn, DimensionColumn]:
-    """Return the dimensions for the first K synergies of a problem, every contact taken as hard, then as soft.
+def dimension_table(grasp: Grasp) -> tuple[DimensionColumn, DimensionColumn]:
+    """Return the dimensions for the first K synergies of a grasp, every contact taken as hard, then as soft.
 
     A grasp given as matrices has only the rows of J that it has: soft contacts become hard by leaving the spin out,
     the other way there is nothing to go by.
     """
-    hard, soft = (_column(problem, contact_kind(name)) for name in ("hard", "soft"))
+    hard, soft = (_column(grasp, contact_kind(name)) for name in ("hard", "soft"))
     return hard, soft
 
 
-def _column(problem: Problem, kind: ContactKind) -> DimensionColumn:
-    grasp = with_kind(problem, kind)
+def _column(whole: Grasp, kind: ContactKind) -> DimensionColumn:
+    grasp = with_kind(whole, kind)
     if grasp is None:
         lacking = "moments about the normals" if kind.name == "soft" else "forces across the normals"
         return DimensionColumn(kind.name, (), f"the matrices do not say how the contacts transmit {lacking}")
@@ -66,14 +65,13 @@ def _column(problem: Problem, kind: ContactKind) -> DimensionColumn:
     return DimensionColumn(kind.name, rows, "")
 
 
-def with_kind(problem: Problem, kind: ContactKind) -> Grasp | None:
-    """Return the grasp of a problem with every contact of one `kind`; None when its matrices do not hold it.
+def with_kind(grasp: Grasp, kind: ContactKind) -> Grasp | None:
+    """Return a grasp with every contact of one `kind`; None when its matrices do not hold it.
 
     Compliances are those of the module's head, and friction is of no account: the grasp is good for dimensions only.
     """
-    grasp = problem.grasp
     if any(set(kind.components) - set(contact.kind.components) for contact in grasp.contacts):
-        changed = _reformed(problem, kind)
+        changed = _reformed(grasp, kind)
         if changed is None:
             return None
     else:
@@ -100,9 +98,9 @@ def _reduced(grasp: Grasp, kind: ContactKind) -> Grasp:
     return _with(grasp, contacts, frozen(grasp.G[:, kept]), frozen(grasp.J[kept]))
 
 
-def _reformed(problem: Problem, kind: ContactKind) -> Grasp | None:
+def _reformed(grasp: Grasp, kind: ContactKind) -> Grasp | None:
     """Return the grasp formed anew from the motion of the links, G and J of (5); None without a hand."""
-    held, grasp = problem.held, problem.grasp
+    held = grasp.held
     if held is None:
         return None
     contacts: tuple[Contact, ...] = tuple(replace(contact, kind=kind) for contact in grasp.contacts)

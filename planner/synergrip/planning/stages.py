@@ -16,7 +16,7 @@ from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
-from synergrip.plans.solvers import Answerer, ask
+from synergrip.planning.solvers import Answerer, ask
 from synergrip.tasks.task import unbounded
 
 SLACKS = (1e-8, 1e-7)

@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Situation
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array, interpolated
-from synergrip.plans.instants import bend_of
+from synergrip.planning.instants import bend_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.task import Task

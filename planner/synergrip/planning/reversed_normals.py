@@ -13,7 +13,7 @@ from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.plans.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.tasks.task import Task
 
 EVERY_SET = 5

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.errors import SelfCheckError
-from synergrip.plans.outcome import Check
+from synergrip.planning.outcome import Check
 from synergrip.statics.motion import Motion, largest_term
 from synergrip.statics.response import Response
 

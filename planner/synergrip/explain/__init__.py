@@ -1,0 +1,1 @@
+"""What would make a task feasible that is not."""
