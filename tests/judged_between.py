@@ -24,8 +24,8 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.references import read_references
 from synergrip.problems.problem import Problem, load_problem
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.plan_files import write_outcome
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.plan_files import write_outcome
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 CAP, MARGIN, TOLERANCE = 40.0, 0.2, 2e-3

@@ -23,7 +23,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.references import references_of
 from synergrip.problems.problem import Problem, load_problem
-from synergrip.reports.json_plan import outcome_document
+from synergrip.reports.data.json_plan import outcome_document
 
 SHARE = 0.05
 UNCLAIMED = {"seconds", "primal_residual", "dual_residual", "error", "gap", "iterations", "attempts", "digest"}

@@ -11,7 +11,7 @@ from synergrip.documents.time_table import MODES, MOTION, WRENCH, read_table
 from synergrip.errors import InputError
 from synergrip.grasps.given import read_given
 from synergrip.problems.problem_file import read_problem_file
-from synergrip.reports.refusal_text import error_json, error_text
+from synergrip.reports.text.refusal_text import error_json, error_text
 
 
 def _table() -> ModuleType:

@@ -115,7 +115,7 @@ def test_the_examples_of_the_problem_file_are_in_order() -> None:
 def test_every_key_of_an_answer_is_described(name: str) -> None:
     from synergrip.planning.planning import plan
     from synergrip.problems.problem import load_problem
-    from synergrip.reports.json_plan import outcome_document
+    from synergrip.reports.data.json_plan import outcome_document
 
     text = (ROOT / "docs" / "answers.md").read_text(encoding="utf-8")
     problem = load_problem(name)

@@ -17,8 +17,8 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.references import References, read_references
 from synergrip.problems.problem import Problem, load_problem
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.plan_files import plan_csv, write_outcome
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.plan_files import plan_csv, write_outcome
 from synergrip.tasks.task import Wanted
 
 TRIPOD = (

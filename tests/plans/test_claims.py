@@ -19,8 +19,8 @@ from synergrip.planning.planning import plan
 from synergrip.planning.references import read_references
 from synergrip.planning.sizes import Sizes
 from synergrip.problems.problem import Problem, bundled_problems, load_problem
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.plan_files import write_outcome
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.plan_files import write_outcome
 
 
 @cache

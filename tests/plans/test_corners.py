@@ -19,7 +19,7 @@ from synergrip.planning.planning import plan
 from synergrip.planning.references import References
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import Problem, load_problem
-from synergrip.reports.text_between import between_lines
+from synergrip.reports.text.text_between import between_lines
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.marks import Marks
 

@@ -25,7 +25,7 @@ from synergrip.planning.planning import plan
 from synergrip.planning.situated import situated
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
-from synergrip.reports.plan_files import plan_csv
+from synergrip.reports.data.plan_files import plan_csv
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task, still
 

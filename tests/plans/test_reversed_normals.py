@@ -22,8 +22,8 @@ from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.reversed_normals import reversed_normals
 from synergrip.problems.problem import load_problem
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.text_plan import verdict_lines
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.text.text_plan import verdict_lines
 from synergrip.statics import respond
 
 ROWS = {"hard": 3, "soft": 4, "frictionless": 1}

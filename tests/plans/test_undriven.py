@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from synergrip import Infeasible, InputError, load_problem, plan
-from synergrip.reports.json_grasp import in_order_document
-from synergrip.reports.text_grasp import in_order_text
+from synergrip.reports.data.json_grasp import in_order_document
+from synergrip.reports.text.text_grasp import in_order_text
 
 PINCH = """<mujoco><compiler angle="degree"/><worldbody><body name="palm">
   <site name="l0" pos="0 0.030 0.010"/><site name="r0" pos="0 -0.030 0.010"/>

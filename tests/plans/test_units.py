@@ -21,8 +21,8 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.references import References
 from synergrip.problems.problem import load_problem
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.text_plan import verdict_lines
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.text.text_plan import verdict_lines
 from synergrip.tasks.task import GoalName, Task, still
 
 

@@ -8,8 +8,8 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.planning.between import Between
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
-from synergrip.reports.json_plan import between_document, outcome_document
-from synergrip.reports.text_between import between_lines
+from synergrip.reports.data.json_plan import between_document, outcome_document
+from synergrip.reports.text.text_between import between_lines
 
 
 @pytest.mark.parametrize(

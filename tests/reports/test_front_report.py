@@ -6,7 +6,7 @@ import pytest
 from synergrip.planning.front import FrontPoint
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
-from synergrip.reports.front_report import front_text
+from synergrip.reports.text.front_report import front_text
 
 
 @pytest.mark.parametrize(

@@ -13,10 +13,10 @@ import pytest
 
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, load_problem
-from synergrip.reports.json_grasp import in_order_document
-from synergrip.reports.json_plan import outcome_document
-from synergrip.reports.text_grasp import in_order_text
-from synergrip.reports.text_plan import outcome_text
+from synergrip.reports.data.json_grasp import in_order_document
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.text.text_grasp import in_order_text
+from synergrip.reports.text.text_plan import outcome_text
 
 SUNK = ("hand.posture=open", "hand.close=close", "object.position=['0 m', '3 mm', '109 mm']")
 NOTE = "the hand may collide with the ball r 50 mm"

@@ -2,7 +2,7 @@ import pytest
 
 from synergrip.errors import InputError, Issue
 from synergrip.problems.problem_file import read_problem_file
-from synergrip.reports.refusal_text import WIDTH, error_json, error_text
+from synergrip.reports.text.refusal_text import WIDTH, error_json, error_text
 
 BALL = """\
 schema = 1

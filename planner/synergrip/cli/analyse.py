@@ -75,10 +75,10 @@ def analyse(
 
 def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None, written: str | None) -> str:
     from synergrip.errors import NotRestrainedError
-    from synergrip.reports.text_analysis import analysis_text
-    from synergrip.reports.text_check import refused_text
-    from synergrip.reports.text_dimensions import dimensions_text
-    from synergrip.reports.text_problem import problem_lines
+    from synergrip.reports.text.text_analysis import analysis_text
+    from synergrip.reports.text.text_check import refused_text
+    from synergrip.reports.text.text_dimensions import dimensions_text
+    from synergrip.reports.text.text_problem import problem_lines
 
     if isinstance(found, NotRestrainedError):
         parts = [refused_text(problem, found, color())]
@@ -95,8 +95,8 @@ def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Colum
 
 def _document(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None) -> dict[str, Any]:
     from synergrip.errors import NotRestrainedError
-    from synergrip.reports.json_analysis import analysis_document, unrestrained_document
-    from synergrip.reports.text_dimensions import dimensions_document
+    from synergrip.reports.data.json_analysis import analysis_document, unrestrained_document
+    from synergrip.reports.text.text_dimensions import dimensions_document
 
     if isinstance(found, NotRestrainedError):
         document = unrestrained_document(problem.grasp, found)

@@ -22,8 +22,8 @@ def check(
         from synergrip.planning.check import judge_references
         from synergrip.planning.references import read_references
         from synergrip.problems.problem import load_problem, located
-        from synergrip.reports.json_analysis import refused_document
-        from synergrip.reports.text_check import judgement_document, judgement_text, refused_text
+        from synergrip.reports.data.json_analysis import refused_document
+        from synergrip.reports.text.text_check import judgement_document, judgement_text, refused_text
 
         loaded = load_problem(problem, overrides or [])
         try:

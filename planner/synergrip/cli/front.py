@@ -24,9 +24,9 @@ def front(
         from synergrip.planning.outcome import Plan
         from synergrip.planning.solvers import SOLVERS
         from synergrip.problems.problem import load_problem, located
-        from synergrip.reports.front_report import front_document, front_text
-        from synergrip.reports.json_plan import outcome_document
-        from synergrip.reports.text_plan import verdict_lines
+        from synergrip.reports.data.json_plan import outcome_document
+        from synergrip.reports.text.front_report import front_document, front_text
+        from synergrip.reports.text.text_plan import verdict_lines
 
         solver, loaded = telling(SOLVERS["clarabel"]), load_problem(problem, overrides or [])
         try:

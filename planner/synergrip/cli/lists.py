@@ -17,7 +17,7 @@ def problems(form: FormatOption = Format.TEXT) -> None:
         from synergrip.files import bundled
         from synergrip.problems.problem import bundled_problems
         from synergrip.problems.problem_file import read_problem_file
-        from synergrip.reports.tables import table
+        from synergrip.reports.text.tables import table
 
         rows = []
         for name in bundled_problems():

@@ -65,9 +65,9 @@ def plan(
         from synergrip.planning.planning import plan as make
         from synergrip.planning.solvers import answerer
         from synergrip.problems.problem import load_problem
-        from synergrip.reports.json_plan import outcome_document
-        from synergrip.reports.plan_files import FORMATS, refuse_place, write_outcome
-        from synergrip.reports.text_plan import outcome_text
+        from synergrip.reports.data.json_plan import outcome_document
+        from synergrip.reports.data.plan_files import FORMATS, refuse_place, write_outcome
+        from synergrip.reports.text.text_plan import outcome_text
         from synergrip.signals import held_back
 
         picture_place(picture)

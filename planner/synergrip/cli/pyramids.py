@@ -29,7 +29,7 @@ def compared(outcome: Outcome, request: Request | None, document: dict[str, Any]
         return ""
     from synergrip.planning.outcome import Plan
     from synergrip.planning.pyramids import compare
-    from synergrip.reports.text_pyramids import comparison_document, comparison_lines
+    from synergrip.reports.text.text_pyramids import comparison_document, comparison_lines
 
     comparison, stopped = None, isinstance(outcome, Plan) and outcome.interrupted
     if isinstance(outcome, Plan) and not stopped:

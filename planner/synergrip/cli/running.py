@@ -149,7 +149,7 @@ def color() -> bool:
 
 
 def _print_error(error: SynergripError, form: Format) -> None:
-    from synergrip.reports.refusal_text import error_json, error_text
+    from synergrip.reports.text.refusal_text import error_json, error_text
 
     if form is Format.JSON and not isinstance(error, PrintError):
         document = error_json(error) if isinstance(error, InputError) else _plain(error)

@@ -35,8 +35,8 @@ def fit(
         from synergrip.hands.folder import load_hand
         from synergrip.hands.synergies.fitting import fit as make
         from synergrip.hands.synergies.synergy_file import write_synergy_file
-        from synergrip.reports.json_synergies import fit_document
-        from synergrip.reports.text_fit import fit_text
+        from synergrip.reports.data.json_synergies import fit_document
+        from synergrip.reports.text.text_fit import fit_text
 
         picture_place(picture)
         loaded = load_hand(hand, key="--hand") if hand is not None else None
@@ -64,8 +64,8 @@ def list_(
         from synergrip.hands.folder import bundled_hands, load_hand
         from synergrip.hands.hand_file import FILE
         from synergrip.hands.synergies.synergy_file import SUFFIX, read_synergies, read_synergy_file
-        from synergrip.reports.json_synergies import list_document
-        from synergrip.reports.text_synergies import list_text
+        from synergrip.reports.data.json_synergies import list_document
+        from synergrip.reports.text.text_synergies import list_text
 
         if which is not None and which.endswith(SUFFIX) and Path(which).name != FILE:
             joints = read_synergy_file(Path(which), "FILE.toml").joints
@@ -91,8 +91,8 @@ def show_(
         from synergrip.hands.synergies.matrix import posture as take
         from synergrip.hands.synergies.matrix import resting
         from synergrip.hands.synergies.select import first_of, select
-        from synergrip.reports.json_synergies import show_document
-        from synergrip.reports.text_synergies import show_text
+        from synergrip.reports.data.json_synergies import show_document
+        from synergrip.reports.text.text_synergies import show_text
 
         picture_place(picture)
         loaded = load_hand(hand, key="HAND")
@@ -122,8 +122,8 @@ def compare(
         from synergrip.hands.folder import load_hand
         from synergrip.hands.synergies.angles import compare as measure
         from synergrip.hands.synergies.pairing import pair_of_files, pair_of_hand
-        from synergrip.reports.json_synergies import compare_document
-        from synergrip.reports.text_synergies import compare_text
+        from synergrip.reports.data.json_synergies import compare_document
+        from synergrip.reports.text.text_synergies import compare_text
 
         *hand, a, b = sets if 2 <= len(sets) <= 3 else _usage(sets)
         keys = ("A", "B", "--first")

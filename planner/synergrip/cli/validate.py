@@ -9,8 +9,8 @@ def validate(problem: ProblemArgument, form: FormatOption = Format.TEXT, overrid
     """Check a problem file and everything it names, without solving anything; show posture and contacts."""
     with answering(form):
         from synergrip.problems.problem import load_problem
-        from synergrip.reports.json_grasp import in_order_document
-        from synergrip.reports.text_grasp import in_order_text
+        from synergrip.reports.data.json_grasp import in_order_document
+        from synergrip.reports.text.text_grasp import in_order_text
 
         loaded = load_problem(problem, overrides or [])
         show(form, lambda: in_order_text(loaded), lambda: in_order_document(loaded))

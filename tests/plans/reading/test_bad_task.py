@@ -9,7 +9,7 @@ import pytest
 from synergrip.errors import InputError
 from synergrip.problems.loads import loads
 from synergrip.problems.problem_file import read_problem_file
-from synergrip.reports.refusal_text import error_text
+from synergrip.reports.text.refusal_text import error_text
 
 INTACT = (Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml").read_text(encoding="utf-8")
 BEFORE, AFTER = INTACT[: INTACT.index("[task]")], INTACT[INTACT.index("[limits]") :]

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.problems.problem import Problem
 from synergrip.reports.pictures.layout import MOST
-from synergrip.reports.text_problem import many
+from synergrip.reports.text.text_problem import many
 from synergrip.statics.analysis import Analysis
 
 PER_TORQUE = "rad/(N\u00a0m)"

@@ -8,7 +8,7 @@ from typing import Any
 
 from synergrip.documents.quantities import apart
 from synergrip.planning.pyramids import Answer, Comparison
-from synergrip.reports.tables import wrapped
+from synergrip.reports.text.tables import wrapped
 
 LABEL = "pyramids "
 _BELOW = " " * len(LABEL)

@@ -16,9 +16,9 @@ from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
-from synergrip.reports.tables import table, wrapped
-from synergrip.reports.text_between import between_lines
-from synergrip.reports.text_problem import many, problem_lines
+from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_between import between_lines
+from synergrip.reports.text.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
 _END = "\x1b[0m"

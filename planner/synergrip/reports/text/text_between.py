@@ -8,8 +8,8 @@ from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.verified import LIMIT
-from synergrip.reports.tables import wrapped
-from synergrip.reports.text_problem import many
+from synergrip.reports.text.tables import wrapped
+from synergrip.reports.text.text_problem import many
 
 
 def between_lines(plan: Plan) -> Iterator[str]:

@@ -10,8 +10,8 @@ import numpy as np
 from synergrip.hands.units import torque_unit
 from synergrip.planning.front import FrontPoint
 from synergrip.problems.problem import Problem
-from synergrip.reports.tables import table
-from synergrip.reports.text_problem import problem_lines
+from synergrip.reports.text.tables import table
+from synergrip.reports.text.text_problem import problem_lines
 
 
 def front_text(problem: Problem, points: Sequence[FrontPoint], interrupted: bool) -> str:

@@ -10,8 +10,8 @@ from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
 from synergrip.problems.problem import Problem
-from synergrip.reports.tables import table, wrapped
-from synergrip.reports.text_problem import many
+from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_problem import many
 
 HEADER = ("contact", "link", "kind", "point [mm]", "normal", "gap [mm]", "friction")
 

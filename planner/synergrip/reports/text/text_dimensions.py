@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from synergrip.reports.tables import table, wrapped
+from synergrip.reports.text.tables import table, wrapped
 from synergrip.statics.dimensions import DimensionColumn, Dimensions
 
 _NAMES = ("E_s", "Γ_ucs", "Γ_zr")

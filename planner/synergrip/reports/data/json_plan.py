@@ -20,7 +20,7 @@ from synergrip.planning.told import (
     structure_document,
     usage_document,
 )
-from synergrip.reports.json_analysis import refusal_document
+from synergrip.reports.data.json_analysis import refusal_document
 from synergrip.tasks.scaling import units_of
 
 

@@ -19,10 +19,10 @@ from synergrip.planning.told import (
 )
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
-from synergrip.reports.tables import table, wrapped
-from synergrip.reports.text_between import looked_at
-from synergrip.reports.text_plan import refused_lines, usage_rows, verdict_word
-from synergrip.reports.text_problem import problem_lines
+from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_between import looked_at
+from synergrip.reports.text.text_plan import refused_lines, usage_rows, verdict_word
+from synergrip.reports.text.text_problem import problem_lines
 
 
 def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) -> str:

@@ -14,7 +14,7 @@ from synergrip.hands.synergies.pairing import Pair
 from synergrip.hands.synergies.span import Span, span
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
-from synergrip.reports.tables import table, wrapped
+from synergrip.reports.text.tables import table, wrapped
 
 ABREAST = 8
 """Columns of S in one block."""

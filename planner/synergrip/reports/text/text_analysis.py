@@ -10,8 +10,8 @@ import numpy as np
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.problems.problem import Problem
-from synergrip.reports.tables import table, wrapped
-from synergrip.reports.text_problem import problem_lines
+from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_problem import problem_lines
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.twists import describe_twist
 
