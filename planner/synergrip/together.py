@@ -13,7 +13,7 @@ import shutil
 import stat
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from synergrip.files import refuse_other_than_file
@@ -41,7 +41,9 @@ def replace_together(folder: Path, names: Sequence[str], write: Callable[[Path],
             return
         if _holds_only(folder, names) and _exchanged(folder, names, write):
             return
-        with scratch(folder) as aside:
+        with ExitStack() as stack:
+            with alone_in(folder):  # else another run may be exchanging the folder just now, and what begins in it
+                aside = stack.enter_context(scratch(folder))
             new = _written(aside, write)
             with alone_in(folder):
                 _move_one_by_one(new, folder, names, aside)

@@ -18,7 +18,7 @@ from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem, located
 from synergrip.problems.problem_file import read_problem_file
 
-HAND = Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml"
+HAND = Path(__file__).parents[1] / "data" / "bad_inputs" / "hand.toml"
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 ALL_SQUARES = "{effort=1, torque=2, actuator=3, references=4, travel=5, smooth=6, centred=0.5}"
 SQUARES = {

@@ -11,7 +11,7 @@ from synergrip.errors import InputError
 from synergrip.problems.contact_list import LinkPlace
 from synergrip.problems.problem_file import problem_schema, read_problem_file
 
-DATA = Path(__file__).parent.parent.parent / "data" / "bad_inputs"
+DATA = Path(__file__).parent.parent / "data" / "bad_inputs"
 HAND = DATA / "hand.toml"
 
 

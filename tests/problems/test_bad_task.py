@@ -11,7 +11,7 @@ from synergrip.problems.loads import loads
 from synergrip.problems.problem_file import read_problem_file
 from synergrip.reports.text.refusal_text import error_text
 
-INTACT = (Path(__file__).parents[2] / "data" / "bad_inputs" / "hand.toml").read_text(encoding="utf-8")
+INTACT = (Path(__file__).parents[1] / "data" / "bad_inputs" / "hand.toml").read_text(encoding="utf-8")
 BEFORE, AFTER = INTACT[: INTACT.index("[task]")], INTACT[INTACT.index("[limits]") :]
 
 WAY = '[[task.waypoint]]\ntime = "1 s"\n'
