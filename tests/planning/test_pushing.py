@@ -9,13 +9,17 @@ import pytest
 from driven_grasp import driven, touch
 from random_tasks import random_task_on_grasp
 
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
-from synergrip.planning.solvers import SOLVERS
+from synergrip.planning.situated import situated
+from synergrip.planning.solvers import SOLVERS, ask
+from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import GoalName, Task, still
 
 
@@ -88,3 +92,19 @@ def test_little_friction_takes_a_hard_squeeze_and_no_more(mu: float, goal: GoalN
     outcome = plan(driven(fingers), task)
     assert isinstance(outcome, Plan)
     assert outcome.motion.forces[:, [0, 4]] == pytest.approx((2.943 / 2 + 0.5) / mu, rel=1e-5)
+
+
+@pytest.mark.parametrize("seed", [2, 45, 46])
+def test_a_largest_margin_in_a_unit_far_above_all_forces_is_asked_again(seed: int) -> None:
+    """Or is not called verified: what such a unit makes of the load is within the tolerances of the program."""
+    rng = np.random.default_rng(seed)
+    grasp, task = random_task_on_grasp(rng)
+    situation = situated(analyse(grasp, task.wrench), task, redundancy=task.watches_references)
+    usual = ask(Question(situation, task.kept, LargestMargin()), SOLVERS["clarabel"])
+    assert usual.decision.optimal
+    assert not usual.coarse
+    far = situation.in_units(replace(situation.units, force=1e9 * situation.force_unit))
+    found = ask(Question(far, task.kept, LargestMargin()), SOLVERS["clarabel"])
+    if found.decision.optimal:
+        margins = [each.decision.solution.x[-1] * each.question.situation.force_unit for each in (usual, found)]
+        assert abs(margins[0] - margins[1]) <= 2e-6 * situation.load_size

@@ -27,5 +27,7 @@ def test_torques_are_told_in_the_unit_of_the_joints(kinds, unit):
         held = replace(problem.held, hand=replace(hand, joints=joints))
     else:
         held = None
-    last = front_text(replace(problem, grasp=replace(problem.grasp, held=held)), [FrontPoint(0.5, 2.0, answer)], False).splitlines()[-1]
+    last = front_text(
+        replace(problem, grasp=replace(problem.grasp, held=held)), [FrontPoint(0.5, 2.0, answer)], False
+    ).splitlines()[-1]
     assert last.split("  ")[-1].strip() == f"{np.abs(answer.motion.torques).max():.4g}{unit}"

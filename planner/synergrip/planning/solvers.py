@@ -50,6 +50,8 @@ def answerer(name: str) -> Answerer:
 SMALL, NOTHING = 1e-2, 1e-12
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
 and below which a sum of squares, which is never less than 0, is as good as 0. A force is the root of that."""
+FINE, FINE_OF_FORCES = 1e-6, 1e-7
+"""How closely a largest margin is known when it is one: to a share of the load, or of the largest force with it."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
 APART = 3.0
@@ -86,10 +88,20 @@ class Answered:
         scalar = self.question.goal.objective(self.question.situation).epigraph is not None
         return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
 
+    @cached_property
+    def coarse(self) -> bool:
+        """True for a largest margin in a unit so far above all forces that its tolerances hide the forces."""
+        if not isinstance(self.question.goal, LargestMargin) or not self.decision.nearly:
+            return False
+        situation, found = self.question.situation, self.decision.certificate
+        error = situation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
+        largest = situation.response.scale.largest_force(situation.force.at(self.v))
+        return bool(error > max(FINE * situation.load_size, FINE_OF_FORCES * largest))
+
     @property
     def settled(self) -> bool:
-        """True for a verified answer; when it is an optimum, for one whose value is not small beside 1."""
-        return self.decision.certificate.verified and not (self.decision.optimal and self.small)
+        """True for a verified answer; when it is an optimum, for one that is neither small beside 1 nor coarse."""
+        return self.decision.certificate.verified and not (self.decision.optimal and (self.small or self.coarse))
 
     @property
     def place(self) -> tuple[bool, int, float]:
@@ -191,6 +203,9 @@ def _less_closely(best: Answered, solver: Answerer) -> Answered:
 
 def _beside_its_value(best: Answered) -> Answered:
     """Return the answer judged by its gap relative to a small value: what is then no optimum is not called one."""
+    if best.coarse:
+        certificate = replace(best.decision.certificate, verified=False, gap=np.inf)
+        return replace(best, decision=replace(best.decision, certificate=certificate))
     if not best.decision.optimal or not best.small:
         return best
     certificate = best.decision.certificate
