@@ -99,7 +99,7 @@ def excesses(outcome: Plan, found: Course) -> dict[str, float]:
 
     Accelerations are those of the knots; between them references are lines.
     """
-    grasp, task, unit = outcome.analysis.grasp, outcome.task, outcome.situation.force_unit
+    grasp, task, unit = outcome.analysis.grasp, outcome.task, outcome.formulation.force_unit
     rates = np.diff(found.dz_r, axis=0) / np.diff(found.times)[:, None]
     h = np.diff(task.times)[:, None]
     bends = 2 * np.diff(np.diff(outcome.motion.dz_r, axis=0) / h, axis=0) / (h[1:] + h[:-1])

@@ -86,7 +86,7 @@ def judged(seed: int) -> list[str]:
         if outcome.verdict != reference.verdict:
             told.append(f"{name}: {reference.verdict} became {outcome.verdict}")
         elif isinstance(outcome, Plan) and isinstance(reference, Plan):
-            size = max(reference.situation.load_size, float(np.abs(reference.motion.forces).max()))
+            size = max(reference.formulation.load_size, float(np.abs(reference.motion.forces).max()))
             error = abs(outcome.margins.min() / factor - reference.margins.min()) / size
             if error > SAME:
                 told.append(f"{name}: margin off by {error:.1e}")

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from synergrip.conic.formulation import situate
+from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -153,12 +153,12 @@ def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit,
 def _largest_margin(grasp: Grasp, task: Task) -> float | None:
     """The largest margin [N] of a task, by the direct path; None when the other limits cannot be kept."""
     analysis = analyse(grasp)
-    situation = situate(
+    formulation = formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
         beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
     )  # fmt: skip
-    answered = ask(Question(situation, task.limits, LargestMargin()), SOLVERS["clarabel"])
-    unit = answered.question.situation.force_unit
+    answered = ask(Question(formulation, task.limits, LargestMargin()), SOLVERS["clarabel"])
+    unit = answered.question.formulation.force_unit
     return float(answered.decision.solution.x[-1]) * unit if answered.decision.optimal else None
 
 

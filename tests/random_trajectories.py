@@ -133,10 +133,10 @@ def _limits(rng: np.random.Generator, task: Task, easy: Plan) -> tuple[Limit, ..
     bends = 2 * np.diff(rates, axis=0) / (h[1:] + h[:-1])
     scale = easy.analysis.response.scale
     elastic = np.linalg.norm(scale.twist(easy.elastic_motion), axis=1).max()
-    error = np.linalg.norm((motion.du - easy.situation.wanted) * ([1.0] * 3 + [scale.length] * 3), axis=1).max()
+    error = np.linalg.norm((motion.du - easy.formulation.wanted) * ([1.0] * 3 + [scale.length] * 3), axis=1).max()
     normal = float(motion.forces[:, grasp.normal_rows].max())
     limits: list[Limit] = [
-        NormalForce(float(rng.choice([0.0, 0.02])) * easy.situation.force_unit, normal * _more(rng)),
+        NormalForce(float(rng.choice([0.0, 0.02])) * easy.formulation.force_unit, normal * _more(rng)),
         JointTorque(_around(rng, motion.torques)),
         ActuatorEffort(_around(rng, motion.efforts)),
         SynergyReference(_around(rng, motion.dz_r)),

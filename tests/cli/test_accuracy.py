@@ -101,7 +101,7 @@ def test_references_far_larger_than_their_forces_magnify_the_error() -> None:
     assert all(check.passed for check in identities(known, outcome.motion, wanted))
     large = replace(outcome.motion, dz_r=frozen(1e3 * outcome.motion.dz_r))
     assert "response" in {check.name for check in identities(known, large, wanted) if not check.passed}
-    stage = Stage(outcome.situation, (), outcome.decisions[-1], outcome.decisions)  # type: ignore[arg-type]
+    stage = Stage(outcome.formulation, (), outcome.decisions[-1], outcome.decisions)  # type: ignore[arg-type]
     assert isinstance(verified_plan(outcome.task, known, stage, None), Plan)
     with pytest.raises(InDoubtError, match="too little to say that the limits hold"):
         verified_plan(outcome.task, inaccurate(outcome.analysis, 1e-5), stage, None)

@@ -11,7 +11,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 from small_grasps import pinch
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
@@ -33,11 +33,11 @@ class Pinned(SynergyReference):
     values: Array = field(default_factory=lambda: np.zeros(0))  # (T,) NaN where free
     key: str = "limits.pinned"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         free, end = np.isnan(self.values), self.limit[0]
         lower, upper = (np.where(free, sign * end, self.values)[:, None] for sign in (-1, 1))
-        names = situation.response.grasp.synergies
-        return within(self.key, names, situation.reference, lower, upper, np.full(1, COMPLIANCE))
+        names = formulation.response.grasp.synergies
+        return within(self.key, names, formulation.reference, lower, upper, np.full(1, COMPLIANCE))
 
     def loosened(self, share: float) -> Self:
         return self

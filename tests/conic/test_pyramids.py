@@ -12,7 +12,7 @@ from scipy import sparse
 
 from synergrip.conic.certificate import judge_optimal
 from synergrip.conic.decide import decide
-from synergrip.conic.formulation import Situation, Units, situate
+from synergrip.conic.formulation import Formulation, Units, formulate
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -88,11 +88,11 @@ def test_no_pyramid_of_fewer_facets_or_another_dimension(facets: int, dim: int) 
         pyramid(facets, dim)
 
 
-def held(grasp: Grasp) -> Situation:
-    """The situation of holding a load for one instant."""
+def held(grasp: Grasp) -> Formulation:
+    """The formulation of holding a load for one instant."""
     analysis = analyse(grasp)
     beta = np.zeros((1, analysis.spaces.Gamma_ucs.shape[1]))
-    return situate(
+    return formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=np.zeros(1), wrench=LOAD, beta=beta,
         units=Units(2.0, 1.0), redundancy=False,
     )  # fmt: skip
@@ -156,9 +156,9 @@ def test_turned_frames_change_the_pyramids_answer_and_not_the_cones() -> None:
 
 def test_only_the_cones_of_contacts_are_replaced() -> None:
     grasp = grasp_of(1)
-    situation = held(grasp)
+    formulation = held(grasp)
     names = [contact.name for contact in grasp.contacts]
-    for rows in FrictionCone(0.1).rows(situation):
+    for rows in FrictionCone(0.1).rows(formulation):
         made = inscribed(rows, names, 8)
         assert made.kind is Kind.NONNEGATIVE
         assert made.dim == 1
@@ -166,7 +166,7 @@ def test_only_the_cones_of_contacts_are_replaced() -> None:
         assert inscribed(rows, ["another"], 8) is rows
     torque = JointTorque(frozen(np.ones(grasp.n_q)))
     wrapped = limit_in_pyramids(torque, 8)
-    for one, other in zip(torque.rows(situation), wrapped.rows(situation), strict=True):
+    for one, other in zip(torque.rows(formulation), wrapped.rows(formulation), strict=True):
         assert one.items == other.items
         assert np.array_equal(one.constant, other.constant)
     assert (wrapped.key, wrapped.watches, wrapped.couples_knots) == ("limits.joint_torque", "forces", False)
@@ -196,8 +196,8 @@ def by_qp(backend: str):
 @pytest.mark.parametrize("backend", ["osqp", "clarabel", "scs"])
 @pytest.mark.parametrize("seed", range(3))
 def test_backends_find_the_optimum_that_clarabel_finds_and_its_multipliers(seed: int, backend: str) -> None:
-    situation = held(grasp_of(seed))
-    program = Question(situation, (FrictionPyramid(0.1, facets=8),), LeastEffort()).program()
+    formulation = held(grasp_of(seed))
+    program = Question(formulation, (FrictionPyramid(0.1, facets=8),), LeastEffort()).program()
     decision = decide("effort", program, by_qp(backend))
     assert decision.optimal, decision.solution.status
     expected = clarabel_.solve(program, Settings())

@@ -60,7 +60,7 @@ def worst_between(outcome: Plan, per_interval: int = 200) -> float:
     wrench = task.course.load_at(times)
     assert wrench is not None
     motion = forward(response, times, interpolated(times, task.times, outcome.motion.dz_r), wrench)
-    there = replace(outcome.situation, times=times, wrench=wrench, wanted=np.zeros((len(times), 6)))
+    there = replace(outcome.formulation, times=times, wrench=wrench, wanted=np.zeros((len(times), 6)))
     limits = [limit for limit in (FrictionCone(task.margin), *task.kept) if not limit.couples_knots]
     usages = [limit.usage(there, motion) for limit in limits]
     return max(usage.violation for usage in usages)

@@ -31,7 +31,7 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert np.all(np.diff(margins) > 0)
     assert np.all(np.diff(peaks) > -1e-6 * peaks.max())
     assert np.all(np.diff(peaks, 2) > -1e-5 * peaks.max())  # the trade is convex
-    assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.situation.force_unit)
+    assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.formulation.force_unit)
     least = plan(problem.grasp, replace(problem.task, order=("peak_force", "effort")))
     assert isinstance(least, Plan)
     assert peaks[0] == pytest.approx(least.motion.forces[:, problem.grasp.normal_rows].max(), rel=1e-6)

@@ -62,7 +62,7 @@ def values(outcome: Plan) -> dict[str, float]:
 
     effort, torque = squares(motion.forces * scale.force), squares(motion.torques / scale.length)
     smooth = squares(bends * np.sqrt(span))
-    knots, duration, units = len(motion.times), motion.times[-1] - motion.times[0], outcome.situation.stated
+    knots, duration, units = len(motion.times), motion.times[-1] - motion.times[0], outcome.formulation.stated
     weighted = (effort + 0.3 * torque) / units.force**2 + 1e-3 * knots * duration**3 * smooth / units.reference**2
     return {
         "margin": -float(outcome.margins.min()),

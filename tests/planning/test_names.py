@@ -20,9 +20,9 @@ from synergrip.documents.csv_cells import cells_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
+from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
-from synergrip.planning.situated import situated
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.plan_files import plan_csv
@@ -107,8 +107,8 @@ def test_a_contact_named_object_is_no_drift_of_the_object() -> None:
     drift = ObjectError(1e-3, ("x", "y"))
     analysis = analyse(grasp, np.zeros((3, 6)))
     task = Task(TIMES, np.zeros((3, 6)), still(TIMES), 0.0, (drift,), ("effort",))
-    situation = situated(analysis, task, redundancy=True)
-    (rows,) = drift.rows(situation)
+    formulation = formulated(analysis, task, redundancy=True)
+    (rows,) = drift.rows(formulation)
     assert rows.dim == 3
     assert inscribed(rows, ["object", "b", "c"], 6) is rows
 

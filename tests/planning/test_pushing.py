@@ -15,9 +15,9 @@ from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
+from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
-from synergrip.planning.situated import situated
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import GoalName, Task, still
@@ -43,7 +43,7 @@ def test_no_plan_lets_a_slippery_contact_pull(solver: str) -> None:
         found[outcome.verdict] += 1
         if isinstance(outcome, Plan):
             normals = outcome.motion.forces[:, grasp.normal_rows]
-            assert normals.min() >= -1e-6 * max(outcome.situation.load_size, float(np.abs(normals).max())), seed
+            assert normals.min() >= -1e-6 * max(outcome.formulation.load_size, float(np.abs(normals).max())), seed
             assert outcome.margins.min() >= task.margin - 1e-6 * np.abs(outcome.motion.forces).max(), seed
     assert min(found["feasible"], found["infeasible"]) >= 1, found
     assert found["unknown"] <= 2, found
@@ -99,12 +99,12 @@ def test_a_largest_margin_in_a_unit_far_above_all_forces_is_asked_again(seed: in
     """Or is not called verified: what such a unit makes of the load is within the tolerances of the program."""
     rng = np.random.default_rng(seed)
     grasp, task = random_task_on_grasp(rng)
-    situation = situated(analyse(grasp, task.wrench), task, redundancy=task.watches_references)
-    usual = ask(Question(situation, task.kept, LargestMargin()), SOLVERS["clarabel"])
+    formulation = formulated(analyse(grasp, task.wrench), task, redundancy=task.watches_references)
+    usual = ask(Question(formulation, task.kept, LargestMargin()), SOLVERS["clarabel"])
     assert usual.decision.optimal
     assert not usual.coarse
-    far = situation.in_units(replace(situation.units, force=1e9 * situation.force_unit))
+    far = formulation.in_units(replace(formulation.units, force=1e9 * formulation.force_unit))
     found = ask(Question(far, task.kept, LargestMargin()), SOLVERS["clarabel"])
     if found.decision.optimal:
-        margins = [each.decision.solution.x[-1] * each.question.situation.force_unit for each in (usual, found)]
-        assert abs(margins[0] - margins[1]) <= 2e-6 * situation.load_size
+        margins = [each.decision.solution.x[-1] * each.question.formulation.force_unit for each in (usual, found)]
+        assert abs(margins[0] - margins[1]) <= 2e-6 * formulation.load_size

@@ -44,7 +44,7 @@ def bundled(name: str, *overrides: str) -> Plan:
 
 def margin_of_edges(cones: Plan, facets: int) -> float:
     """The largest margin [N] of hard-finger forces that are sums of the pyramids' edges, not bounded by facets."""
-    question = Question(cones.situation, cones.task.kept, LargestMargin())
+    question = Question(cones.formulation, cones.task.kept, LargestMargin())
     program = question.program()
     angles = 2 * np.pi * np.arange(facets) / facets
     edges = np.vstack([np.ones(facets), np.cos(angles), np.sin(angles)])
@@ -72,7 +72,7 @@ def margin_of_edges(cones: Plan, facets: int) -> float:
         bounds=[(None, None)] * n + [(0, None)] * count, method="highs",
     )  # fmt: skip
     assert found.success
-    return -float(found.fun) * cones.situation.force_unit
+    return -float(found.fun) * cones.formulation.force_unit
 
 
 @pytest.mark.parametrize("facets", [4, 7])

@@ -47,7 +47,7 @@ def _differences(outcome: Plan | Infeasible, answer: RefereeAnswer) -> list[str]
         return wrong
     wrong += [f"check {check}" for check in outcome.checks if not check.passed]
     wrong += [f"certificate {d.certificate}" for d in outcome.decisions[-1:] if not d.optimal]
-    given_up = 2 * max(SLACKS) * outcome.situation.force_unit  # to the effort, in "margin" and "peak_force"
+    given_up = 2 * max(SLACKS) * outcome.formulation.force_unit  # to the effort, in "margin" and "peak_force"
     if not _same(_value(outcome), answer.objective, 2e-6, given_up):
         wrong.append(f"{outcome.task.goal} {_value(outcome)} against {answer.objective}")
     return wrong

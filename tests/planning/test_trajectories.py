@@ -85,7 +85,7 @@ def test_the_judgement_and_the_limits_see_the_same_use(seed: int) -> None:
     assert isinstance(outcome, Plan)
     found = course(grasp, task.times, outcome.motion.dz_r, task.wrench)
     for key, limit in ONE_FOR_ALL.items():
-        peak = float(np.abs(limit(grasp, np.inf).usage(outcome.situation, outcome.motion).value).max())
+        peak = float(np.abs(limit(grasp, np.inf).usage(outcome.formulation, outcome.motion).value).max())
         for factor, passes in ((1.01, True), (0.99, False)):
             bound = replace(outcome, task=replace(task, limits=(limit(grasp, factor * peak),)))
             excess = excesses(bound, found)[key]
@@ -98,7 +98,7 @@ def test_least_references_leave_nothing_open_to_any_other_goal() -> None:
     problem = load_problem("human-ball-near")
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
-    assert outcome.situation.n_v > outcome.alpha.shape[1]
+    assert outcome.formulation.n_v > outcome.alpha.shape[1]
     assert [decision.goal for decision in outcome.decisions] == ["least motion"]
 
 
@@ -120,7 +120,7 @@ def _compared(seed: int) -> bool:
         assert one.certificate.verified
     if not (isinstance(one, Plan) and isinstance(two, Plan)):
         return False
-    units = one.situation.stated
+    units = one.formulation.stated
     first, second = (
         goal_value(
             task.goal, grasp, task, course(grasp, task.times, each.motion.dz_r, task.wrench),

@@ -47,7 +47,7 @@ def test_a_plan_that_breaks_a_limit_never_gets_out() -> None:
     outcome = tripod()
     task: Task = replace(outcome.task, margin=outcome.margins.min() + 0.1)
     with pytest.raises(SelfCheckError, match="slip margin"):
-        verified_plan(task, outcome.analysis, Stage(outcome.situation, (), LeastEffort(), outcome.decisions), None)
+        verified_plan(task, outcome.analysis, Stage(outcome.formulation, (), LeastEffort(), outcome.decisions), None)
 
 
 @pytest.mark.parametrize(("share", "passes"), [(0.5e-6, True), (3e-6, False)])
@@ -55,9 +55,9 @@ def test_the_plans_own_tolerance_is_a_millionth_of_what_a_contact_carries(share:
     outcome = tripod()
     k, i = np.unravel_index(outcome.margins.argmin(), outcome.margins.shape)
     rows = outcome.analysis.grasp.rows[i]
-    carried = max(float(np.abs(outcome.motion.forces[k, rows]).max()), outcome.situation.load_size)
+    carried = max(float(np.abs(outcome.motion.forces[k, rows]).max()), outcome.formulation.load_size)
     asked = replace(outcome.task, margin=float(outcome.margins.min()) + share * carried)
-    stage = Stage(outcome.situation, (), LeastEffort(), outcome.decisions)
+    stage = Stage(outcome.formulation, (), LeastEffort(), outcome.decisions)
     if passes:
         assert verified_plan(asked, outcome.analysis, stage, None).verdict == "feasible"
     else:

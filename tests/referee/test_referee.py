@@ -11,7 +11,7 @@ from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.decide import decide, judge
-from synergrip.conic.formulation import Situation, situate
+from synergrip.conic.formulation import Formulation, formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -41,10 +41,10 @@ REDUNDANT = (89, 130, 146, 213, 296)
 """Seeds whose reference limits force the plan to use its redundancy."""
 
 
-def _task(seed: int) -> tuple[Situation, Task]:
+def _task(seed: int) -> tuple[Formulation, Task]:
     grasp, task = random_task_on_grasp(np.random.default_rng(seed))
     analysis = analyse(grasp)
-    return situate(
+    return formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=task.times, wrench=task.wrench,
         beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=task.watches_references,
     ), task  # fmt: skip
@@ -52,10 +52,10 @@ def _task(seed: int) -> tuple[Situation, Task]:
 
 def _questions(seeds: range) -> Iterator[tuple[int, Question]]:
     for seed in seeds:
-        situation, task = _task(seed)
-        yield seed, Question(situation, task.limits, LargestMargin())
+        formulation, task = _task(seed)
+        yield seed, Question(formulation, task.limits, LargestMargin())
         for goal in (LeastEffort(), LeastEffort("torque"), LeastPeak()):
-            yield seed, Question(situation, (FrictionCone(task.margin), *task.limits), goal)
+            yield seed, Question(formulation, (FrictionCone(task.margin), *task.limits), goal)
 
 
 @pytest.mark.parametrize("start", [0, 10, 20])
@@ -72,7 +72,7 @@ def test_certificates_verify_and_both_paths_agree(start: int) -> None:
             continue
         assert program.objective(second.x) == pytest.approx(program.objective(direct.x), rel=1e-7, abs=1e-7), seed
         if isinstance(question.goal, LeastEffort):  # strictly convex in alpha
-            n = question.situation.coordinates.dimensions[0]
+            n = question.formulation.coordinates.dimensions[0]
             alpha, expected = program.unknowns(second.x)[:, :n], program.unknowns(direct.x)[:, :n]
             assert np.abs(alpha - expected).max() <= 1e-5 * np.abs(expected).max(), seed
     assert kinds == {"optimal", "infeasible"}
@@ -82,13 +82,13 @@ def test_certificates_verify_and_both_paths_agree(start: int) -> None:
 def test_redundancy_is_settled_alike(seed: int) -> None:
     outcome = plan(*random_task_on_grasp(np.random.default_rng(seed)))
     assert isinstance(outcome, Plan)
-    situation = outcome.situation
-    v = np.hstack([outcome.alpha / situation.force_unit, np.zeros_like(outcome.gamma)])
+    formulation = outcome.formulation
+    v = np.hstack([outcome.alpha / formulation.force_unit, np.zeros_like(outcome.gamma)])
     n_alpha = outcome.alpha.shape[1]
-    situation = situation.around(v, np.eye(situation.n_v)[:, n_alpha:])
+    formulation = formulation.around(v, np.eye(formulation.n_v)[:, n_alpha:])
     watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
     loosened = tuple(limit.loosened(LOOSE) for limit in watching)
-    question = Question(situation, loosened, LeastReconfiguration())
+    question = Question(formulation, loosened, LeastReconfiguration())
     program = question.program()
     direct = decide("redundancy", program, clarabel_.solve).solution
     second = decide("redundancy", program, lambda program, settings: solve(question, program, settings)).solution
@@ -108,16 +108,16 @@ def test_a_plan_by_cvxpy_is_the_plan_by_clarabel(seed: int) -> None:
 
 def test_every_limit_has_an_effect() -> None:
     """With and without each limit, the referee and the program move together."""
-    situation, _ = _task(8)
-    grasp = situation.response.grasp
+    formulation, _ = _task(8)
+    grasp = formulation.response.grasp
     tight = [
-        NormalForce(0.05, 2.0 * situation.force_unit),
-        JointTorque(frozen(np.full(grasp.n_q, 0.02 * situation.force_unit))),
-        ActuatorEffort(frozen(np.full(grasp.n_z, 0.02 * situation.force_unit))),
+        NormalForce(0.05, 2.0 * formulation.force_unit),
+        JointTorque(frozen(np.full(grasp.n_q, 0.02 * formulation.force_unit))),
+        ActuatorEffort(frozen(np.full(grasp.n_z, 0.02 * formulation.force_unit))),
     ]
     for limit in tight:
         for goal in (LargestMargin(), LeastPeak()):
-            question = Question(situation, (limit, NormalForce(-np.inf, 20.0 * situation.force_unit)), goal)
+            question = Question(formulation, (limit, NormalForce(-np.inf, 20.0 * formulation.force_unit)), goal)
             program = question.program()
             direct, second = clarabel_.solve(program, Settings()), solve(question, program, Settings())
             assert judge(program, second).verified, limit
@@ -126,15 +126,15 @@ def test_every_limit_has_an_effect() -> None:
 
 def test_rates_are_compared_between_uneven_knots() -> None:
     seed = next(s for s in range(100) if len(_task(s)[0].times) >= 3 and _task(s)[0].coordinates.dimensions[0] >= 3)
-    situation, _ = _task(seed)
-    grasp = situation.response.grasp
+    formulation, _ = _task(seed)
+    grasp = formulation.response.grasp
     for rate in (1e-3, 0.1, 10.0):
         limits = (
             SynergyRate(frozen(np.full(grasp.n_z, rate))),
             SynergyReference(frozen(np.full(grasp.n_z, 5.0))),
-            NormalForce(0.0, 10 * situation.force_unit),
+            NormalForce(0.0, 10 * formulation.force_unit),
         )
-        question = Question(situation, limits, LargestMargin())
+        question = Question(formulation, limits, LargestMargin())
         program = question.program()
         direct, second = clarabel_.solve(program, Settings()), solve(question, program, Settings())
         assert judge(program, second).verified, rate
@@ -142,8 +142,8 @@ def test_rates_are_compared_between_uneven_knots() -> None:
 
 
 def test_two_limits_under_one_key_keep_their_multipliers_apart() -> None:
-    situation, task = _task(0)
-    question = Question(situation, (FrictionCone(0.1), FrictionCone(task.margin), *task.limits), LeastEffort())
+    formulation, task = _task(0)
+    question = Question(formulation, (FrictionCone(0.1), FrictionCone(task.margin), *task.limits), LeastEffort())
     program = question.program()
     assert judge(program, solve(question, program, Settings())).verified
 
@@ -171,9 +171,9 @@ class _Sticky:
 
 
 def test_what_has_no_formula_is_refused_by_name() -> None:
-    situation, task = _task(0)
-    program = Question(situation, task.limits, LargestMargin()).program()
-    for question in (Question(situation, (_Strange(),), LargestMargin()), Question(situation, (), _Strange())):
+    formulation, task = _task(0)
+    program = Question(formulation, task.limits, LargestMargin()).program()
+    for question in (Question(formulation, (_Strange(),), LargestMargin()), Question(formulation, (), _Strange())):
         with pytest.raises(SynergripError, match="_Strange") as refused:
             solve(question, program, Settings())
         assert isinstance(refused.value, TypeError)
@@ -188,10 +188,10 @@ def test_a_contact_kind_without_formula_is_refused_by_name() -> None:
 
 
 def test_a_program_of_another_question_is_refused() -> None:
-    situation, task = _task(0)
-    program = Question(situation, task.limits[:1], LargestMargin()).program()
+    formulation, task = _task(0)
+    program = Question(formulation, task.limits[:1], LargestMargin()).program()
     with pytest.raises(SelfCheckError, match=r"limits\.joint_torque"):
-        solve(Question(situation, task.limits, LargestMargin()), program, Settings())
+        solve(Question(formulation, task.limits, LargestMargin()), program, Settings())
 
 
 def test_an_unbounded_margin_is_claimed_as_such() -> None:
@@ -199,9 +199,9 @@ def test_an_unbounded_margin_is_claimed_as_such() -> None:
     times = frozen([0.5])
     task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), ("margin",))
     analysis = analyse(grasp)
-    situation = situate(
+    formulation = formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=task.wrench,
         beta=rigid_coordinates(analysis, task), units=units_of(analysis, task), redundancy=False,
     )  # fmt: skip
-    question = Question(situation, (), LargestMargin())
+    question = Question(formulation, (), LargestMargin())
     assert solve(question, question.program(), Settings()).claim is Claim.UNBOUNDED

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.conic.assembly import Tile, stacked, without_rounding
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
@@ -19,27 +19,27 @@ from synergrip.conic.variable_bounds import box, farthest
 from synergrip.linalg import Array, frozen
 
 
-def build(situation: Situation, limits: Sequence[Limit], goal: Goal, worth: float = 1.0) -> Program:
+def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: float = 1.0) -> Program:
     """Return the program that looks for the best plan by `goal` among those that keep all `limits`.
 
     Sums of squares are divided by `worth`.
     """
-    rows = _rows(situation, limits, goal)
-    cost = goal.objective(situation)
+    rows = _rows(formulation, limits, goal)
+    cost = goal.objective(formulation)
     extra = 0 if cost.epigraph is None else 1
-    T, n_v = situation.knots, situation.n_v
+    T, n_v = formulation.knots, formulation.n_v
     P, linear = _quadratic(cost.squares, T, n_v, extra)
     P.data, linear = P.data / worth, linear / worth
     A = _matrix(rows, T, n_v, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
-    bounds = np.concatenate([np.tile(box(situation, limits), T), np.full(extra, farthest(situation))])
+    bounds = np.concatenate([np.tile(box(formulation, limits), T), np.full(extra, farthest(formulation))])
     blocks = tuple(_block(part, T) for part in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
-    if situation.courses is None:
+    if formulation.courses is None:
         return program
-    return _of_courses(program, situation.courses, 1.0 if extra else situation.divisor)
+    return _of_courses(program, formulation.courses, 1.0 if extra else formulation.divisor)
 
 
 def _constant(cost: Objective) -> float:
@@ -82,15 +82,15 @@ def _block(rows: Rows, knots: int) -> Block:
     return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - count, count)
 
 
-def _rows(situation: Situation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:
+def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:
     """Return the rows of limits and goal, first those at the knots, then those between them when that is asked for."""
-    if situation.bend is None:
-        return [part for limit in limits for part in limit.rows(situation)] + list(goal.rows(situation))
-    reserve = Reserve.of(situation, situation.bend)
+    if formulation.bend is None:
+        return [part for limit in limits for part in limit.rows(formulation)] + list(goal.rows(formulation))
+    reserve = Reserve.of(formulation, formulation.bend)
     rows: list[Rows] = []
     for limit in limits:
-        rows += limit.rows(situation) if limit.couples_knots else reserve.kept(limit.rows, situation)
-    rows += reserve.kept(goal.rows, situation)
+        rows += limit.rows(formulation) if limit.couples_knots else reserve.kept(limit.rows, formulation)
+    rows += reserve.kept(goal.rows, formulation)
     return sorted(rows, key=lambda part: part.inside is not None)
 
 

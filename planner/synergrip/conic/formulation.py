@@ -53,7 +53,7 @@ class Units:
 
 
 @dataclass(frozen=True)
-class Situation:
+class Formulation:
     """What the program's unknowns mean."""
 
     response: Response
@@ -76,7 +76,7 @@ class Situation:
     """What happens between the knots, when the program is to allow for it."""
     courses: Array | None = None
     """(T, f) the courses in time that the unknowns are made of; None when each knot has its own."""
-    origin: Situation | None = None
+    origin: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
     @property
@@ -105,8 +105,8 @@ class Situation:
         return bool(np.any(self.gamma.matrix))
 
     @property
-    def whole(self) -> Situation:
-        """The situation in which no goal has determined anything yet."""
+    def whole(self) -> Formulation:
+        """The formulation in which no goal has determined anything yet."""
         return self.origin or self
 
     @cached_property
@@ -179,8 +179,8 @@ class Situation:
         of_alpha = self.response.du_dzr @ self.coordinates.inverse[:, : self.coordinates.dimensions[0]]
         return self.alpha.after(of_alpha)
 
-    def in_units(self, units: Units) -> Situation:
-        """Return the same situation, of which nothing is determined, with its unknowns in other units."""
+    def in_units(self, units: Units) -> Formulation:
+        """Return the same formulation, of which nothing is determined, with its unknowns in other units."""
 
         def scaled(part: Affine, factor: float) -> Affine:
             return replace(part, matrix=frozen(part.matrix * factor))
@@ -198,7 +198,7 @@ class Situation:
         sizes = [units.force] * n_alpha + [units.reference] * n_gamma
         return np.array(sizes + [units.motion] * (self.n_v - len(sizes)))
 
-    def around(self, v: Array, open_directions: Array, courses: Array | None = None) -> Situation:
+    def around(self, v: Array, open_directions: Array, courses: Array | None = None) -> Formulation:
         """Return what is left of it when all plans are alike but for some directions and courses.
 
         The unknowns are then what is added to v, as coordinates of the directions.
@@ -222,11 +222,11 @@ class Situation:
         return self.alpha.at(v), self.beta.at(v), self.gamma.at(v)
 
 
-def situate(
+def formulate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array | None = None, wanted: Array | None = None, stated: Units | None = None,
-) -> Situation:  # fmt: skip
+) -> Formulation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
     Args:
@@ -249,7 +249,7 @@ def situate(
     whole = block_diagonal(blocks)
     alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
     zeros = np.zeros((len(times), n_alpha + n_gamma))
-    return Situation(
+    return Formulation(
         response, spaces, coords, frozen(times), frozen(wrench),
         Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
         Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.friction_cone import FrictionCone
@@ -83,8 +83,8 @@ def inscribed(rows: Rows, contacts: Collection[str], facets: int) -> Rows:
     )  # fmt: skip
 
 
-def _all_inscribed(rows: Sequence[Rows], situation: Situation, facets: int) -> list[Rows]:
-    names = [contact.name for contact in situation.response.grasp.contacts]
+def _all_inscribed(rows: Sequence[Rows], formulation: Formulation, facets: int) -> list[Rows]:
+    names = [contact.name for contact in formulation.response.grasp.contacts]
     return [inscribed(part, names, facets) for part in rows]
 
 
@@ -94,9 +94,9 @@ class FrictionPyramid(FrictionCone):
 
     facets: int = 8
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the facets."""
-        return _all_inscribed(super().rows(situation), situation, self.facets)
+        return _all_inscribed(super().rows(formulation), formulation, self.facets)
 
 
 @dataclass(frozen=True)
@@ -105,9 +105,9 @@ class LargestMarginInPyramids(LargestMargin):
 
     facets: int = 8
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the facets with s in the margin's place."""
-        return _all_inscribed(super().rows(situation), situation, self.facets)
+        return _all_inscribed(super().rows(formulation), formulation, self.facets)
 
     def keeps(self, best: float, slack: float) -> FrictionPyramid:
         """Return the limit that keeps a margin of `best` less `slack` [N]."""
@@ -133,17 +133,17 @@ class _OtherInPyramids:
     def couples_knots(self) -> bool:
         return self.limit.couples_knots
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
-        return _all_inscribed(self.limit.rows(situation), situation, self.facets)
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        return _all_inscribed(self.limit.rows(formulation), formulation, self.facets)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
-        return self.limit.bounded(situation, cones_hold=cones_hold)
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+        return self.limit.bounded(formulation, cones_hold=cones_hold)
 
     def loosened(self, share: float) -> _OtherInPyramids:
         return replace(self, limit=self.limit.loosened(share))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
-        return self.limit.usage(situation, motion)
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+        return self.limit.usage(formulation, motion)
 
 
 def limit_in_pyramids(limit: Limit, facets: int) -> Limit:

@@ -1,4 +1,4 @@
-"""One question to a solver: limits and a goal over a situation, before any program is built."""
+"""One question to a solver: limits and a goal over a formulation, before any program is built."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from synergrip.conic.build import build
 from synergrip.conic.certificate import SHARP
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
@@ -16,7 +16,7 @@ from synergrip.conic.program import Program
 class Question:
     """What is asked, in the terms in which a program is built."""
 
-    situation: Situation
+    formulation: Formulation
     limits: tuple[Limit, ...]
     goal: Goal
     violation: float = SHARP
@@ -26,4 +26,4 @@ class Question:
 
     def program(self) -> Program:
         """Return the program of this question."""
-        return build(self.situation, self.limits, self.goal, self.worth)
+        return build(self.formulation, self.limits, self.goal, self.worth)

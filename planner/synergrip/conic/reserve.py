@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.intersample import Bend, Looks, knots_in
 from synergrip.conic.rows import Kind, Rows
 from synergrip.linalg import Array, frozen, interpolated
@@ -22,28 +22,28 @@ from synergrip.linalg import Array, frozen, interpolated
 
 @dataclass(frozen=True)
 class Reserve:
-    """A situation between its knots: at the corners, and in curved pieces along their chords and as they bend."""
+    """A formulation between its knots: at the corners, and in curved pieces along their chords and as they bend."""
 
     bend: Bend
     shares: sparse.csr_matrix  # (C, T) of the knots in each corner
-    corners: Situation
-    straight: Situation
-    bent: Situation
+    corners: Formulation
+    straight: Formulation
+    bent: Formulation
 
     @classmethod
-    def of(cls, situation: Situation, bend: Bend) -> Reserve:
-        """Return what lies between the knots of a situation."""
-        corners, chords, curved = (_at(situation, looks) for looks in (bend.corners, bend.chords, bend.curved))
-        return cls(bend, knots_in(corners.times, situation.times), corners, chords, curved)
+    def of(cls, formulation: Formulation, bend: Bend) -> Reserve:
+        """Return what lies between the knots of a formulation."""
+        corners, chords, curved = (_at(formulation, looks) for looks in (bend.corners, bend.chords, bend.curved))
+        return cls(bend, knots_in(corners.times, formulation.times), corners, chords, curved)
 
-    def kept(self, rows_of: Callable[[Situation], Sequence[Rows]], situation: Situation) -> list[Rows]:
+    def kept(self, rows_of: Callable[[Formulation], Sequence[Rows]], formulation: Formulation) -> list[Rows]:
         """Return rows at every knot and at every corner, each with the reserve that the curved pieces beside it need.
 
         Args:
             rows_of: what makes the rows of a limit or goal; none of them may couple knots.
-            situation: at the knots.
+            formulation: at the knots.
         """
-        groups = zip(*(rows_of(each) for each in (situation, self.corners, self.straight, self.bent)), strict=True)
+        groups = zip(*(rows_of(each) for each in (formulation, self.corners, self.straight, self.bent)), strict=True)
         result = []
         for at, inside, before, after in groups:
             if at.kind is Kind.ZERO:
@@ -57,15 +57,15 @@ class Reserve:
         return result
 
 
-def _at(situation: Situation, looks: Looks) -> Situation:
-    """Return the situation at instants between the knots, under a wrench and with a wish (J, 6) of their own."""
+def _at(formulation: Formulation, looks: Looks) -> Formulation:
+    """Return the formulation at instants between the knots, under a wrench and with a wish (J, 6) of their own."""
 
     def moved(part: Affine) -> Affine:
-        return replace(part, constant=frozen(interpolated(looks.times, situation.times, part.constant)))
+        return replace(part, constant=frozen(interpolated(looks.times, formulation.times, part.constant)))
 
     return replace(
-        situation, times=looks.times, alpha=moved(situation.alpha), beta=moved(situation.beta),
-        gamma=moved(situation.gamma), wrench=looks.wrench, wanted=looks.wanted,
+        formulation, times=looks.times, alpha=moved(formulation.alpha), beta=moved(formulation.beta),
+        gamma=moved(formulation.gamma), wrench=looks.wrench, wanted=looks.wanted,
     )  # fmt: skip
 
 

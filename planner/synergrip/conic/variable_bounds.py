@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
 from synergrip.conic.limits.limit import Limit
 from synergrip.linalg import Array, split
@@ -22,20 +22,20 @@ FARTHEST = 1e12
 """A limit that is farther away than this is none, but the rounding of what it looks at."""
 
 
-def box(situation: Situation, limits: Sequence[Limit]) -> Array:
+def box(formulation: Formulation, limits: Sequence[Limit]) -> Array:
     """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
-    result = np.full(situation.n_v, np.inf)
+    result = np.full(formulation.n_v, np.inf)
     cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
     for limit in limits:
-        pair = limit.bounded(situation, cones_hold=cones_hold)
+        pair = limit.bounded(formulation, cones_hold=cones_hold)
         if pair is not None:
             result = np.minimum(result, _implied(*pair))
-    return np.where(result < FARTHEST, result, farthest(situation))
+    return np.where(result < FARTHEST, result, farthest(formulation))
 
 
-def farthest(situation: Situation) -> float:
+def farthest(formulation: Formulation) -> float:
     """Return the bound where no limit gives one: `LARGEST`, over the least friction where that is small."""
-    return LARGEST / min(cone_unit(contact.friction) for contact in situation.response.grasp.contacts)
+    return LARGEST / min(cone_unit(contact.friction) for contact in formulation.response.grasp.contacts)
 
 
 def _implied(value: Affine, limit: Array) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import bend_of
@@ -52,17 +52,17 @@ class Between:
         return max(usage.violation for usage in self.usages)
 
 
-def between(task: Task, analysis: Analysis, situation: Situation, motion: Motion) -> Between | None:
+def between(task: Task, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:
     """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
-    bend = situation.bend or bend_of(task, analysis)
+    bend = formulation.bend or bend_of(task, analysis)
     if bend is None:
         return None
     looks = bend.all
     dz_r = interpolated(looks.times, task.times, motion.dz_r)
     there = forward(analysis.response, looks.times, dz_r, looks.wrench)
-    dense = replace(situation, times=looks.times, wrench=looks.wrench, wanted=looks.wanted)
+    dense = replace(formulation, times=looks.times, wrench=looks.wrench, wanted=looks.wanted)
     usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
-    scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, situation.wanted)
+    scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, formulation.wanted)
     loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.wanted))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))
     corners = tuple(dict.fromkeys(bend.corners.times.tolist()))

@@ -6,16 +6,16 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
 from synergrip.planning.claims import Claims, compared
+from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Check
 from synergrip.planning.references import References
-from synergrip.planning.situated import situated
 from synergrip.planning.sizes import sizes_of
 from synergrip.planning.stated import stated
 from synergrip.planning.verified import between_checks, identities, limit_checks, limit_usages
@@ -36,7 +36,7 @@ class Judgement:
     task: Task
     """At the knots of both."""
     analysis: Analysis
-    situation: Situation
+    formulation: Formulation
     motion: Motion
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
@@ -68,7 +68,7 @@ def judge_references(grasp: Grasp, task: Task, references: References) -> Judgem
     """
     times = _common_times(task, references)
     analysis = analyse(grasp, task.wrench)
-    situated(analysis, task, redundancy=True)  # refuses a task that no references can do
+    formulated(analysis, task, redundancy=True)  # refuses a task that no references can do
     judged = _judged(analysis, task, references, times)
     claims = _claims(judged, task, references)
     return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
@@ -92,25 +92,25 @@ def _claims(judged: Judgement, task: Task, references: References) -> Claims:
 def _judged(analysis: Analysis, task: Task, references: References, times: Array) -> Judgement:
     """Judge references at some knots and between them; what the file claims is another matter."""
     there = _at(task, times)
-    situation = situated(analysis, _within_reach(analysis, there), redundancy=True)
+    formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
     motion = forward(analysis.response, times, interpolated(times, references.times, references.values), there.wrench)
-    usages = limit_usages(there, situation, motion)
+    usages = limit_usages(there, formulation, motion)
     reached = analysis.coordinates.coordinates(motion.dz_r)
-    tracking = _tracking(task, times, reached[1], situation)
+    tracking = _tracking(task, times, reached[1], formulation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
-    found = between(there, analysis, situation, motion)
+    found = between(there, analysis, formulation, motion)
     checks += between_checks(there, found)
-    return Judgement(there, analysis, situation, motion, frozen(usages[0].value), usages, checks, found)
+    return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
 
 
-def _tracking(task: Task, times: Array, reached: Array, situation: Situation) -> Check:
+def _tracking(task: Task, times: Array, reached: Array, formulation: Formulation) -> Check:
     """Judge the rigid motion as far as the wanted motion fixes it.
 
     At the knots of the task it is as wanted. Between them it may go as straight as a plan does, or follow.
     """
-    wanted = situation.beta.constant
+    wanted = formulation.beta.constant
     straight = interpolated(times, task.times, interpolated(task.times, times, wanted))
-    beyond, free = reached - wanted, situation.beta_basis
+    beyond, free = reached - wanted, formulation.beta_basis
     off = np.linalg.norm(beyond - beyond @ free @ free.T, axis=1) - np.linalg.norm(wanted - straight, axis=1)
     return Check("rigid motion [m]", max(float(off.max(initial=0.0)), 0.0), max(task.tolerance, TRACKED))
 

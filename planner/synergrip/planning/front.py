@@ -50,7 +50,7 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
         KeyboardInterrupt: somebody interrupted; the points before are whole.
     """
     grasp, task, most = best.analysis.grasp, best.task, best.largest_margin or 0.0
-    top = most - ROOM * max(most, best.situation.force_unit)
+    top = most - ROOM * max(most, best.formulation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
         point = plan(grasp, replace(task, margin=float(margin), order=("peak_force", "effort")), solver)
         if isinstance(point, Plan) and point.interrupted:  # half of its goals make no point

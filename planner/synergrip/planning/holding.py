@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.planning.instants import bend_of
 from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.task import Task
 
 
-def held(task: Task, analysis: Analysis, situation: Situation, answer: Callable[[Situation], Outcome]) -> Outcome:
+def held(task: Task, analysis: Analysis, formulation: Formulation, answer: Callable[[Formulation], Outcome]) -> Outcome:
     """Return the answer to a task, whose limits are also kept between the knots when it says so.
 
     At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at
@@ -22,14 +22,14 @@ def held(task: Task, analysis: Analysis, situation: Situation, answer: Callable[
     Args:
         task: with what is to happen between its knots.
         analysis: of the grasp.
-        situation: at the knots.
-        answer: plans in a situation.
+        formulation: at the knots.
+        answer: plans in a formulation.
     """
     bend = bend_of(task, analysis) if task.between == "hold" else None
-    outcome = answer(replace(situation, bend=bend))
+    outcome = answer(replace(formulation, bend=bend))
     if bend is None or bend.exact or not isinstance(outcome, Infeasible):
         return outcome
-    without = answer(replace(situation, bend=bend.every()))
+    without = answer(replace(formulation, bend=bend.every()))
     if isinstance(without, Infeasible | Unknown):
         return without
     why = (

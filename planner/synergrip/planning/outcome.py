@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.conflicts import Clash
 from synergrip.conic.decide import Decision
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
 from synergrip.errors import Refusal
@@ -39,7 +39,7 @@ class Plan:
 
     task: Task
     analysis: Analysis
-    situation: Situation
+    formulation: Formulation
     motion: Motion
     alpha: Array  # (T, dim E_s) [N]
     beta: Array  # (T, dim Gamma_ucs) [m]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from synergrip.conic.conflicts import Clash, beside_friction, clashes
 from synergrip.conic.decide import Decision
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
@@ -19,11 +19,11 @@ from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
+from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
 from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
-from synergrip.planning.situated import situated
 from synergrip.planning.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.planning.stages import Stage, not_the_best, through
 from synergrip.planning.verified import verified_plan
@@ -48,18 +48,18 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
     except NotRestrainedError as refusal:
         return _refused(grasp, task, None, refusal)
     try:
-        situation = situated(analysis, task, redundancy=task.watches_references)
+        formulation = formulated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
     planners: list[_Planner] = []
 
-    def answer(each: Situation) -> Outcome:
+    def answer(each: Formulation) -> Outcome:
         planners.append(_Planner(task, analysis, each, solver))
         return planners[-1].outcome()
 
     try:
         refuse_doubtful_response(analysis.response)
-        return with_hint(held(task, analysis, situation, answer), plan)
+        return with_hint(held(task, analysis, formulation, answer), plan)
     except InDoubtError as doubt:
         decisions = tuple(decision for planner in planners for decision in planner.decisions)
         return Unknown(task, analysis, str(doubt), decisions)
@@ -75,8 +75,8 @@ def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refus
 class _Planner:
     """The first goal, which says whether there is a plan at all, and why not; the others follow by `stages`."""
 
-    def __init__(self, task: Task, analysis: Analysis, situation: Situation, solver: Answerer) -> None:
-        self.task, self.analysis, self.situation, self.solver = task, analysis, situation, solver
+    def __init__(self, task: Task, analysis: Analysis, formulation: Formulation, solver: Answerer) -> None:
+        self.task, self.analysis, self.formulation, self.solver = task, analysis, formulation, solver
         self.decisions: list[Decision] = []
 
     def outcome(self) -> Outcome:
@@ -86,7 +86,7 @@ class _Planner:
         if not best.decision.nearly:
             return self._without_optimum(best.decision, first)
         notes = () if best.decision.optimal else (not_the_best(best.decision),)
-        stage = Stage(best.question.situation, limits, first, (best.decision,), notes)
+        stage = Stage(best.question.formulation, limits, first, (best.decision,), notes)
         if stage.falls_short_of(self.task.margin):
             return self._short_of_margin(best, stage.largest_margin or 0.0)
         last = through(stage, others, unasked_goals(self.task), self.solver)
@@ -95,8 +95,8 @@ class _Planner:
     def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Answered:
         # how hard to squeeze for the largest margin, only what bounds it can tell; for the load, the friction
         sizes = caps(self.analysis, self.task) if isinstance(goal, LargestMargin) else ()
-        sizes = (*grips(self.situation), *sizes)
-        answered = ask(Question(self.situation, limits, goal), self.solver, sizes)
+        sizes = (*grips(self.formulation), *sizes)
+        answered = ask(Question(self.formulation, limits, goal), self.solver, sizes)
         self.decisions.append(answered.decision)
         return answered
 
@@ -107,7 +107,7 @@ class _Planner:
                 raise unbounded()
             return self._no_optimum(decision)
         first = self._ask(self.task.kept, LargestMargin())
-        widest = Stage(first.question.situation, self.task.kept, LargestMargin(), (first.decision,))
+        widest = Stage(first.question.formulation, self.task.kept, LargestMargin(), (first.decision,))
         largest = widest.largest_margin if first.decision.optimal else None
         if decision.infeasible:
             return self._infeasible(decision, largest)
@@ -123,7 +123,7 @@ class _Planner:
         if not some.decision.optimal:
             return self._no_optimum(some.decision)
         note = f"'{goal.name}' was not verified, nor came any goal after it; this is the plan of least contact effort"
-        stage = Stage(some.question.situation, self.task.all_limits, LeastEffort(), (some.decision,), (note,))
+        stage = Stage(some.question.formulation, self.task.all_limits, LeastEffort(), (some.decision,), (note,))
         return verified_plan(self.task, self.analysis, through(stage, (), unasked_goals(self.task), self.solver), None)
 
     def _no_optimum(self, decision: Decision) -> Outcome:
@@ -135,14 +135,14 @@ class _Planner:
     def _short_of_margin(self, widest: Answered, largest: float) -> Outcome:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
         limits = (*self.task.kept, FrictionCone(self.task.margin))
-        program = Question(widest.question.situation, limits, LeastEffort()).program()
+        program = Question(widest.question.formulation, limits, LeastEffort()).program()
         certificate = proof(program, (widest.decision.solution.z,))
         if certificate.verified:
             return self._infeasible(replace(widest.decision, program=program, certificate=certificate), largest)
         asked = self._ask(limits, LeastEffort()).decision
         if asked.infeasible:
             return self._infeasible(asked, largest)
-        near = self.task.margin - largest < NEAR * self.situation.force_unit
+        near = self.task.margin - largest < NEAR * self.formulation.force_unit
         doubt = "too close to" if near else "and no proof verifies that it cannot be"
         why = (
             f"the largest margin is {largest:.9g} N, {doubt} the {self.task.margin:.9g} N asked" + near * " to be sure"
@@ -170,11 +170,11 @@ class _Planner:
 
     def _without_limits(self) -> str:
         """Tell limits from geometry: would the cones alone allow it?"""
-        alone = Question(self.situation, (FrictionCone(self.task.margin),), LeastEffort())
-        free = ask(alone, self.solver, grips(self.situation))
+        alone = Question(self.formulation, (FrictionCone(self.task.margin),), LeastEffort())
+        free = ask(alone, self.solver, grips(self.formulation))
         if free.decision.infeasible:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"
         if not free.decision.optimal:
             return "whether a harder squeeze would do could not be verified"
-        normal = free.question.situation.force.at(free.v)[:, self.analysis.grasp.normal_rows].max()
+        normal = free.question.formulation.force.at(free.v)[:, self.analysis.grasp.normal_rows].max()
         return f"for the friction cones alone {normal:.4g} N of normal force would do"

@@ -149,7 +149,7 @@ def _question(cones: Plan, facets: int) -> Question:
     task, goal = cones.task, goal_in_pyramids(goals_of(cones.task)[0], facets)
     kept = _kept(cones, facets)
     limits = kept if isinstance(goal, LargestMargin) else (FrictionPyramid(task.margin, facets=facets), *kept)
-    return Question(cones.situation, limits, goal)
+    return Question(cones.formulation, limits, goal)
 
 
 def _kept(cones: Plan, facets: int) -> tuple[Limit, ...]:
@@ -161,7 +161,7 @@ def _best(cones: Plan, question: Question, first: Decision, facets: int) -> Plan
     task, clarabel = cones.task, SOLVERS["clarabel"]
     if not first.optimal:
         return None
-    stage = Stage(question.situation, question.limits, question.goal, (first,))
+    stage = Stage(question.formulation, question.limits, question.goal, (first,))
     if stage.falls_short_of(task.margin):
         return None
     goals = [goal_in_pyramids(goal, facets) for goal in goals_of(task)[1:]]
@@ -180,12 +180,12 @@ def _excluded(cones: Plan, question: Question, first: Decision, facets: int) -> 
         return True
     kept = _kept(cones, facets)
     if not isinstance(question.goal, LargestMargin):
-        widest = Question(question.situation, kept, LargestMarginInPyramids(facets=facets))
+        widest = Question(question.formulation, kept, LargestMarginInPyramids(facets=facets))
         answered = ask(widest, SOLVERS["clarabel"])
         question, first = answered.question, answered.decision
     if not first.optimal:
         return first.infeasible
-    asked = Question(question.situation, (*kept, FrictionPyramid(cones.task.margin, facets=facets)), LeastEffort())
+    asked = Question(question.formulation, (*kept, FrictionPyramid(cones.task.margin, facets=facets)), LeastEffort())
     return judge_infeasible(asked.program(), first.solution.z).verified
 
 
@@ -196,7 +196,7 @@ def _answer(cones: Plan, question: Question, best: Decision, backend: str) -> An
     checks: tuple[Check, ...] = ()
     gap = np.inf
     with np.errstate(all="ignore"):  # whatever the numbers are, they are judged
-        dz_r = analysis.coordinates.references(*question.situation.parts(program.unknowns(found.x)))
+        dz_r = analysis.coordinates.references(*question.formulation.parts(program.unknowns(found.x)))
         if np.all(np.isfinite(dz_r)):
             checks = judge_references(analysis.grasp, task, References(task.times, dz_r, {})).checks
             if best.optimal:

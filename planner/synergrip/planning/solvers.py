@@ -76,7 +76,7 @@ class Answered:
         value = self.decision.program.objective(self.decision.solution.x)
         if value > SMALL:
             return value
-        cost = self.question.goal.objective(self.question.situation)
+        cost = self.question.goal.objective(self.question.formulation)
         return value if cost.epigraph is not None else cost.squared(self.v) / self.question.worth
 
     @cached_property
@@ -85,7 +85,7 @@ class Answered:
         value = self.value
         if isinstance(self.question.goal, LargestMargin) or value >= SMALL:
             return False
-        scalar = self.question.goal.objective(self.question.situation).epigraph is not None
+        scalar = self.question.goal.objective(self.question.formulation).epigraph is not None
         return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
 
     @cached_property
@@ -93,10 +93,10 @@ class Answered:
         """True for a largest margin in a unit so far above all forces that its tolerances hide the forces."""
         if not isinstance(self.question.goal, LargestMargin) or not self.decision.nearly:
             return False
-        situation, found = self.question.situation, self.decision.certificate
-        error = situation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
-        largest = situation.response.scale.largest_force(situation.force.at(self.v))
-        return bool(error > max(FINE * situation.load_size, FINE_OF_FORCES * largest))
+        formulation, found = self.question.formulation, self.decision.certificate
+        error = formulation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
+        largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
+        return bool(error > max(FINE * formulation.load_size, FINE_OF_FORCES * largest))
 
     @property
     def settled(self) -> bool:
@@ -146,7 +146,7 @@ def _weighed(question: Question) -> Question:
     """Return the question with a first guess of what a weighted sum is worth, for its weights are anybody's."""
     if not isinstance(question.goal, WeightedSum):
         return question
-    parts = question.goal.objective(question.situation).squares
+    parts = question.goal.objective(question.formulation).squares
     worth = max((size for part in parts for size in _sizes(part)), default=1.0)
     return replace(question, worth=worth) if worth > 0 else question
 
@@ -164,28 +164,31 @@ def _in_its_units(found: Answered) -> Question | None:
     question, v = found.question, found.v
     if found.decision.solution.claim not in (Claim.OPTIMAL, Claim.NOTHING) or not np.all(np.isfinite(v)):
         return None
-    situation, old = question.situation, question.situation.units
-    if situation.origin is None:
-        motion = situation.beta.at(v) - situation.beta.constant
-        sizes = (situation.response.scale.largest_force(situation.force.at(v)), _largest(situation.reference.at(v)),
+    formulation, old = question.formulation, question.formulation.units
+    if formulation.origin is None:
+        motion = formulation.beta.at(v) - formulation.beta.constant
+        sizes = (formulation.response.scale.largest_force(formulation.force.at(v)), _largest(formulation.reference.at(v)),
                  _largest(motion))  # fmt: skip
         units = Units(*(size if 0 < size < np.inf else was for size, was in zip(sizes, astuple(old), strict=True)))
-        situation, v = situation.in_units(units), v * situation.column_units(old) / situation.column_units(units)
-    value = question.goal.objective(situation).squared(v)
+        formulation, v = (
+            formulation.in_units(units),
+            v * formulation.column_units(old) / formulation.column_units(units),
+        )
+    value = question.goal.objective(formulation).squared(v)
     worth = value if 0 < value < np.inf else question.worth
-    new = (*astuple(situation.units), worth)
+    new = (*astuple(formulation.units), worth)
     ratios = np.array(new) / np.array((*astuple(old), question.worth))
     if np.all((ratios < APART) & (ratios > 1 / APART)):
         return None
-    return replace(question, situation=situation, worth=worth)
+    return replace(question, formulation=formulation, worth=worth)
 
 
 def _in_units_of(question: Question, force: float) -> Question | None:
     """Return the question in another unit of force [N]; None when earlier goals have determined a part of the plan."""
-    situation = question.situation
-    if situation.origin is not None:
+    formulation = question.formulation
+    if formulation.origin is not None:
         return None
-    return replace(question, situation=situation.in_units(replace(situation.units, force=force)))
+    return replace(question, formulation=formulation.in_units(replace(formulation.units, force=force)))
 
 
 def _largest(values: Array) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.conic.certificate import SHARP
 from synergrip.conic.decide import Decision
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak
@@ -33,7 +33,7 @@ part touches has no room for rounding."""
 class Stage:
     """What the goals so far have led to."""
 
-    situation: Situation
+    formulation: Formulation
     """In the units in which the last decision was found."""
     limits: tuple[Limit, ...]
     """What every later goal keeps."""
@@ -52,19 +52,19 @@ class Stage:
     @property
     def scalar(self) -> float:
         """The last goal's scalar [N]."""
-        return float(self.decisions[-1].solution.x[-1]) * self.situation.force_unit
+        return float(self.decisions[-1].solution.x[-1]) * self.formulation.force_unit
 
     @property
     def largest_margin(self) -> float | None:
         """The largest margin [N], when that is the last goal; 0 when it is no more than the rounding of 0."""
         if not isinstance(self.goal, LargestMargin):
             return None
-        return self.scalar if abs(self.scalar) > SLACKS[0] * self.situation.force_unit else 0.0
+        return self.scalar if abs(self.scalar) > SLACKS[0] * self.formulation.force_unit else 0.0
 
     def falls_short_of(self, margin: float) -> bool:
         """Return whether the last goal is the largest margin and does not reach a margin [N]."""
         largest = self.largest_margin
-        return largest is not None and largest < margin - SLACKS[0] * self.situation.force_unit
+        return largest is not None and largest < margin - SLACKS[0] * self.formulation.force_unit
 
 
 def through(stage: Stage, goals: Sequence[Goal], unasked: Sequence[Goal], solver: Answerer) -> Stage:
@@ -93,16 +93,16 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     """
     if stage.interrupted:
         return stage
-    situation = _left_open(stage)
-    if not asked and goal.objective(situation).empty:
+    formulation = _left_open(stage)
+    if not asked and goal.objective(formulation).empty:
         return stage
-    if not situation.n_v:
+    if not formulation.n_v:
         note = f"the goals before it leave nothing open for '{goal.name}'"
         return replace(stage, notes=(*stage.notes, note)) if asked else stage
     nearly = stage
-    for limits in _limits(stage, situation):
+    for limits in _limits(stage, formulation):
         try:
-            answered = ask(Question(situation, limits, goal, _violation(stage)), solver)
+            answered = ask(Question(formulation, limits, goal, _violation(stage)), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
@@ -110,7 +110,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
         if decision.unbounded:
             raise unbounded()
         best = replace(
-            stage, situation=answered.question.situation, limits=limits, goal=goal,
+            stage, formulation=answered.question.formulation, limits=limits, goal=goal,
             decisions=(*stage.decisions, decision),
         )  # fmt: skip
         if decision.optimal:
@@ -133,23 +133,23 @@ def not_the_best(decision: Decision) -> str:
     )
 
 
-def _left_open(stage: Stage) -> Situation:
-    """Return the situation of the plans that are best by the last goal.
+def _left_open(stage: Stage) -> Formulation:
+    """Return the formulation of the plans that are best by the last goal.
 
     The best by a sum of squares agree in everything that is squared, and so differ only in what it does not see.
     """
-    situation, goal = stage.situation, stage.goal
+    formulation, goal = stage.formulation, stage.goal
     if isinstance(goal, LargestMargin | LeastPeak):
-        if situation.origin is not None:
-            return situation
-        return situation.in_units(replace(situation.units, force=_carried(stage)))
-    squares = goal.objective(situation).squares
+        if formulation.origin is not None:
+            return formulation
+        return formulation.in_units(replace(formulation.units, force=_carried(stage)))
+    squares = goal.objective(formulation).squares
     if not squares:
-        return situation
+        return formulation
     seen = [split(part.matrix).row_space for part in squares if part.unseen is None]
-    directions = split(np.hstack([np.zeros((situation.n_v, 0)), *seen]).T).null_space
-    courses = _common([*([] if situation.courses is None else [situation.courses]), *_unseen(squares)])
-    return situation.around(stage.v, directions, courses)
+    directions = split(np.hstack([np.zeros((formulation.n_v, 0)), *seen]).T).null_space
+    courses = _common([*([] if formulation.courses is None else [formulation.courses]), *_unseen(squares)])
+    return formulation.around(stage.v, directions, courses)
 
 
 def _unseen(squares: Sequence[Squares]) -> Iterator[Array]:
@@ -168,14 +168,14 @@ def _common(courses: Sequence[Array]) -> Array | None:
     return common
 
 
-def _limits(stage: Stage, situation: Situation) -> Iterator[tuple[Limit, ...]]:
+def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if isinstance(stage.goal, LargestMargin | LeastPeak):
-        unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.situation.force_unit
-        for slack in dict.fromkeys(min(slack * unit, MOST * stage.situation.load_size) for slack in SLACKS):
+        unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.formulation.force_unit
+        for slack in dict.fromkeys(min(slack * unit, MOST * stage.formulation.load_size) for slack in SLACKS):
             yield (stage.goal.keeps(stage.scalar, slack), *stage.limits)
         return
-    fixed = not situation.frees_alpha
+    fixed = not formulation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
 
 
@@ -186,5 +186,5 @@ def _violation(stage: Stage) -> float:
 
 def _carried(stage: Stage) -> float:
     """Return the largest force of the plan found [N], or the force unit: the best plans may squeeze hard."""
-    situation = stage.situation
-    return max(situation.force_unit, situation.response.scale.largest_force(situation.force.at(stage.v)))
+    formulation = stage.formulation
+    return max(formulation.force_unit, formulation.response.scale.largest_force(formulation.force.at(stage.v)))

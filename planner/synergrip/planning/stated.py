@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
@@ -85,15 +85,15 @@ def _largest_margin(judged: Judgement) -> float:
     bend = bend_of(task, analysis) if task.between == "hold" else None
     if bend is None:
         return float(judged.margins.min())
-    situation = judged.situation
-    unknowns = _unknowns(situation, analysis.coordinates.coordinates(judged.motion.dz_r))
-    rows = Reserve.of(situation, bend).kept(LargestMargin().rows, situation)
-    return situation.force_unit * min(_room(part, unknowns) for part in rows if np.any(part.epigraph))
+    formulation = judged.formulation
+    unknowns = _unknowns(formulation, analysis.coordinates.coordinates(judged.motion.dz_r))
+    rows = Reserve.of(formulation, bend).kept(LargestMargin().rows, formulation)
+    return formulation.force_unit * min(_room(part, unknowns) for part in rows if np.any(part.epigraph))
 
 
-def _unknowns(situation: Situation, parts: tuple[Array, Array, Array]) -> Array:
+def _unknowns(formulation: Formulation, parts: tuple[Array, Array, Array]) -> Array:
     """Return v (T, n_v) of alpha, beta and gamma."""
-    each = (situation.alpha, situation.beta, situation.gamma)
+    each = (formulation.alpha, formulation.beta, formulation.gamma)
     matrix = np.vstack([part.matrix for part in each])
     beyond = np.hstack([values - part.constant for values, part in zip(parts, each, strict=True)])
     return np.asarray(np.linalg.lstsq(matrix, beyond.T, rcond=None)[0].T)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN
@@ -41,23 +41,23 @@ def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float |
         InDoubtError: its forces, or the digits of its program, do not suffice to tell whether limits hold.
         SelfCheckError: a check of the plan fails.
     """
-    situation = stage.situation
-    alpha, beta, gamma = situation.parts(stage.v)
+    formulation = stage.formulation
+    alpha, beta, gamma = formulation.parts(stage.v)
     references = analysis.coordinates.references(alpha, beta, gamma)
     motion = forward(analysis.response, task.times, references, task.wrench)
-    usages = limit_usages(task, situation, motion)
+    usages = limit_usages(task, formulation, motion)
     refuse_doubtful_forces(analysis.response, motion)
     exact = identities(analysis, motion, (alpha, beta, gamma))
     checks = (*exact, *limit_checks(usages))
-    found = between(task, analysis, situation, motion)
+    found = between(task, analysis, formulation, motion)
     checks += between_checks(task, found)
     there = found.usages if found is not None and task.between == "hold" else ()
     _judge(checks, exact, (*usages, *there), analysis.response.scale.largest_force(motion.forces))
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
-        task, analysis, situation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
+        task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, situation, motion),
+        (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, formulation, motion),
          *_far(analysis, motion), *_missed(found)), found, stage.interrupted,
     )  # fmt: skip
 
@@ -81,11 +81,11 @@ def _judge(checks: Sequence[Check], exact: Sequence[Check], usages: Sequence[Usa
     raise SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
 
 
-def _ranges_left(task: Task, situation: Situation, motion: Motion) -> Iterator[str]:
+def _ranges_left(task: Task, formulation: Formulation, motion: Motion) -> Iterator[str]:
     """Yield a note when a joint leaves the range that the hand states and no limit says that it may not."""
     if task.ranges is None or any(isinstance(limit, JointRange) for limit in task.limits):
         return
-    usage = task.ranges.usage(situation, motion)
+    usage = task.ranges.usage(formulation, motion)
     if usage.excess.max(initial=-np.inf) > LIMIT:
         k, i = usage.worst()
         factor, unit = SHOWN_IN.get(usage.unit, (1.0, "(rad or m)"))
@@ -116,9 +116,9 @@ def _missed(between: Between | None) -> Iterator[str]:
         )
 
 
-def limit_usages(task: Task, situation: Situation, motion: Motion) -> tuple[Usage, ...]:
+def limit_usages(task: Task, formulation: Formulation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
-    return tuple(limit.usage(situation, motion) for limit in task.all_limits)
+    return tuple(limit.usage(formulation, motion) for limit in task.all_limits)
 
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation, Units
+from synergrip.conic.formulation import Formulation, Units
 from synergrip.conic.intersample import Looks
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
@@ -126,18 +126,18 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     """Answer a question by the second formulation, in the coordinates and with the multipliers of `program`.
 
     Args:
-        question: limits and goal over a situation.
+        question: limits and goal over a formulation.
         program: the program that the direct path built of it; only the names of its rows are read.
         settings: how hard to try.
 
     Raises:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
-    situation = question.situation
-    knots = Looks(situation.times, situation.wrench, situation.wanted)
-    model = _written(situation, knots, _references(situation))
-    wish, limits, inside = cones_of(question, model, partial(_written, situation))
-    cost = wish.cost / (situation.divisor * question.worth) if wish.scalar is None else wish.cost
+    formulation = question.formulation
+    knots = Looks(formulation.times, formulation.wrench, formulation.wanted)
+    model = _written(formulation, knots, _references(formulation))
+    wish, limits, inside = cones_of(question, model, partial(_written, formulation))
+    cost = wish.cost / (formulation.divisor * question.worth) if wish.scalar is None else wish.cost
     posed = pose(model, cost, [*limits, *wish.cones, *inside.limits, *inside.wish], inside.same)
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
@@ -149,35 +149,35 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         iterations, seconds = iterations + posed.iterations, seconds + posed.seconds
     x, z = np.zeros(len(program.q)), np.zeros(len(program.b))
     if posed.solved:
-        x, z = _unknowns(program, situation, model, wish), _multipliers(program, posed)
+        x, z = _unknowns(program, formulation, model, wish), _multipliers(program, posed)
     return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
 
 
-def _written(situation: Situation, looks: Looks, references: Expression | None) -> Model:
-    """Write the situation down at the knots, or at other instants, where beta is on straight lines between them."""
-    whole = situation.whole
+def _written(formulation: Formulation, looks: Looks, references: Expression | None) -> Model:
+    """Write the formulation down at the knots, or at other instants, where beta is on straight lines between them."""
+    whole = formulation.whole
     return write_model(
-        situation.response, situation.coordinates, times=looks.times, wrench=looks.wrench,
-        beta=interpolated(looks.times, situation.times, whole.beta.constant), units=situation.units,
-        redundancy=whole.frees_gamma, beta_basis=situation.beta_basis, wanted=looks.wanted,
-        rigid_basis=situation.spaces.Gamma_ucs, references=references, stated=situation.stated,
+        formulation.response, formulation.coordinates, times=looks.times, wrench=looks.wrench,
+        beta=interpolated(looks.times, formulation.times, whole.beta.constant), units=formulation.units,
+        redundancy=whole.frees_gamma, beta_basis=formulation.beta_basis, wanted=looks.wanted,
+        rigid_basis=formulation.spaces.Gamma_ucs, references=references, stated=formulation.stated,
     )  # fmt: skip
 
 
-def _references(situation: Situation) -> Expression | None:
+def _references(formulation: Formulation) -> Expression | None:
     """Return the references as far as earlier goals have left them open; None when none has determined anything."""
     import cvxpy as cp
 
-    if situation.origin is None:
+    if formulation.origin is None:
         return None
-    matrix, constant, courses = situation.reference.matrix, situation.reference.constant, situation.courses
-    free = cp.Variable((situation.knots if courses is None else courses.shape[1], situation.n_v))
+    matrix, constant, courses = formulation.reference.matrix, formulation.reference.constant, formulation.courses
+    free = cp.Variable((formulation.knots if courses is None else courses.shape[1], formulation.n_v))
     return constant + (free if courses is None else courses @ free) @ matrix.T
 
 
-def _unknowns(program: Program, situation: Situation, model: Model, wish: Wish) -> Array:
+def _unknowns(program: Program, formulation: Formulation, model: Model, wish: Wish) -> Array:
     """Return x (n,) of the references found."""
-    reference = situation.reference
+    reference = formulation.reference
     v = np.linalg.lstsq(reference.matrix, (model.dz_r.value - reference.constant).T, rcond=None)[0].T
     return program.solution(v, None if wish.scalar is None else wish.scalar.value)
 

@@ -116,7 +116,7 @@ def write_model(
     beta_basis: Array, wanted: Array, rigid_basis: Array, references: Expression | None = None,
     stated: Units | None = None,
 ) -> Model:  # fmt: skip
-    """Write a task down; the arguments are those of `situate`, and the references when they are not wholly free."""
+    """Write a task down; the arguments are those of `formulate`, and the references when they are not wholly free."""
     import cvxpy as cp
 
     grasp, dz_r = response.grasp, references

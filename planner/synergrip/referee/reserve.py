@@ -81,12 +81,12 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
     """Write goal and limits down at the knots, and between them when that is asked for.
 
     Args:
-        question: limits and goal over a situation.
+        question: limits and goal over a formulation.
         model: the task at the knots.
         write: writes the task down at other instants.
     """
     wish = write_goal(model, question.goal)
-    bend = question.situation.bend
+    bend = question.formulation.bend
     if bend is None:
         return wish, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
     courses = Courses.of(model, bend, write)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation, Units
+from synergrip.conic.formulation import Formulation, Units
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.friction_cone import cone_unit
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -64,10 +64,10 @@ def caps(analysis: Analysis, task: Task) -> tuple[float, ...]:
     return tuple(sorted(set(_caps(analysis, task))))
 
 
-def grips(situation: Situation) -> tuple[float, ...]:
+def grips(formulation: Formulation) -> tuple[float, ...]:
     """Return the squeeze [N] that the least friction takes to hold what the task asks; none when that is no more."""
-    least = min(cone_unit(contact.friction) for contact in situation.response.grasp.contacts)
-    return (situation.load_size / least,) if least < 1.0 else ()
+    least = min(cone_unit(contact.friction) for contact in formulation.response.grasp.contacts)
+    return (formulation.load_size / least,) if least < 1.0 else ()
 
 
 def _caps(analysis: Analysis, task: Task) -> list[float]:

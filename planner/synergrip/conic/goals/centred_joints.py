@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
 from synergrip.linalg import Array
@@ -25,14 +25,14 @@ class CentredJoints:
     upper: Array  # (n_q,)
     name: str = "centred joints"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none."""
         return ()
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return the squares."""
         half = (self.upper - self.lower) / 2
         ends = np.isfinite(half) & (half > 0)
         middle = np.where(ends, (self.lower + self.upper) / 2, 0.0)
         weights = np.where(ends, 1 / np.where(ends, half, 1.0), 0.0)
-        return Objective((squares_of(situation.joint.plus(self.start - middle), weights),))
+        return Objective((squares_of(formulation.joint.plus(self.start - middle), weights),))

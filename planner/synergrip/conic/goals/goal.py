@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
 
@@ -58,10 +58,10 @@ class Goal(Protocol):
     def name(self) -> str:
         """Name in messages."""
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows that tie the scalar to the plan; none for a goal without one."""
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return what is minimised."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
@@ -17,11 +17,11 @@ class LargestMargin:
 
     name: str = "largest margin"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones with s in the margin's place."""
-        return friction_rows(situation, 0.0, -1.0, "limits.margin")
+        return friction_rows(formulation, 0.0, -1.0, "limits.margin")
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return -s."""
         return Objective(epigraph=-1.0)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
 
@@ -26,14 +26,14 @@ class LeastEffort:
         """Name in messages."""
         return f"least {self.of} effort"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none."""
         return ()
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return the squares, in units of the force unit (times the length for torques)."""
-        scale, unit = situation.response.scale, situation.force_unit
+        scale, unit = formulation.response.scale, formulation.force_unit
         if self.of == "contact":
-            return Objective((squares_of(situation.force, scale.force / unit),))
-        value = situation.torque if self.of == "torque" else situation.effort
+            return Objective((squares_of(formulation.force, scale.force / unit),))
+        value = formulation.torque if self.of == "torque" else formulation.effort
         return Objective((squares_of(value, 1 / (unit * scale.length)),))

@@ -8,7 +8,7 @@ from typing import Literal, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective, Squares, squares_of
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
@@ -48,36 +48,36 @@ class LeastMotion:
             return None
         return replace(self, stiffest=SOFTER)
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none."""
         return ()
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return the squares, in reference units over the duration of the task."""
-        unit = situation.units.reference
+        unit = formulation.units.reference
         if self.of == "references":
-            return Objective((squares_of(situation.reference, 1 / unit),))
+            return Objective((squares_of(formulation.reference, 1 / unit),))
         order = 1 if self.of == "rates" else 2
-        if situation.knots <= order:
+        if formulation.knots <= order:
             return Objective()
-        return Objective((_differences(situation, order, unit, np.inf if self.exact else self.stiffest),))
+        return Objective((_differences(formulation, order, unit, np.inf if self.exact else self.stiffest),))
 
 
-def _differences(situation: Situation, order: int, unit: float, stiffest: float) -> Squares:
+def _differences(formulation: Formulation, order: int, unit: float, stiffest: float) -> Squares:
     """Return first or second differences over uneven knots; their sum of squares is T times an integral over [0, 1].
 
     A row is divided by nothing that changes from knot to knot but by weights, since one matrix serves all knots:
     the weight of the newest knot stands before the whole row.
     """
-    weights = _weights(situation.times, order)  # (K, order + 1), newest first
-    weights = weights * np.sqrt(situation.knots)
+    weights = _weights(formulation.times, order)  # (K, order + 1), newest first
+    weights = weights * np.sqrt(formulation.knots)
     weights = weights * min(1.0, np.sqrt(stiffest) / float(np.abs(weights).max()))
-    value = situation.reference
+    value = formulation.reference
     matrix, known = value.matrix / unit, value.constant / unit
     count = len(weights)
     constant = sum(weights[:, lag, None] * known[order - lag : order - lag + count] for lag in range(order + 1))
     earlier = tuple(Earlier(lag, frozen(matrix), frozen(weights[:, lag])) for lag in range(order + 1))
-    time = (situation.times - situation.times[0]) / (situation.times[-1] - situation.times[0])
+    time = (formulation.times - formulation.times[0]) / (formulation.times[-1] - formulation.times[0])
     unseen = np.column_stack([np.ones(len(time)), 2 * time - 1])[:, :order]
     return Squares(frozen(np.zeros_like(matrix)), frozen(constant), earlier, frozen(unseen))
 

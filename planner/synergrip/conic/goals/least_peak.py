@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
 from synergrip.conic.rows import Kind, Rows, items_of
@@ -20,15 +20,15 @@ class LeastPeak:
 
     name: str = "least peak normal force"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return ``s - n >= 0`` for every contact."""
-        contacts = situation.response.grasp.contacts
-        value = situation.force.after(-normal_selection(situation) / situation.force_unit)
+        contacts = formulation.response.grasp.contacts
+        value = formulation.force.after(-normal_selection(formulation) / formulation.force_unit)
         items = items_of(contact.name for contact in contacts)
         ones = frozen(np.ones(len(contacts)))
         return [Rows("goal.minimise", Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, ones)]
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return s."""
         return Objective(epigraph=1.0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Objective, squares_of
 from synergrip.conic.rows import Rows
 
@@ -19,15 +19,15 @@ class LeastReconfiguration:
 
     name: str = "least reconfiguration"
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none."""
         return ()
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return the squares of the unknowns but for the forces."""
-        units = situation.stated
-        parts = [squares_of(situation.gamma, 1 / units.reference)]
-        if situation.frees_beta:
-            beyond = situation.beta.plus(-situation.whole.beta.constant)
+        units = formulation.stated
+        parts = [squares_of(formulation.gamma, 1 / units.reference)]
+        if formulation.frees_beta:
+            beyond = formulation.beta.plus(-formulation.whole.beta.constant)
             parts.append(squares_of(beyond, 1 / units.motion))
         return Objective(tuple(part for part in parts if part.matrix.any()))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.rows import Rows
 from synergrip.linalg import frozen
@@ -24,13 +24,13 @@ class WeightedSum:
         """Name in messages."""
         return " + ".join(f"{weight:g} {goal.name}" for goal, weight in self.goals)
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none: sums of squares have no scalar."""
         return ()
 
-    def objective(self, situation: Situation) -> Objective:
+    def objective(self, formulation: Formulation) -> Objective:
         """Return all the squares, each times the root of its weight."""
-        stated = replace(situation, units=situation.stated)
+        stated = replace(formulation, units=formulation.stated)
         parts = ((part, weight) for goal, weight in self.goals for part in goal.objective(stated).squares)
         return Objective(tuple(_times(part, float(np.sqrt(weight))) for part, weight in parts))
 

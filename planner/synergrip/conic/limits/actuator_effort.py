@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
 from synergrip.conic.rows import Rows
@@ -23,19 +23,19 @@ class ActuatorEffort:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""
-        return symmetric_rows(self.key, situation.response.grasp.synergies, situation.effort, self.limit)
+        return symmetric_rows(self.key, formulation.response.grasp.synergies, formulation.effort, self.limit)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return them and their limits."""
-        return situation.effort, self.limit
+        return formulation.effort, self.limit
 
     def loosened(self, share: float) -> Self:
         """Return it with every bound larger by `share`."""
         return replace(self, limit=frozen(self.limit * (1 + share)))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
-        items = situation.response.grasp.synergies
+        items = formulation.response.grasp.synergies
         return symmetric_usage("actuator effort", "synergy units", items, motion.efforts, self.limit, motion.times)

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import norm_usage
 from synergrip.conic.rows import Rows, norm_within
@@ -28,25 +28,25 @@ class ElasticMotion:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""
-        return [norm_within(self.key, "object", self._scaled(situation), self.limit)]
+        return [norm_within(self.key, "object", self._scaled(formulation), self.limit)]
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the elastic motion and its limit."""
-        return self._scaled(situation), np.full(6, self.limit)
+        return self._scaled(formulation), np.full(6, self.limit)
 
     def loosened(self, share: float) -> Self:
         """Return it with a limit larger by `share`."""
         return replace(self, limit=self.limit * (1 + share))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return its size."""
-        spaces, coordinates = situation.spaces, situation.coordinates
+        spaces, coordinates = formulation.spaces, formulation.coordinates
         _, beta, _ = coordinates.coordinates(motion.dz_r)
         elastic = motion.du - motion.sag - beta @ spaces.Gamma_ucs.T
-        size = np.linalg.norm(situation.response.scale.twist(elastic), axis=1)
+        size = np.linalg.norm(formulation.response.scale.twist(elastic), axis=1)
         return norm_usage("elastic motion", "m", "object", size, self.limit, motion.times)
 
-    def _scaled(self, situation: Situation) -> Affine:
-        return situation.elastic.after(situation.response.scale.motion)
+    def _scaled(self, formulation: Formulation) -> Affine:
+        return formulation.elastic.after(formulation.response.scale.motion)

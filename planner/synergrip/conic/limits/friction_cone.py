@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.linalg import Array, frozen
@@ -29,58 +29,58 @@ class FrictionCone:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per contact (a plain bound for a frictionless one)."""
-        return friction_rows(situation, self.margin, 0.0, self.key)
+        return friction_rows(formulation, self.margin, 0.0, self.key)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
         """Return nothing: a cone alone bounds no force."""
 
     def loosened(self, share: float) -> Self:
         """Return it with a margin smaller by `share`."""
         return replace(self, margin=self.margin - share * abs(self.margin))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the slip margins, by the contacts' own formula."""
-        grasp = situation.response.grasp
-        margins = slip_margins(situation, motion)
+        grasp = formulation.response.grasp
+        margins = slip_margins(formulation, motion)
         count = grasp.n_c
         return Usage(
             "slip margin", "N", tuple(c.name for c in grasp.contacts), margins,
-            np.full(count, self.margin), np.full(count, np.inf), np.full(count, situation.load_size), motion.times,
-            carried(situation, motion),
+            np.full(count, self.margin), np.full(count, np.inf), np.full(count, formulation.load_size), motion.times,
+            carried(formulation, motion),
         )  # fmt: skip
 
 
-def slip_margins(situation: Situation, motion: Motion) -> Array:
+def slip_margins(formulation: Formulation, motion: Motion) -> Array:
     """Return the slip margin (T, n_c) [N] of every contact."""
-    grasp = situation.response.grasp
+    grasp = formulation.response.grasp
     pairs = zip(grasp.contacts, grasp.rows, strict=True)
     return np.column_stack([contact.slip_margin(motion.forces[:, rows]) for contact, rows in pairs])
 
 
-def carried(situation: Situation, motion: Motion) -> Array:
+def carried(formulation: Formulation, motion: Motion) -> Array:
     """Return (T, n_c) [N] the largest force component that each contact carries, or what the task asks when more.
 
     An error of a force is small or large against this, never against a limit that does not bind. Forces are sums over
     the synergies: where these cancel to almost nothing, what is left is their rounding.
     """
-    grasp, response = situation.response.grasp, situation.response
+    grasp, response = formulation.response.grasp, formulation.response
     sizes = np.abs(motion.forces * response.scale.force)
     largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
-    return frozen(np.maximum(largest, max(situation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
+    return frozen(np.maximum(largest, max(formulation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
 
 
-def friction_rows(situation: Situation, margin: float, epigraph: float, key: str) -> list[Rows]:
+def friction_rows(formulation: Formulation, margin: float, epigraph: float, key: str) -> list[Rows]:
     """Return rows ``W lambda - (margin - epigraph s) e_1`` in the cone, contacts of one size together.
 
     Args:
-        situation: the task.
+        formulation: the task.
         margin: required margin [N].
         epigraph: coefficient of the goal's scalar in the margin's place, in force units.
         key: what asks for it.
     """
-    grasp, unit = situation.response.grasp, situation.force_unit
+    grasp, unit = formulation.response.grasp, formulation.force_unit
     result = []
     for size in sorted({len(c.cone) for c in grasp.contacts}):
         chosen = [(c, rows) for c, rows in zip(grasp.contacts, grasp.rows, strict=True) if len(c.cone) == size]
@@ -88,7 +88,7 @@ def friction_rows(situation: Situation, margin: float, epigraph: float, key: str
         for i, (contact, rows) in enumerate(chosen):
             W[i * size : (i + 1) * size, rows] = contact.cone / cone_unit(contact.friction)
         first = np.concatenate([np.eye(size)[0] / cone_unit(contact.friction) for contact, _ in chosen])
-        value = situation.force.after(W / unit)
+        value = formulation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
         items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Situation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows
@@ -31,26 +31,26 @@ class FrictionReserve:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones of contacts with less friction."""
-        return friction_rows(self._narrowed(situation), 0.0, 0.0, self.key)
+        return friction_rows(self._narrowed(formulation), 0.0, 0.0, self.key)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
         """Return nothing: a cone alone bounds no force."""
 
     def loosened(self, share: float) -> Self:
         """Return it with `share` of the reserve given up."""
         return replace(self, ratios=frozen(self.ratios + share * (1 - self.ratios)))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the slip margins that contacts with less friction would have; no less than 0 is asked of them."""
-        margins = slip_margins(self._narrowed(situation), motion)
-        return replace(FrictionCone(0.0).usage(situation, motion), title=self.title, value=margins)
+        margins = slip_margins(self._narrowed(formulation), motion)
+        return replace(FrictionCone(0.0).usage(formulation, motion), title=self.title, value=margins)
 
-    def _narrowed(self, situation: Situation) -> Situation:
-        grasp = situation.response.grasp
+    def _narrowed(self, formulation: Formulation) -> Formulation:
+        grasp = formulation.response.grasp
         contacts = tuple(
             replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
             for contact, ratio in zip(grasp.contacts, np.asarray(self.ratios), strict=True)
         )
-        return replace(situation, response=replace(situation.response, grasp=replace(grasp, contacts=contacts)))
+        return replace(formulation, response=replace(formulation.response, grasp=replace(grasp, contacts=contacts)))

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
@@ -28,23 +28,23 @@ class JointRange:
     watches: ClassVar[Watches] = "references"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range."""
-        names = situation.response.grasp.joints
-        return within(self.key, names, situation.joint.plus(self.start), self.lower, self.upper, self._unit)
+        names = formulation.response.grasp.joints
+        return within(self.key, names, formulation.joint.plus(self.start), self.lower, self.upper, self._unit)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the joint displacements and how far they may go."""
-        return situation.joint, np.maximum(self.upper - self.start, self.start - self.lower)
+        return formulation.joint, np.maximum(self.upper - self.start, self.start - self.lower)
 
     def loosened(self, share: float) -> Self:
         """Return it with ranges wider by `share` of half of each."""
         more = share * self._unit
         return replace(self, lower=frozen(self.lower - more), upper=frozen(self.upper + more))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the joint values that the motion reaches."""
-        names = situation.response.grasp.joints
+        names = formulation.response.grasp.joints
         value = frozen(self.start + motion.dq)
         return Usage("joint value", self.unit, names, value, self.lower, self.upper, self._unit, motion.times)
 

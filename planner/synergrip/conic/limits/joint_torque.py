@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
 from synergrip.conic.rows import Rows
@@ -25,19 +25,19 @@ class JointTorque:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""
-        return symmetric_rows(self.key, situation.response.grasp.joints, situation.torque, self.limit)
+        return symmetric_rows(self.key, formulation.response.grasp.joints, formulation.torque, self.limit)
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return them and their limits."""
-        return situation.torque, self.limit
+        return formulation.torque, self.limit
 
     def loosened(self, share: float) -> Self:
         """Return it with every bound larger by `share`."""
         return replace(self, limit=frozen(self.limit * (1 + share)))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
-        items = situation.response.grasp.joints
+        items = formulation.response.grasp.joints
         return symmetric_usage("joint torque", self.unit, items, motion.torques, self.limit, motion.times)

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Rows
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
@@ -76,10 +76,10 @@ class Limit(Protocol):
     def couples_knots(self) -> bool:
         """Whether it speaks of the step from knot to knot, and not of each instant."""
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows it adds to the program."""
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return quantities and the sizes (m,) that this limit keeps them within; None when it keeps none.
 
         `cones_hold` says whether the friction cones hold as well, which bound tangential by normal forces.
@@ -88,5 +88,5 @@ class Limit(Protocol):
     def loosened(self, share: float) -> Limit:
         """Return the same limit with that share of itself more room, for rounding."""
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return what a motion makes of it, from the motion alone."""

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.rows import Rows, within
@@ -29,41 +29,41 @@ class NormalForce:
     watches: ClassVar[Watches] = "forces"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
-        grasp = situation.response.grasp
-        value = situation.force.after(normal_selection(situation))
+        grasp = formulation.response.grasp
+        value = formulation.force.after(normal_selection(formulation))
         lower, none = self.lower if self.lower > 0 else -np.inf, np.full(grasp.n_c, np.inf)
         low, high = np.full(grasp.n_c, lower), np.full(grasp.n_c, self.upper)
-        units = [np.full(grasp.n_c, bound_unit(bound, situation.force_unit)) for bound in (lower, self.upper)]
-        names = _names(situation)
+        units = [np.full(grasp.n_c, bound_unit(bound, formulation.force_unit)) for bound in (lower, self.upper)]
+        names = _names(formulation)
         return [
             *within(self.key, names, value, low, none, units[0]),
             *within(self.key, names, value, -none, high, units[1]),
         ]
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""
         if not cones_hold or not np.isfinite(self.upper):
             return None
         bounds = []
-        for contact in situation.response.grasp.contacts:
+        for contact in formulation.response.grasp.contacts:
             sizes = np.diag(contact.cone)  # mu, 1, 1, mu / nu: the cone is ||rest|| <= mu n
             bounds += [self.upper, *(sizes[0] * self.upper / sizes[1:])]
-        return situation.force, np.array(bounds)
+        return formulation.force, np.array(bounds)
 
     def loosened(self, share: float) -> Self:
         """Return it with a range wider by `share` of its ends."""
         return replace(self, lower=self.lower - share * abs(self.lower), upper=self.upper + share * abs(self.upper))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the normal forces."""
-        starts = situation.response.grasp.normal_rows
+        starts = formulation.response.grasp.normal_rows
         count = len(starts)
         return Usage(
-            "normal force", "N", _names(situation), motion.forces[:, starts],
-            np.full(count, self.lower), np.full(count, self.upper), np.full(count, situation.load_size), motion.times,
-            carried(situation, motion),
+            "normal force", "N", _names(formulation), motion.forces[:, starts],
+            np.full(count, self.lower), np.full(count, self.upper), np.full(count, formulation.load_size), motion.times,
+            carried(formulation, motion),
         )  # fmt: skip
 
 
@@ -72,11 +72,11 @@ def bound_unit(bound: float, force_unit: float) -> float:
     return abs(bound) if np.isfinite(bound) and abs(bound) > FAR * force_unit else force_unit
 
 
-def normal_selection(situation: Situation) -> Array:
+def normal_selection(formulation: Formulation) -> Array:
     """Return (n_c, n_l): the normal component of each contact."""
-    grasp = situation.response.grasp
+    grasp = formulation.response.grasp
     return np.eye(grasp.n_l)[grasp.normal_rows]
 
 
-def _names(situation: Situation) -> tuple[str, ...]:
-    return tuple(contact.name for contact in situation.response.grasp.contacts)
+def _names(formulation: Formulation) -> tuple[str, ...]:
+    return tuple(contact.name for contact in formulation.response.grasp.contacts)

@@ -8,7 +8,7 @@ from typing import ClassVar, Literal, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import norm_usage
 from synergrip.conic.rows import Rows, norm_within
@@ -35,34 +35,36 @@ class ObjectError:
     watches: ClassVar[Watches] = "motion"
     couples_knots: ClassVar[bool] = False
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""
-        return [norm_within(self.key, "object", self._error(situation), self.limit)]
+        return [norm_within(self.key, "object", self._error(formulation), self.limit)]
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> tuple[Affine, Array]:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the error in each of the axes, and the limit."""
-        return self._error(situation), np.full(len(self.axes), self.limit)
+        return self._error(formulation), np.full(len(self.axes), self.limit)
 
     def loosened(self, share: float) -> Self:
         """Return it with a limit larger by `share`."""
         return replace(self, limit=self.limit * (1 + share))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the size of the error."""
         reached = motion.du
         if self.part == "rigid":
-            _, beta, _ = situation.coordinates.coordinates(motion.dz_r)
-            reached = beta @ situation.spaces.Gamma_ucs.T
-        size = np.linalg.norm((reached - situation.wanted) @ self._weights(situation).T, axis=1)
+            _, beta, _ = formulation.coordinates.coordinates(motion.dz_r)
+            reached = beta @ formulation.spaces.Gamma_ucs.T
+        size = np.linalg.norm((reached - formulation.wanted) @ self._weights(formulation).T, axis=1)
         return norm_usage(self.title, "m", "object", size, self.limit, motion.times)
 
-    def _error(self, situation: Situation) -> Affine:
-        whole = situation.displacement if self.part == "whole" else situation.beta.after(situation.spaces.Gamma_ucs)
-        return whole.plus(-situation.wanted).after(self._weights(situation))
+    def _error(self, formulation: Formulation) -> Affine:
+        whole = (
+            formulation.displacement if self.part == "whole" else formulation.beta.after(formulation.spaces.Gamma_ucs)
+        )
+        return whole.plus(-formulation.wanted).after(self._weights(formulation))
 
-    def _weights(self, situation: Situation) -> Array:
+    def _weights(self, formulation: Formulation) -> Array:
         """Return the rows of D (len(axes), 6) that count."""
-        return axis_weights(self.axes, situation.response.scale.length)
+        return axis_weights(self.axes, formulation.response.scale.length)
 
 
 def axis_weights(axes: Sequence[AxisName], length: float) -> Array:

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_usage
 from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
@@ -29,18 +29,18 @@ class SynergyAcceleration:
     watches: ClassVar[Watches] = "references"
     couples_knots: ClassVar[bool] = True
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each synergy and inner knot, in units of the longest steps' bound."""
         keep = np.isfinite(self.limit)
-        if situation.knots < 3 or not np.any(keep):
+        if formulation.knots < 3 or not np.any(keep):
             return []
-        ratio, step = _steps(situation.times)
+        ratio, step = _steps(formulation.times)
         room = step[:, None] * self.limit[keep]
         unit = room.max(axis=0)
-        matrix = situation.reference.matrix[keep] / unit[:, None]
-        z = situation.reference.constant[:, keep]
+        matrix = formulation.reference.matrix[keep] / unit[:, None]
+        z = formulation.reference.constant[:, keep]
         known = (z[2:] - (1 + ratio[:, None]) * z[1:-1] + ratio[:, None] * z[:-2]) / unit
-        names = [name for name, kept in zip(situation.response.grasp.synergies, keep, strict=True) if kept]
+        names = [name for name, kept in zip(formulation.response.grasp.synergies, keep, strict=True) if kept]
         result = []
         for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen(room / unit + sign * known))
@@ -51,21 +51,21 @@ class SynergyAcceleration:
             result.append(nonnegative(self.key, items_of(names, side), value, earlier))
         return result
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
         """Return nothing: an acceleration bounds no value."""
 
     def loosened(self, share: float) -> Self:
         """Return it with every bound larger by `share`."""
         return replace(self, limit=frozen(self.limit * (1 + share)))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the accelerations, each at its knot; 0 at the first and the last."""
         found = np.zeros_like(motion.dz_r)
         if len(motion.times) > 2:
             h = np.diff(motion.times)[:, None]
             rates = np.diff(motion.dz_r, axis=0) / h
             found[1:-1] = 2 * np.diff(rates, axis=0) / (h[1:] + h[:-1])
-        items = situation.response.grasp.synergies
+        items = formulation.response.grasp.synergies
         return symmetric_usage("synergy acceleration", "synergy units/s²", items, found, self.limit, motion.times)
 
 

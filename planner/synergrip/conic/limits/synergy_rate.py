@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Situation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.limit import Usage, Watches
 from synergrip.conic.limits.symmetric import symmetric_usage
 from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
@@ -25,17 +25,17 @@ class SynergyRate:
     watches: ClassVar[Watches] = "references"
     couples_knots: ClassVar[bool] = True
 
-    def rows(self, situation: Situation) -> Sequence[Rows]:
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each synergy and step, in units of the limit."""
-        if situation.knots < 2:
+        if formulation.knots < 2:
             return []
         keep = np.isfinite(self.limit)
-        names = [name for name, kept in zip(situation.response.grasp.synergies, keep, strict=True) if kept]
-        steps = np.diff(situation.times)[:, None] * self.limit[keep]
-        moved = np.diff(situation.reference.constant[:, keep], axis=0) / steps
+        names = [name for name, kept in zip(formulation.response.grasp.synergies, keep, strict=True) if kept]
+        steps = np.diff(formulation.times)[:, None] * self.limit[keep]
+        moved = np.diff(formulation.reference.constant[:, keep], axis=0) / steps
         # one matrix serves all steps, so the steps are compared in the unit of the longest
         unit = steps.max(axis=0)
-        matrix = situation.reference.matrix[keep] / unit[:, None]
+        matrix = formulation.reference.matrix[keep] / unit[:, None]
         result = []
         for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen((1.0 + sign * moved) * steps / unit))
@@ -43,16 +43,16 @@ class SynergyRate:
             result.append(nonnegative(self.key, items_of(names, side), value, (before,)))
         return result
 
-    def bounded(self, situation: Situation, *, cones_hold: bool) -> None:
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
         """Return nothing: a rate bounds no value."""
 
     def loosened(self, share: float) -> Self:
         """Return it with every bound larger by `share`."""
         return replace(self, limit=frozen(self.limit * (1 + share)))
 
-    def usage(self, situation: Situation, motion: Motion) -> Usage:
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the rates, each at the knot where its step ends."""
         rates = np.zeros_like(motion.dz_r)
         rates[1:] = np.diff(motion.dz_r, axis=0) / np.diff(motion.times)[:, None]
-        items = situation.response.grasp.synergies
+        items = formulation.response.grasp.synergies
         return symmetric_usage("synergy rate", "synergy units/s", items, rates, self.limit, motion.times)

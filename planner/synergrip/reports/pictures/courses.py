@@ -41,7 +41,7 @@ def charts(plan: Plan) -> tuple[Chart, ...]:
 
 def _motion(plan: Plan) -> Iterator[Chart]:
     """Yield translation and rotation of the object about B, as far as it moves or is to move."""
-    wanted, reached = plan.situation.wanted, plan.motion.du
+    wanted, reached = plan.formulation.wanted, plan.motion.du
     for title, unit, part in (("object displacement", "m", slice(0, 3)), ("object rotation", "rad", slice(3, 6))):
         factor, shown = SHOWN_IN[unit]
         yield Chart(title, shown, ("x", "y", "z"), factor * reached[:, part], wanted=factor * wanted[:, part])

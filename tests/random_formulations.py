@@ -1,11 +1,11 @@
-"""Random situations of a few knots, and one limit of each kind around what they are like."""
+"""Random formulations of a few knots, and one limit of each kind around what they are like."""
 
 from __future__ import annotations
 
 import numpy as np
 from random_grasps import random_grasp
 
-from synergrip.conic.formulation import Situation, Units, situate
+from synergrip.conic.formulation import Formulation, Units, formulate
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
@@ -46,15 +46,15 @@ def _range(n: int, half: np.ndarray) -> JointRange:
     return JointRange(frozen(np.full(n, 0.4)), frozen(0.4 - half), frozen(0.4 + half))
 
 
-def random_situation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Situation]:
+def random_situation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Formulation]:
     rng = np.random.default_rng(seed)
     kinds = [["hard", "soft", "hard"], ["frictionless", "hard", "soft", "hard"]][seed % 2]
     analysis = analyse(random_grasp(rng, kinds, degenerate=seed % 3 == 0))
     times = np.array([0.0, 0.3, 0.5, 1.1])
     wrench = rng.normal(size=(KNOTS, 6)) * [1, 1, 1, 0.02, 0.02, 0.02]
     beta = 1e-3 * rng.normal(size=(KNOTS, analysis.spaces.Gamma_ucs.shape[1]))
-    situation = situate(analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=wrench,
+    formulation = formulate(analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=wrench,
                         beta=beta, units=Units(1.7, 0.3, 0.01), redundancy=redundancy,
                         beta_basis=np.eye(beta.shape[1])[:, : max(beta.shape[1] - seed // 3, 1)],
                         wanted=1e-3 * rng.normal(size=(KNOTS, 6)))  # fmt: skip
-    return rng, situation
+    return rng, formulation

@@ -1,15 +1,15 @@
-"""A task on a grasp as a situation: what its wanted motion fixes, and what is left to the program."""
+"""A task on a grasp as a formulation: what its wanted motion fixes, and what is left to the program."""
 
 from __future__ import annotations
 
-from synergrip.conic.formulation import Situation, situate
+from synergrip.conic.formulation import Formulation, formulate
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.scaling import expected_units, units_of
 from synergrip.tasks.task import Task
 from synergrip.tasks.tracking import followed
 
 
-def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:
+def formulated(analysis: Analysis, task: Task, *, redundancy: bool) -> Formulation:
     """Return what the program's unknowns mean in a task, at its knots.
 
     Args:
@@ -23,7 +23,7 @@ def situated(analysis: Analysis, task: Task, *, redundancy: bool) -> Situation:
     """
     follow = followed(analysis, task)
     sizes = expected_units(analysis, task, follow.beta, follow.wanted)
-    return situate(
+    return formulate(
         analysis.response, analysis.spaces, analysis.coordinates,
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
         units=sizes, redundancy=redundancy, stated=units_of(analysis, task),
