@@ -46,7 +46,7 @@ def _range(n: int, half: np.ndarray) -> JointRange:
     return JointRange(frozen(np.full(n, 0.4)), frozen(0.4 - half), frozen(0.4 + half))
 
 
-def random_situation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Formulation]:
+def random_formulation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Formulation]:
     rng = np.random.default_rng(seed)
     kinds = [["hard", "soft", "hard"], ["frictionless", "hard", "soft", "hard"]][seed % 2]
     analysis = analyse(random_grasp(rng, kinds, degenerate=seed % 3 == 0))

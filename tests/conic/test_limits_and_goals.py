@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from random_formulations import KNOTS, LIMITS, random_situation
+from random_formulations import KNOTS, LIMITS, random_formulation
 
 from synergrip.conic.build import build
 from synergrip.conic.cones import distance_to_cones
@@ -27,7 +27,7 @@ def motion_of(formulation: Formulation, v: np.ndarray) -> Motion:
 @pytest.mark.parametrize("name", LIMITS)
 @pytest.mark.parametrize("seed", range(6))
 def test_rows_and_usage_agree_on_what_is_allowed(name: str, seed: int) -> None:
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     limit = LIMITS[name](formulation.response.grasp)
     program = build(formulation, [limit], LeastEffort())
     verdicts = set()
@@ -42,7 +42,7 @@ def test_rows_and_usage_agree_on_what_is_allowed(name: str, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_distance_is_the_excess_in_the_limits_own_units(seed: int) -> None:
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     v = rng.normal(size=(KNOTS, formulation.n_v))
     grasp, motion = formulation.response.grasp, motion_of(formulation, v)
     units = {
@@ -59,7 +59,7 @@ def test_distance_is_the_excess_in_the_limits_own_units(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_objectives_are_what_their_names_say(seed: int) -> None:
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     grasp, scale = formulation.response.grasp, formulation.response.scale
     v, u = rng.normal(size=(2, KNOTS, formulation.n_v))
     one, two = motion_of(formulation, v), motion_of(formulation, u)
@@ -83,7 +83,7 @@ def test_objectives_are_what_their_names_say(seed: int) -> None:
 
 
 def test_the_last_goal_prices_redundancy_and_rigid_motion_only() -> None:
-    rng, formulation = random_situation(0)
+    rng, formulation = random_formulation(0)
     v = rng.normal(size=(KNOTS, formulation.n_v))
     program = build(formulation, [], LeastReconfiguration())
     gamma = formulation.gamma.at(v) / formulation.units.reference
@@ -99,7 +99,7 @@ def test_the_box_contains_everything_the_limits_allow(seed: int, name: str) -> N
     from synergrip.conic.solution import Claim, Settings
     from synergrip.conic.solvers import clarabel_
 
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     grasp = formulation.response.grasp
     limits = [LIMITS[name](grasp)] + ([FrictionCone(0.0)] if name == "normal" else [])
     program = build(formulation, limits, LeastEffort())
@@ -117,7 +117,7 @@ def test_the_box_contains_everything_the_limits_allow(seed: int, name: str) -> N
 
 
 def test_accelerations_are_second_derivatives_of_a_parabola_on_uneven_knots() -> None:
-    _, formulation = random_situation(2)
+    _, formulation = random_formulation(2)
     grasp = formulation.response.grasp
     rates = np.linspace(-1.0, 1.0, grasp.n_z)
     dz_r = 0.3 + np.outer(formulation.times, rates) + 0.5 * np.outer(formulation.times**2, 3 * rates)
@@ -128,7 +128,7 @@ def test_accelerations_are_second_derivatives_of_a_parabola_on_uneven_knots() ->
 
 
 def test_a_coupled_limit_leaves_the_first_knot_free() -> None:
-    _, formulation = random_situation(2)
+    _, formulation = random_formulation(2)
     limit = LIMITS["rate"](formulation.response.grasp)
     block = build(formulation, [limit], LeastEffort()).blocks[0]
     assert (block.first_knot, block.knots) == (1, KNOTS - 1)
@@ -139,7 +139,7 @@ def test_a_coupled_limit_leaves_the_first_knot_free() -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) -> None:
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     limit = NormalForce(0.0, 3.0)
     assert limit.bounded(formulation, cones_hold=False) is None
     assert NormalForce(0.0, np.inf).bounded(formulation, cones_hold=True) is None
@@ -157,7 +157,7 @@ def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) 
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_a_loosened_limit_has_that_much_more_room(name: str) -> None:
-    _, formulation = random_situation(3)
+    _, formulation = random_formulation(3)
     limit = LIMITS[name](formulation.response.grasp)
     still = motion_of(formulation, np.zeros((KNOTS, formulation.n_v)))
     tight, loose = limit.usage(formulation, still), limit.loosened(0.1).usage(formulation, still)

@@ -76,7 +76,7 @@ class Formulation:
     """What happens between the knots, when the program is to allow for it."""
     courses: Array | None = None
     """(T, f) the courses in time that the unknowns are made of; None when each knot has its own."""
-    origin: Formulation | None = None
+    unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
     @property
@@ -107,7 +107,7 @@ class Formulation:
     @property
     def whole(self) -> Formulation:
         """The formulation in which no goal has determined anything yet."""
-        return self.origin or self
+        return self.unreduced or self
 
     @cached_property
     def beta_basis(self) -> Array:
@@ -198,24 +198,24 @@ class Formulation:
         sizes = [units.force] * n_alpha + [units.reference] * n_gamma
         return np.array(sizes + [units.motion] * (self.n_v - len(sizes)))
 
-    def around(self, v: Array, open_directions: Array, courses: Array | None = None) -> Formulation:
+    def around(self, v: Array, free_directions: Array, courses: Array | None = None) -> Formulation:
         """Return what is left of it when all plans are alike but for some directions and courses.
 
         The unknowns are then what is added to v, as coordinates of the directions.
 
         Args:
             v: (T, n_v) one of the plans.
-            open_directions: (n_v, m) orthonormal: in which the unknowns of a knot may still differ.
+            free_directions: (n_v, m) orthonormal: in which the unknowns of a knot may still differ.
             courses: (T, f) how the difference may vary in time; None when it may be any at each knot.
         """
 
         def left(part: Affine) -> Affine:
-            matrix = part.matrix @ open_directions
+            matrix = part.matrix @ free_directions
             size = np.abs(part.matrix).max(axis=1, keepdims=True, initial=0.0)
             return Affine(frozen(np.where(np.abs(matrix) > ROUNDING * size, matrix, 0.0)), frozen(part.at(v)))
 
         alpha, beta, gamma = (left(part) for part in (self.alpha, self.beta, self.gamma))
-        return replace(self, alpha=alpha, beta=beta, gamma=gamma, courses=courses, origin=self.whole)
+        return replace(self, alpha=alpha, beta=beta, gamma=gamma, courses=courses, unreduced=self.whole)
 
     def parts(self, v: Array) -> tuple[Array, Array, Array]:
         """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""

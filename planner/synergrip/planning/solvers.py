@@ -165,10 +165,10 @@ def _in_its_units(found: Answered) -> Question | None:
     if found.decision.solution.claim not in (Claim.OPTIMAL, Claim.NOTHING) or not np.all(np.isfinite(v)):
         return None
     formulation, old = question.formulation, question.formulation.units
-    if formulation.origin is None:
+    if formulation.unreduced is None:
         motion = formulation.beta.at(v) - formulation.beta.constant
-        sizes = (formulation.response.scale.largest_force(formulation.force.at(v)), _largest(formulation.reference.at(v)),
-                 _largest(motion))  # fmt: skip
+        force = formulation.response.scale.largest_force(formulation.force.at(v))
+        sizes = (force, _largest(formulation.reference.at(v)), _largest(motion))
         units = Units(*(size if 0 < size < np.inf else was for size, was in zip(sizes, astuple(old), strict=True)))
         formulation, v = (
             formulation.in_units(units),
@@ -186,7 +186,7 @@ def _in_its_units(found: Answered) -> Question | None:
 def _in_units_of(question: Question, force: float) -> Question | None:
     """Return the question in another unit of force [N]; None when earlier goals have determined a part of the plan."""
     formulation = question.formulation
-    if formulation.origin is not None:
+    if formulation.unreduced is not None:
         return None
     return replace(question, formulation=formulation.in_units(replace(formulation.units, force=force)))
 

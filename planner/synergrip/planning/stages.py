@@ -93,7 +93,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     """
     if stage.interrupted:
         return stage
-    formulation = _left_open(stage)
+    formulation = _reduced(stage)
     if not asked and goal.objective(formulation).empty:
         return stage
     if not formulation.n_v:
@@ -133,14 +133,14 @@ def not_the_best(decision: Decision) -> str:
     )
 
 
-def _left_open(stage: Stage) -> Formulation:
+def _reduced(stage: Stage) -> Formulation:
     """Return the formulation of the plans that are best by the last goal.
 
     The best by a sum of squares agree in everything that is squared, and so differ only in what it does not see.
     """
     formulation, goal = stage.formulation, stage.goal
     if isinstance(goal, LargestMargin | LeastPeak):
-        if formulation.origin is not None:
+        if formulation.unreduced is not None:
             return formulation
         return formulation.in_units(replace(formulation.units, force=_carried(stage)))
     squares = goal.objective(formulation).squares

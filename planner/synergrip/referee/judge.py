@@ -168,7 +168,7 @@ def _references(formulation: Formulation) -> Expression | None:
     """Return the references as far as earlier goals have left them open; None when none has determined anything."""
     import cvxpy as cp
 
-    if formulation.origin is None:
+    if formulation.unreduced is None:
         return None
     matrix, constant, courses = formulation.reference.matrix, formulation.reference.constant, formulation.courses
     free = cp.Variable((formulation.knots if courses is None else courses.shape[1], formulation.n_v))

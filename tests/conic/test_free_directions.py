@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from random_formulations import KNOTS, LIMITS, random_situation
+from random_formulations import KNOTS, LIMITS, random_formulation
 
 from synergrip.conic.build import build
 from synergrip.conic.goals.goal import Goal
@@ -26,8 +26,8 @@ GOALS: tuple[Goal, ...] = (
 @pytest.mark.parametrize("in_courses", [False, True])
 @pytest.mark.parametrize("goal", GOALS, ids=lambda goal: goal.name)
 @pytest.mark.parametrize("seed", range(4))
-def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_open(seed: int, goal: Goal, in_courses: bool) -> None:
-    rng, formulation = random_situation(seed)
+def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_free(seed: int, goal: Goal, in_courses: bool) -> None:
+    rng, formulation = random_formulation(seed)
     limits = [make(formulation.response.grasp) for make in LIMITS.values()]
     v = rng.normal(size=(KNOTS, formulation.n_v))
     directions = np.linalg.qr(rng.normal(size=(formulation.n_v, formulation.n_v)))[0][
@@ -58,7 +58,7 @@ def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_open(seed: int
 @pytest.mark.parametrize("of", ["rates", "accelerations"])
 @pytest.mark.parametrize("seed", range(4))
 def test_motions_in_unseen_courses_change_nothing_that_is_squared(of: str, seed: int) -> None:
-    rng, formulation = random_situation(seed)
+    rng, formulation = random_formulation(seed)
     (squares,) = LeastMotion(of).objective(formulation).squares  # type: ignore[arg-type]
     assert squares.unseen is not None
     assert squares.unseen.shape == (KNOTS, 1 if of == "rates" else 2)
@@ -70,7 +70,7 @@ def test_motions_in_unseen_courses_change_nothing_that_is_squared(of: str, seed:
 
 
 def test_a_box_of_courses_holds_every_plan_in_the_box_of_the_knots() -> None:
-    rng, formulation = random_situation(1)
+    rng, formulation = random_formulation(1)
     limits = [LIMITS[name](formulation.response.grasp) for name in ("friction", "normal", "reference")]
     courses = frozen(np.column_stack([np.ones(KNOTS), np.linspace(-1, 1, KNOTS)]))
     left = formulation.around(np.zeros((KNOTS, formulation.n_v)), np.eye(formulation.n_v), courses)
