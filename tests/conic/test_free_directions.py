@@ -23,18 +23,20 @@ GOALS: tuple[Goal, ...] = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("in_courses", [False, True])
+@pytest.mark.parametrize("in_time_basis", [False, True])
 @pytest.mark.parametrize("goal", GOALS, ids=lambda goal: goal.name)
 @pytest.mark.parametrize("seed", range(4))
-def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_free(seed: int, goal: Goal, in_courses: bool) -> None:
+def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_free(
+    seed: int, goal: Goal, in_time_basis: bool
+) -> None:
     rng, formulation = random_formulation(seed)
     limits = [make(formulation.response.grasp) for make in LIMITS.values()]
     v = rng.normal(size=(KNOTS, formulation.n_v))
     directions = np.linalg.qr(rng.normal(size=(formulation.n_v, formulation.n_v)))[0][
         :, : formulation.n_v - 1 - seed % 2
     ]
-    courses = frozen(rng.normal(size=(KNOTS, 2))) if in_courses else None
-    left = formulation.around(v, directions, courses)
+    time_basis = frozen(rng.normal(size=(KNOTS, 2))) if in_time_basis else None
+    left = formulation.around(v, directions, time_basis)
     whole, part = build(formulation, limits, goal), build(left, limits, goal)
     some, other = (rng.normal(size=len(part.q)) for _ in range(2))
 
@@ -42,11 +44,11 @@ def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_free(seed: int
         scalar = x[-1:] if goal.objective(formulation).epigraph is not None else []
         return np.append(v + part.unknowns(x) @ directions.T, scalar)
 
-    assert part.A.shape[1] == (2 if in_courses else KNOTS) * directions.shape[1] + len(whole.q) % formulation.n_v
+    assert part.A.shape[1] == (2 if in_time_basis else KNOTS) * directions.shape[1] + len(whole.q) % formulation.n_v
     slack, expected = part.b - part.A @ some, whole.b - whole.A @ of_whole(some)
     np.testing.assert_allclose(slack, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
     size = 1.0 if goal.objective(formulation).epigraph is not None else left.divisor
-    assert left.divisor == (pytest.approx(KNOTS ** (1 / 3)) if in_courses else 1.0)
+    assert left.divisor == (pytest.approx(KNOTS ** (1 / 3)) if in_time_basis else 1.0)
     difference = size * (part.objective(some) - part.objective(other))  # the constant part drops out
     terms = abs(whole.objective(of_whole(some))) + abs(whole.objective(of_whole(other)))
     assert difference == pytest.approx(
@@ -57,7 +59,7 @@ def test_a_program_around_a_plan_is_the_whole_one_at_what_is_left_free(seed: int
 
 @pytest.mark.parametrize("of", ["rates", "accelerations"])
 @pytest.mark.parametrize("seed", range(4))
-def test_motions_in_unseen_courses_change_nothing_that_is_squared(of: str, seed: int) -> None:
+def test_motions_in_unseen_times_change_nothing_that_is_squared(of: str, seed: int) -> None:
     rng, formulation = random_formulation(seed)
     (squares,) = LeastMotion(of).objective(formulation).squares  # type: ignore[arg-type]
     assert squares.unseen is not None
@@ -69,15 +71,15 @@ def test_motions_in_unseen_courses_change_nothing_that_is_squared(of: str, seed:
     assert np.abs(squares.at(other) - squares.at(v)).max() > 1e-3
 
 
-def test_a_box_of_courses_holds_every_plan_in_the_box_of_the_knots() -> None:
+def test_a_box_of_time_basis_holds_every_plan_in_the_box_of_the_knots() -> None:
     rng, formulation = random_formulation(1)
     limits = [LIMITS[name](formulation.response.grasp) for name in ("friction", "normal", "reference")]
-    courses = frozen(np.column_stack([np.ones(KNOTS), np.linspace(-1, 1, KNOTS)]))
-    left = formulation.around(np.zeros((KNOTS, formulation.n_v)), np.eye(formulation.n_v), courses)
+    time_basis = frozen(np.column_stack([np.ones(KNOTS), np.linspace(-1, 1, KNOTS)]))
+    left = formulation.around(np.zeros((KNOTS, formulation.n_v)), np.eye(formulation.n_v), time_basis)
     whole, part = build(formulation, limits, LeastEffort()), build(left, limits, LeastEffort())
     box = whole.unknowns(whole.box)
     for _ in range(200):
         coefficients = rng.normal(size=(2, formulation.n_v))
-        v = courses @ coefficients
+        v = time_basis @ coefficients
         coefficients /= np.abs(v / box).max(axis=0)  # at the edge of the box
         assert np.all(np.abs(coefficients.ravel()) <= part.box * (1 + 1e-9))

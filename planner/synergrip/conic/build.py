@@ -37,26 +37,28 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     bounds = np.concatenate([np.tile(box(formulation, limits), T), np.full(extra, farthest(formulation))])
     blocks = tuple(_block(part, T) for part in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
-    if formulation.courses is None:
+    if formulation.time_basis is None:
         return program
-    return _of_courses(program, formulation.courses, 1.0 if extra else formulation.divisor)
+    return _of_time_basis(program, formulation.time_basis, 1.0 if extra else formulation.divisor)
 
 
 def _constant(cost: Objective) -> float:
     return sum(float((part.constant**2).sum()) / 2 for part in cost.squares)
 
 
-def _of_courses(program: Program, courses: Array, divisor: float) -> Program:
-    """Return the program whose unknowns are coefficients of courses in time (T, f), its squares over `divisor`."""
+def _of_time_basis(program: Program, time_basis: Array, divisor: float) -> Program:
+    """Return the program whose unknowns are coefficients of time_basis in time (T, f), its squares over `divisor`."""
     extra = len(program.q) - program.knots * program.n_v
-    N = sparse.block_diag([sparse.kron(courses, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc")
-    # the coefficients that make v are the pseudo-inverse of the courses times v
-    sizes = np.abs(np.linalg.pinv(courses)) @ program.unknowns(program.box)
+    N = sparse.block_diag(
+        [sparse.kron(time_basis, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc"
+    )
+    # the coefficients that make v are the pseudo-inverse of the time_basis times v
+    sizes = np.abs(np.linalg.pinv(time_basis)) @ program.unknowns(program.box)
     bounds = np.concatenate([sizes.ravel(), program.box[len(program.box) - extra :]])
     P, A = sparse.csc_matrix(N.T @ program.P @ N), sparse.csc_matrix(program.A @ N)
     P.data /= divisor
     q, constant = frozen(np.asarray(N.T @ program.q) / divisor), program.constant / divisor
-    return replace(program, P=P, q=q, A=A, box=frozen(bounds), courses=courses, constant=constant)
+    return replace(program, P=P, q=q, A=A, box=frozen(bounds), time_basis=time_basis, constant=constant)
 
 
 def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:

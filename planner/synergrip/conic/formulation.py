@@ -74,8 +74,8 @@ class Formulation:
     when that is more."""
     bend: Bend | None = None
     """What happens between the knots, when the program is to allow for it."""
-    courses: Array | None = None
-    """(T, f) the courses in time that the unknowns are made of; None when each knot has its own."""
+    time_basis: Array | None = None
+    """(T, f) the time_basis in time that the unknowns are made of; None when each knot has its own."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
@@ -121,7 +121,7 @@ class Formulation:
 
         As sums they would drown the limits, as averages the limits them; the root between the two was found by trying.
         """
-        return 1.0 if self.courses is None else float(np.cbrt(self.knots))
+        return 1.0 if self.time_basis is None else float(np.cbrt(self.knots))
 
     @property
     def force_unit(self) -> float:
@@ -198,15 +198,15 @@ class Formulation:
         sizes = [units.force] * n_alpha + [units.reference] * n_gamma
         return np.array(sizes + [units.motion] * (self.n_v - len(sizes)))
 
-    def around(self, v: Array, free_directions: Array, courses: Array | None = None) -> Formulation:
-        """Return what is left of it when all plans are alike but for some directions and courses.
+    def around(self, v: Array, free_directions: Array, time_basis: Array | None = None) -> Formulation:
+        """Return what is left of it when all plans are alike but for some directions and time_basis.
 
         The unknowns are then what is added to v, as coordinates of the directions.
 
         Args:
             v: (T, n_v) one of the plans.
             free_directions: (n_v, m) orthonormal: in which the unknowns of a knot may still differ.
-            courses: (T, f) how the difference may vary in time; None when it may be any at each knot.
+            time_basis: (T, f) how the difference may vary in time; None when it may be any at each knot.
         """
 
         def left(part: Affine) -> Affine:
@@ -215,7 +215,7 @@ class Formulation:
             return Affine(frozen(np.where(np.abs(matrix) > ROUNDING * size, matrix, 0.0)), frozen(part.at(v)))
 
         alpha, beta, gamma = (left(part) for part in (self.alpha, self.beta, self.gamma))
-        return replace(self, alpha=alpha, beta=beta, gamma=gamma, courses=courses, unreduced=self.whole)
+        return replace(self, alpha=alpha, beta=beta, gamma=gamma, time_basis=time_basis, unreduced=self.whole)
 
     def parts(self, v: Array) -> tuple[Array, Array, Array]:
         """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""

@@ -47,7 +47,7 @@ class Block:
 class Program:
     """A second-order cone program with a quadratic objective, and what its rows mean.
 
-    The unknowns are the knots' v_k one after the other, or the coefficients of their courses in time one after the
+    The unknowns are the knots' v_k one after the other, or the coefficients of their time_basis in time one after the
     other, and then the goal's scalar when it has one.
     """
 
@@ -61,8 +61,8 @@ class Program:
     """Unknowns at each knot."""
     box: Array
     """(n,) every unknown is also bounded by |x| <= box, which the limits imply or no plan exceeds."""
-    courses: Array | None = None
-    """(T, f) the courses in time that the unknowns of the knots are made of; None when each knot has its own."""
+    time_basis: Array | None = None
+    """(T, f) the time_basis in time that the unknowns of the knots are made of; None when each knot has its own."""
     constant: float = 0.0
     """Of the objective, so that its value is the goal's: gaps are measured against it."""
 
@@ -75,14 +75,14 @@ class Program:
 
     def unknowns(self, x: Array) -> Array:
         """Return v (T, n_v) of a solution x (n,)."""
-        if self.courses is None:
+        if self.time_basis is None:
             return np.asarray(x[: self.knots * self.n_v]).reshape(self.knots, self.n_v)
-        f = self.courses.shape[1]
-        return np.asarray(self.courses @ x[: f * self.n_v].reshape(f, self.n_v))
+        f = self.time_basis.shape[1]
+        return np.asarray(self.time_basis @ x[: f * self.n_v].reshape(f, self.n_v))
 
     def solution(self, v: Array, scalar: float | None = None) -> Array:
-        """Return x (n,) of unknowns v (T, n_v), the nearest when they are none of the courses."""
-        of_knots = v if self.courses is None else np.linalg.lstsq(self.courses, v, rcond=None)[0]
+        """Return x (n,) of unknowns v (T, n_v), the nearest when they are none of the time_basis."""
+        of_knots = v if self.time_basis is None else np.linalg.lstsq(self.time_basis, v, rcond=None)[0]
         x = np.zeros(len(self.q))
         x[: of_knots.size] = of_knots.ravel()
         if scalar is not None:
@@ -98,8 +98,8 @@ class Program:
         blocks = [asdict(block) for block in self.blocks]
         header = {"knots": self.knots, "n_v": self.n_v, "constant": self.constant, "blocks": blocks}
         arrays = {"q": self.q, "b": self.b, "box": self.box, "header": np.array(json.dumps(header))}
-        if self.courses is not None:
-            arrays["courses"] = self.courses
+        if self.time_basis is not None:
+            arrays["time_basis"] = self.time_basis
         for name, matrix in (("P", self.P), ("A", self.A)):
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
         with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
@@ -140,5 +140,5 @@ class Program:
         return cls(
             matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
             header["knots"], header["n_v"], frozen(stored["box"]),
-            frozen(stored["courses"]) if "courses" in stored else None, header.get("constant", 0.0),
+            frozen(stored["time_basis"]) if "time_basis" in stored else None, header.get("constant", 0.0),
         )  # fmt: skip

@@ -148,8 +148,8 @@ def _reduced(stage: Stage) -> Formulation:
         return formulation
     seen = [split(part.matrix).row_space for part in squares if part.unseen is None]
     directions = split(np.hstack([np.zeros((formulation.n_v, 0)), *seen]).T).null_space
-    courses = _common([*([] if formulation.courses is None else [formulation.courses]), *_unseen(squares)])
-    return formulation.around(stage.v, directions, courses)
+    time_basis = _common([*([] if formulation.time_basis is None else [formulation.time_basis]), *_unseen(squares)])
+    return formulation.around(stage.v, directions, time_basis)
 
 
 def _unseen(squares: Sequence[Squares]) -> Iterator[Array]:
@@ -158,10 +158,10 @@ def _unseen(squares: Sequence[Squares]) -> Iterator[Array]:
             yield part.unseen
 
 
-def _common(courses: Sequence[Array]) -> Array | None:
-    """Return the courses in time (T, f) that are common to several sets, whose columns are independent."""
-    common = courses[0] if courses else None
-    for other in courses[1:]:
+def _common(time_basis: Sequence[Array]) -> Array | None:
+    """Return the time_basis in time (T, f) that are common to several sets, whose columns are independent."""
+    common = time_basis[0] if time_basis else None
+    for other in time_basis[1:]:
         assert common is not None
         outside = common - other @ np.linalg.lstsq(other, common, rcond=None)[0]
         common = frozen(common @ split(outside, float(np.linalg.norm(common, 2))).null_space)

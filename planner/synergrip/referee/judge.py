@@ -170,9 +170,9 @@ def _references(formulation: Formulation) -> Expression | None:
 
     if formulation.unreduced is None:
         return None
-    matrix, constant, courses = formulation.reference.matrix, formulation.reference.constant, formulation.courses
-    free = cp.Variable((formulation.knots if courses is None else courses.shape[1], formulation.n_v))
-    return constant + (free if courses is None else courses @ free) @ matrix.T
+    matrix, constant, time_basis = formulation.reference.matrix, formulation.reference.constant, formulation.time_basis
+    free = cp.Variable((formulation.knots if time_basis is None else time_basis.shape[1], formulation.n_v))
+    return constant + (free if time_basis is None else time_basis @ free) @ matrix.T
 
 
 def _unknowns(program: Program, formulation: Formulation, model: Model, wish: Wish) -> Array:

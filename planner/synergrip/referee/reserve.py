@@ -89,7 +89,7 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
     bend = question.formulation.bend
     if bend is None:
         return wish, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
-    courses = Courses.of(model, bend, write)
+    time_basis = Courses.of(model, bend, write)
     cones: list[Cone] = []
     inside: list[Cone] = []
     for limit in question.limits:
@@ -97,12 +97,12 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
         if limit.couples_knots:
             cones += at
             continue
-        there = () if courses.corners is None else write_limit(courses.corners, limit)
-        kept, between = courses.kept(at, there, partial(_limit_again, limit))
+        there = () if time_basis.corners is None else write_limit(time_basis.corners, limit)
+        kept, between = time_basis.kept(at, there, partial(_limit_again, limit))
         cones, inside = cones + kept, inside + between
-    other = None if courses.corners is None else write_goal(courses.corners, question.goal)
+    other = None if time_basis.corners is None else write_goal(time_basis.corners, question.goal)
     again = partial(_wish_again, question.goal)
-    kept, between = courses.kept(wish.cones, () if other is None else other.cones, again)
+    kept, between = time_basis.kept(wish.cones, () if other is None else other.cones, again)
     same = () if other is None or other.scalar is None else (other.scalar == wish.scalar,)
     return replace(wish, cones=tuple(kept)), cones, Inside(tuple(inside), tuple(between), same)
 

@@ -21,7 +21,7 @@ class Squares:
     constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
     earlier: tuple[Earlier, ...] = ()
     unseen: Array | None = None
-    """(T, f) the courses in time of the unknowns, any of them, that the squares do not see; None when they see each
+    """(T, f) the time_basis in time of the unknowns, any of them, that the squares do not see; None when they see each
     knot by itself."""
 
     def at(self, v: Array) -> Array:
