@@ -16,7 +16,7 @@ from synergrip.problems.loads import Loads, loads, palm_motion
 from synergrip.problems.motion_tables import PalmTable
 from synergrip.problems.task_file import TaskTable
 from synergrip.tasks.inertia import uniform_tensor
-from synergrip.tasks.profiles import Course
+from synergrip.tasks.profiles import Rise
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
 SHIFT = np.array([0.3, -0.1, 0.2])
@@ -42,8 +42,8 @@ def _load(found: Loads, times: Array) -> Array:
 
 
 def _placed(name: Any, time: float) -> tuple[Rotation, Array]:
-    """Orientation and origin of the palm in the world: from the course alone, by other means than the program's."""
-    share = Course(name, 0.0, 0.8).at(np.array([time]))[0]
+    """Orientation and origin of the palm in the world: from the profile alone, by other means than the program's."""
+    share = Rise(name, 0.0, 0.8).at(np.array([time]))[0]
     return Rotation.from_rotvec(np.radians(130) * share * AXIS), share * SHIFT
 
 

@@ -13,14 +13,14 @@ from synergrip.linalg import Array
 from synergrip.problems.loads import moved, palm_motion
 from synergrip.problems.motion_tables import MoveTable, PalmTable
 from synergrip.tasks.moves import Moves
-from synergrip.tasks.profiles import COURSES, Course
+from synergrip.tasks.profiles import PROFILES, Rise
 
 TIMES = np.linspace(0.0, 2.0, 401)
 
 
-def profile(name: Any, times: Array) -> Array:
-    """The course over all of these times."""
-    return Course(name, float(times[0]), float(times[-1])).at(times)
+def rise(name: Any, times: Array) -> Array:
+    """The profile over all of these times."""
+    return Rise(name, float(times[0]), float(times[-1])).at(times)
 
 
 def turned(gravity: Array, palm: PalmTable, times: Array) -> Array:
@@ -39,69 +39,69 @@ def _moved(*tables: dict[str, Any]) -> Moves:
     return moved(_moves(*tables), float(TIMES[0]), float(TIMES[-1]))
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(PROFILES))
 def test_every_profile_runs_from_0_to_1_and_never_back(name: str) -> None:
-    course = profile(name, TIMES)
-    assert course[0] == 0
-    assert course[-1] == pytest.approx(1, abs=1e-14)
-    assert course[200] == pytest.approx(0.5, abs=1e-14)  # halfway in half the time
-    assert np.all(np.diff(course) > 0)
+    profile = rise(name, TIMES)
+    assert profile[0] == 0
+    assert profile[-1] == pytest.approx(1, abs=1e-14)
+    assert profile[200] == pytest.approx(0.5, abs=1e-14)  # halfway in half the time
+    assert np.all(np.diff(profile) > 0)
 
 
 @pytest.mark.parametrize(("name", "order"), [("cubic", 1), ("min-jerk", 2)])
 def test_smooth_profiles_begin_and_end_at_rest(name: str, order: int) -> None:
-    """The course near an end grows with a higher power of time than its derivatives that vanish there."""
+    """The profile near an end grows with a higher power of time than its derivatives that vanish there."""
     for step in (1e-2, 1e-3):
-        course = profile(name, np.array([0.0, step, 2 * step, 1 - 2 * step, 1 - step, 1.0]))
-        start, end = course[:3], 1 - course[:2:-1]
+        profile = rise(name, np.array([0.0, step, 2 * step, 1 - 2 * step, 1 - step, 1.0]))
+        start, end = profile[:3], 1 - profile[:2:-1]
         for values in (start, end):
             for k in range(1, order + 1):
                 derivative = np.diff(values[: k + 1], n=k)[0] / step**k
                 assert abs(derivative) < 60 * step  # goes to zero with the step
-    linear = profile("linear", np.array([0.0, 1e-3, 1.0]))
+    linear = rise("linear", np.array([0.0, 1e-3, 1.0]))
     assert linear[1] / 1e-3 == pytest.approx(1)
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(PROFILES))
 @pytest.mark.parametrize("derivative", [1, 2])
 def test_derivatives_of_a_course_are_those_of_central_differences(name: Any, derivative: int) -> None:
-    course, step = Course(name, -1.0, 3.0), 1e-4
+    profile, step = Rise(name, -1.0, 3.0), 1e-4
     times = np.linspace(-0.9, 2.9, 20)
-    below, here, above = (course.at(times + shift) for shift in (-step, 0.0, step))
+    below, here, above = (profile.at(times + shift) for shift in (-step, 0.0, step))
     expected = (above - below) / (2 * step) if derivative == 1 else (above - 2 * here + below) / step**2
-    assert course.at(times, derivative) == pytest.approx(expected, abs=1e-6)
+    assert profile.at(times, derivative) == pytest.approx(expected, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(PROFILES))
 def test_a_course_is_at_rest_before_and_after(name: Any) -> None:
-    course, outside = Course(name, 1.0, 2.0), np.array([0.0, 0.9, 2.1, 7.0])
-    assert course.at(outside).tolist() == [0, 0, 1, 1]
-    assert not course.at(outside, 1).any()
-    assert not course.at(outside, 2).any()
+    profile, outside = Rise(name, 1.0, 2.0), np.array([0.0, 0.9, 2.1, 7.0])
+    assert profile.at(outside).tolist() == [0, 0, 1, 1]
+    assert not profile.at(outside, 1).any()
+    assert not profile.at(outside, 2).any()
 
 
 def test_at_its_ends_a_course_has_the_acceleration_from_inside() -> None:
-    """The cubic course starts and stops with 6 / T^2."""
-    assert Course("cubic", 1.0, 3.0).at(np.array([1.0, 3.0]), 2) == pytest.approx([1.5, -1.5])
+    """The cubic profile starts and stops with 6 / T^2."""
+    assert Rise("cubic", 1.0, 3.0).at(np.array([1.0, 3.0]), 2) == pytest.approx([1.5, -1.5])
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(PROFILES))
 def test_a_profile_depends_on_the_share_of_the_time_that_has_passed(name: str) -> None:
-    assert profile(name, 3.0 + 0.5 * TIMES) == pytest.approx(profile(name, TIMES), abs=1e-12)
-    assert profile(name, np.array([0.7])) == pytest.approx([1.0])
+    assert rise(name, 3.0 + 0.5 * TIMES) == pytest.approx(rise(name, TIMES), abs=1e-12)
+    assert rise(name, np.array([0.7])) == pytest.approx([1.0])
 
 
 def test_min_jerk_is_the_default() -> None:
     default = _moved({"axis": "x", "lift": "1 m"})
-    assert default.at(TIMES)[:, 0] == pytest.approx(profile("min-jerk", TIMES))
+    assert default.at(TIMES)[:, 0] == pytest.approx(rise("min-jerk", TIMES))
 
 
-@pytest.mark.parametrize("name", list(COURSES))
+@pytest.mark.parametrize("name", list(PROFILES))
 def test_gravity_turns_the_other_way_than_the_palm(name: str) -> None:
     axis, gravity = np.array([1.0, -2.0, 0.5]), np.array([1.0, 2.0, -9.0])
     found = turned(gravity, _palm(axis=axis.tolist(), turn="130 deg", profile=name), TIMES)
     unit = axis / np.linalg.norm(axis)
-    for share, value in zip(profile(name, TIMES), found, strict=True):
+    for share, value in zip(rise(name, TIMES), found, strict=True):
         palm_in_world = Rotation.from_rotvec(np.radians(130) * share * unit)
         assert value == pytest.approx(palm_in_world.inv().apply(gravity), abs=1e-12)
 
@@ -117,7 +117,7 @@ def test_moves_along_axes_add_up() -> None:
         {"axis": [0, 3, 4], "lift": "5 mm", "roll": "90 deg", "profile": "cubic"},
     )
     assert not wanted.along_modes
-    linear, cubic = profile("linear", TIMES), profile("cubic", TIMES)
+    linear, cubic = rise("linear", TIMES), rise("cubic", TIMES)
     expected = np.outer(linear, [0, 0, 0.01, 0, 0, 0])
     expected += np.outer(cubic, [0, 0.003, 0.004, 0, 0.6 * np.pi / 2, 0.8 * np.pi / 2])
     assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
@@ -130,9 +130,7 @@ def test_moves_along_modes_fill_their_columns_and_add_up() -> None:
         {"mode": 3, "amplitude": "1 mm", "profile": "linear"},
     )
     assert wanted.along_modes
-    expected = np.column_stack(
-        [-0.001 * profile("cubic", TIMES), np.zeros(len(TIMES)), 0.003 * profile("linear", TIMES)]
-    )
+    expected = np.column_stack([-0.001 * rise("cubic", TIMES), np.zeros(len(TIMES)), 0.003 * rise("linear", TIMES)])
     assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
 
 

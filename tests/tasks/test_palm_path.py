@@ -32,13 +32,13 @@ from synergrip.problems.loads import loads
 from synergrip.problems.task_file import TaskTable
 from synergrip.tasks.inertia import uniform_tensor
 from synergrip.tasks.palm_path import PalmPath, palm_path
-from synergrip.tasks.profiles import Course
+from synergrip.tasks.profiles import Rise
 
 
 def _course(folder: Path, name: Any, count: int) -> None:
     """Write down the motion of axis, turn and shift in another frame."""
     times = np.linspace(0.0, 0.8, count)
-    share = Course(name, 0.0, 0.8).at(times)
+    share = Rise(name, 0.0, 0.8).at(times)
     rotations = FRAME[0] * Rotation.from_rotvec(TURN * np.outer(share, AXIS))
     write_path(folder, times, FRAME[0].apply(np.outer(share, SHIFT)) + FRAME[1], rotations.as_rotvec())
 
@@ -57,7 +57,7 @@ def _path(times: Array, positions: Array, rotations: Rotation) -> PalmPath:
 
 @pytest.mark.parametrize("name", ["min-jerk", "cubic"])
 def test_a_dense_path_loads_the_object_as_the_motion_it_was_taken_from(name: Any, tmp_path: Path) -> None:
-    """At both ends, too, where a cubic course starts with a jump; the error falls with the square of the spacing."""
+    """At both ends, too, where a cubic profile starts with a jump; the error falls with the square of the spacing."""
     expected, errors = _course_load(name), []
     for count in (21, 41, 81, 161):
         _course(tmp_path, name, count)
@@ -154,7 +154,7 @@ def test_the_bundled_path_is_the_formula_that_it_states() -> None:
     table = read_table(bundled("problems") / "barrett-ball-arm.csv", MOTION)
 
     def poses(times: Array) -> tuple[Array, Rotation]:
-        p, q = (Course("min-jerk", start, start + 1).at(times) for start in (0.0, 0.5))
+        p, q = (Rise("min-jerk", start, start + 1).at(times) for start in (0.0, 0.5))
         r, a = 0.4 + 0.3 * p, 1.2 * q
         swing, tilt = (Rotation.from_rotvec(np.outer(x, e)) for x, e in ((a, [0, 0, 1]), (0.9 * q, [0, 1, 0])))
         return np.column_stack([r * np.cos(a), r * np.sin(a), np.full(len(a), 0.5)]), swing * tilt

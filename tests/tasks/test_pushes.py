@@ -1,4 +1,4 @@
-"""Pushes: their wrench, their course in time, and the knots they bring."""
+"""Pushes: their wrench, their profile in time, and the knots they bring."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from synergrip.linalg import Array
 from synergrip.problems.instants import MOVING_KNOTS
 from synergrip.problems.loads import Loads, loads
 from synergrip.problems.task_file import TaskTable
-from synergrip.tasks.profiles import Course
+from synergrip.tasks.profiles import Rise
 
 WAY = [
     {"time": "0.3 s", "position": ["0 mm", "0 mm", "10 mm"]},
@@ -53,7 +53,7 @@ def test_the_object_is_at_every_waypoint_when_it_is_wanted_there(profile: str, t
 def test_between_two_waypoints_the_motion_is_the_course_of_a_move(profile: Any, tmp_path: Path) -> None:
     found = _loads(tmp_path, waypoint=WAY, profile=profile)
     times = np.linspace(0.3, 0.75, 30)
-    gone = Course(profile, 0.3, 0.75).at(times)[:, None]
+    gone = Rise(profile, 0.3, 0.75).at(times)[:, None]
     assert found.profiles.wanted_at(times) == pytest.approx(POSES[1] + gone * (POSES[2] - POSES[1]), abs=1e-15)
 
 

@@ -22,7 +22,7 @@ from synergrip.tasks.marks import SAME_TIME
 from synergrip.tasks.moves import Moves
 from synergrip.tasks.palm_motion import Palm, PalmMotion, Weight
 from synergrip.tasks.palm_path import palm_path, rotations_of
-from synergrip.tasks.profiles import SHORTEST, Constant, Course, Profile, Profiles, Tabled, WaypointProfile
+from synergrip.tasks.profiles import SHORTEST, Constant, Profile, Profiles, Rise, Tabled, WaypointProfile
 from synergrip.tasks.pushes import Push
 from synergrip.tasks.task import Wanted
 from synergrip.tasks.waypoints import Waypoints
@@ -184,7 +184,7 @@ def moved(moves: Sequence[MoveTable], start: float, end: float) -> Moves:
     if by_mode and len(by_mode) < len(moves):
         raise InputError.at("task.move", "moves along an axis and moves along a mode cannot be mixed")
     width = max((move.mode or 0 for move in by_mode), default=6)
-    parts = tuple((Course(move.profile, start, end), _whole(move, width)) for move in moves)
+    parts = tuple((Rise(move.profile, start, end), _whole(move, width)) for move in moves)
     return Moves(parts, along_modes=bool(by_mode))
 
 
@@ -199,7 +199,7 @@ def _whole(move: MoveTable, width: int) -> Array:
 def palm_motion(table: PalmTable, start: float, end: float) -> PalmMotion:
     """Return the motion of the palm in a task from `start` to `end` [s]."""
     axis, shift = table.axis or (0.0, 0.0, 1.0), table.shift or np.zeros(3)
-    return PalmMotion(frozen(axis), table.turn or 0.0, frozen(shift), Course(table.profile, start, end))
+    return PalmMotion(frozen(axis), table.turn or 0.0, frozen(shift), Rise(table.profile, start, end))
 
 
 def judge_path(table: Table, inertia: bool) -> None:

@@ -21,9 +21,9 @@ from synergrip.documents.fields import (
     with_unit,
 )
 from synergrip.errors import Issue
-from synergrip.tasks.profiles import SHORTEST, CourseName
+from synergrip.tasks.profiles import SHORTEST, ProfileName
 
-COURSE = "course in time from 0 at the start to the full value at the end"
+COURSE = "profile in time from 0 at the start to the full value at the end"
 
 Lengths = Annotated[
     tuple[float, ...],
@@ -47,7 +47,7 @@ class PalmTable(Table):
     shift: Lengths | None = Field(
         default=None, description="whole displacement of the palm: 3 lengths along its axes at the start"
     )
-    profile: CourseName = Field(default="min-jerk", description=COURSE)
+    profile: ProfileName = Field(default="min-jerk", description=COURSE)
     path: Text | None = Field(
         default=None,
         description="the motion of an arm instead: CSV file with t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad, the pose of "
@@ -84,7 +84,7 @@ class PalmTable(Table):
             message = "a shift loads the object by its inertia only; write inertia = true"
             yield Issue(message, key="shift", on_key=True)
         if self.inertia and self.profile == "linear":
-            message = "a linear course starts and stops at once, which no finite force does; use 'min-jerk' or 'cubic'"
+            message = "a linear profile starts and stops at once, which no finite force does; use 'min-jerk' or 'cubic'"
             yield Issue(message, key="profile")
 
 
@@ -98,7 +98,7 @@ class MoveTable(Table):
         default=None, description="number of a rigid motion the synergies can produce, from 1; instead of an axis"
     )
     amplitude: Length | None = Field(default=None, description="size of the motion along `mode`")
-    profile: CourseName = Field(default="min-jerk", description=COURSE)
+    profile: ProfileName = Field(default="min-jerk", description=COURSE)
 
     def issues(self) -> Iterable[Issue]:
         """Refuse anything but an axis with lift or roll, or a mode with its amplitude."""

@@ -23,7 +23,7 @@ class PushTable(Table):
     at: Lengths = Field(default=(0.0, 0.0, 0.0), description="where the force acts, from B: 3 lengths; B when absent")
     start: Instant | None = Field(default=None, description="when it begins; at the start of the task when absent")
     end: Time | None = Field(default=None, description="when it is over; at the end of the task when absent")
-    profile: PushProfile = Field(default="step", description="course of the force between start and end")
+    profile: PushProfile = Field(default="step", description="profile of the force between start and end")
     ramp: Time | None = Field(default=None, description="time to the full force, and back, of a trapezoid")
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.profiles import Course
+from synergrip.tasks.profiles import Rise
 
 
 class Palm(Protocol):
@@ -31,7 +31,7 @@ class Palm(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class PalmMotion:
-    """A turn about an axis through the origin of the palm frame and a shift of this origin, on one course.
+    """A turn about an axis through the origin of the palm frame and a shift of this origin, on one profile.
 
     The world frame is the palm frame at the start: a point p of the palm is at ``shift s + R(axis, turn s) p``.
     """
@@ -39,16 +39,16 @@ class PalmMotion:
     axis: Array  # (3,) unit
     turn: float  # [rad]
     shift: Array  # (3,) [m]
-    course: Course
+    profile: Rise
 
     @property
     def corners(self) -> Array:
         """Start and end (2,) [s]; there are no corners on the way."""
-        return np.array([self.course.start, self.course.end])
+        return np.array([self.profile.start, self.profile.end])
 
     def seen(self, vectors: Array, times: Array) -> Array:
         """Return vectors of the world (3,) or (T, 3) in the palm frame (T, 3): ``R(axis, -angle) v`` (Rodrigues)."""
-        angle = -self.turn * self.course.at(times)[:, None]
+        angle = -self.turn * self.profile.at(times)[:, None]
         along = (vectors @ self.axis)[..., None] * self.axis
         return np.asarray(
             vectors * np.cos(angle) + np.cross(self.axis, vectors) * np.sin(angle) + along * (1 - np.cos(angle))
@@ -57,11 +57,11 @@ class PalmMotion:
     def rotation_rates(self, times: Array) -> tuple[Array, Array]:
         """Return angular velocity (T, 3) [rad/s] and acceleration (T, 3) [rad/s^2]; the same in world and palm."""
         turn = self.turn * self.axis
-        return np.outer(self.course.at(times, 1), turn), np.outer(self.course.at(times, 2), turn)
+        return np.outer(self.profile.at(times, 1), turn), np.outer(self.profile.at(times, 2), turn)
 
     def acceleration(self, point: Array, times: Array) -> Array:
         """Return the acceleration (T, 3) [m/s^2], in the palm frame, of a point (3,) [m] fixed to the palm."""
-        origin = self.seen(np.outer(self.course.at(times, 2), self.shift), times)
+        origin = self.seen(np.outer(self.profile.at(times, 2), self.shift), times)
         return acceleration_of(point, origin, *self.rotation_rates(times))
 
 

@@ -1,4 +1,4 @@
-"""Values over the time of a task, to be had at any instant: courses from 0 to 1, constants, tables, and their sums."""
+"""Values over the time of a task, to be had at any instant: profiles from 0 to 1, constants, tables, and their sums."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from synergrip.documents.time_table import Table
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.tasks.marks import SAME_TIME, Marks, together
 
-CourseName = Literal["min-jerk", "cubic", "linear"]
+ProfileName = Literal["min-jerk", "cubic", "linear"]
 WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]
 SHORTEST = 1e-6
 """Shortest task, and shortest way from one waypoint to the next [s]."""
-COURSES: dict[CourseName, Polynomial] = {
+PROFILES: dict[ProfileName, Polynomial] = {
     "linear": Polynomial([0, 1]),
     "cubic": Polynomial([0, 0, 3, -2]),
     "min-jerk": Polynomial([0, 0, 0, 10, -15, 6]),
 }
-"""Course from 0 to 1 over the share of the time that has passed."""
+"""Rise from 0 to 1 over the share of the time that has passed."""
 
 
 class Profile(Protocol):
@@ -36,15 +36,15 @@ class Profile(Protocol):
 
 
 @dataclass(frozen=True)
-class Course:
-    """A course from 0 at its start to 1 at its end; at rest before and after."""
+class Rise:
+    """A profile from 0 at its start to 1 at its end; at rest before and after."""
 
-    name: CourseName
+    name: ProfileName
     start: float  # [s]
     end: float  # [s]
 
     def at(self, times: Array, derivative: int = 0) -> Array:
-        """Return the course (T,), or a derivative of it [1/s^derivative]; without any time to go it is at its end.
+        """Return the profile (T,), or a derivative of it [1/s^derivative]; without any time to go it is at its end.
 
         At the two ends a derivative is the one from inside.
         """
@@ -52,7 +52,7 @@ class Course:
         if span <= 0:
             return np.full(len(times), 1.0 if derivative == 0 else 0.0)
         share = (times - self.start) / span
-        values = np.asarray(COURSES[self.name].deriv(derivative)(np.clip(share, 0.0, 1.0)) / span**derivative)
+        values = np.asarray(PROFILES[self.name].deriv(derivative)(np.clip(share, 0.0, 1.0)) / span**derivative)
         outside = (share < -SAME_TIME) | (share > 1 + SAME_TIME)
         return values if derivative == 0 else np.where(outside, 0.0, values)
 

@@ -28,9 +28,9 @@ class Push:
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B at any times (T,) [s]; a step is on at its start and its end."""
-        return np.outer(self.course(times), self.wrench)
+        return np.outer(self.share(times), self.wrench)
 
-    def course(self, times: Array) -> Array:
+    def share(self, times: Array) -> Array:
         """Return the share (T,) of the full force."""
         slack = SAME_TIME * max(self.end, 1.0)
         inside = (times >= self.start - slack) & (times <= self.end + slack)

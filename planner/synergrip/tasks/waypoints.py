@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.profiles import COURSES, WaypointProfile
+from synergrip.tasks.profiles import PROFILES, WaypointProfile
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,7 @@ class Waypoints:
             return np.asarray(CubicSpline(self.times, self.poses, bc_type="clamped")(inside))
         segment = np.clip(np.searchsorted(self.times, inside, side="right") - 1, 0, len(self.times) - 2)
         share = (inside - self.times[segment]) / np.diff(self.times)[segment]
-        gone = np.asarray(COURSES[self.profile](share))[:, None]
+        gone = np.asarray(PROFILES[self.profile](share))[:, None]
         return np.asarray(self.poses[segment] * (1 - gone) + self.poses[segment + 1] * gone)
 
     @property
