@@ -13,7 +13,7 @@ from judged_between import judged
 from synergrip.files import bundled
 from synergrip.linalg import Array, frozen
 from synergrip.planning.check import judge_references
-from synergrip.planning.instants import bend_of
+from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.planning.references import References
@@ -137,11 +137,11 @@ WEIGHT = "wrench = [0, 0, -1, 0, 0, 0]"
 
 def test_a_step_is_off_just_before_it_begins_and_just_after_it_ends(tmp_path: Path) -> None:
     problem = held(tmp_path, f"knots = 6\n{WEIGHT}\npush = [{STEP.format(5, 0.4, 0.6)}]")
-    bend = bend_of(problem.task, analyse(problem.grasp))
-    assert bend is not None
-    assert bend.exact
-    near = np.abs(bend.grid.times - 0.5) < 0.11
-    assert bend.grid.wrench[near, 0].tolist() == [0, 5, 5, 0]
+    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    assert intersample is not None
+    assert intersample.exact
+    near = np.abs(intersample.grid.times - 0.5) < 0.11
+    assert intersample.grid.wrench[near, 0].tolist() == [0, 5, 5, 0]
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
     assert outcome.between is not None
@@ -184,9 +184,9 @@ def test_flat_lines_of_a_table_are_no_corners_and_lines_on_the_knots_neither(tmp
     forces[42, 0] = 3.0
     written(tmp_path / "load.csv", np.linspace(0, 1, 101), forces)
     problem = held(tmp_path, "knots = 11\nwrench = 'load.csv'")
-    bend = bend_of(problem.task, analyse(problem.grasp))
-    assert bend is not None
-    assert bend.corners.times == pytest.approx([0.41, 0.42, 0.43])
+    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    assert intersample is not None
+    assert intersample.corners.times == pytest.approx([0.41, 0.42, 0.43])
 
 
 def test_a_line_next_to_a_knot_counts_when_its_load_is_another(tmp_path: Path) -> None:
@@ -204,9 +204,9 @@ def test_jumps_that_meet_are_seen_from_both_sides(tmp_path: Path) -> None:
     """One push ends where another begins: before, both at once, after."""
     push = f"push = [{STEP.format(2, 0.2, 0.4)}, {STEP.format(3, 0.4, 0.8)}]"
     problem = held(tmp_path, f"knots = 6\n{WEIGHT}\n{push}")
-    bend = bend_of(problem.task, analyse(problem.grasp))
-    assert bend is not None
-    assert bend.grid.wrench[np.abs(bend.grid.times - 0.4) < 1e-9, 0].tolist() == [2, 5, 3]
+    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    assert intersample is not None
+    assert intersample.grid.wrench[np.abs(intersample.grid.times - 0.4) < 1e-9, 0].tolist() == [2, 5, 3]
 
 
 def test_normal_forces_are_those_of_the_statics(tmp_path: Path) -> None:
@@ -214,7 +214,7 @@ def test_normal_forces_are_those_of_the_statics(tmp_path: Path) -> None:
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
     assert outcome.between is not None
-    looks = bend_of(problem.task, outcome.analysis)
+    looks = intersample_of(problem.task, outcome.analysis)
     assert looks is not None
     dz_r = np.column_stack([np.interp(looks.all.times, problem.task.times, z) for z in outcome.motion.dz_r.T])
     normal = normal_forces(problem.grasp, course(problem.grasp, looks.all.times, dz_r, looks.all.wrench).forces)

@@ -128,7 +128,7 @@ def _compared(seed: int) -> bool:
         )
         for each in (one, two)
     )  # fmt: skip
-    # what a margin or a peak gives up to the next goal; a travel or bend that is not needed at all
+    # what a margin or a peak gives up to the next goal; a travel or intersample that is not needed at all
     rounding = {"margin": 1e-7 * units.force, "peak_force": 1e-7 * units.force, "travel": 1e-12, "smooth": 1e-12}
     assert first == pytest.approx(second, rel=1e-6, abs=rounding.get(task.goal, 0.0)), (seed, task.goal)
     return True

@@ -86,9 +86,9 @@ def _block(rows: Rows, knots: int) -> Block:
 
 def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:
     """Return the rows of limits and goal, first those at the knots, then those between them when that is asked for."""
-    if formulation.bend is None:
+    if formulation.intersample is None:
         return [part for limit in limits for part in limit.rows(formulation)] + list(goal.rows(formulation))
-    reserve = Reserve.of(formulation, formulation.bend)
+    reserve = Reserve.of(formulation, formulation.intersample)
     rows: list[Rows] = []
     for limit in limits:
         rows += limit.rows(formulation) if limit.couples_knots else reserve.kept(limit.rows, formulation)

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.intersample import Bend
+from synergrip.conic.intersample import Intersample
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
@@ -72,7 +72,7 @@ class Formulation:
     load_size: float
     """[N] what the task asks of the contacts: a violation is measured against this, or against what a contact carries
     when that is more."""
-    bend: Bend | None = None
+    intersample: Intersample | None = None
     """What happens between the knots, when the program is to allow for it."""
     time_basis: Array | None = None
     """(T, f) the time_basis in time that the unknowns are made of; None when each knot has its own."""

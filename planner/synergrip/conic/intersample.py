@@ -35,7 +35,7 @@ class Looks:
 
 
 @dataclass(frozen=True)
-class Bend:
+class Intersample:
     """Loads and wishes at and between the knots."""
 
     grid: Looks
@@ -91,13 +91,13 @@ class Bend:
         end = np.zeros((1, *values.shape[1:]))
         return np.asarray(np.maximum(np.concatenate([end, of_piece]), np.concatenate([of_piece, end])))
 
-    def every(self) -> Bend:
+    def every(self) -> Intersample:
         """Return the same instants, all of them in the grid: what happens at them is asked, and nothing between."""
         whole = Looks(*(np.concatenate(pair) for pair in zip(*map(_arrays, (self.grid, self.curved)), strict=True)))
         order = np.argsort(whole.times, kind="stable")
         corner = np.concatenate([self.corner, np.ones(len(self.curved.times), dtype=bool)])[order]
         nothing = np.zeros(0, dtype=np.intp)
-        return Bend(whole.of(order), corner, nothing, 0, whole.of(nothing))
+        return Intersample(whole.of(order), corner, nothing, 0, whole.of(nothing))
 
     def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
         """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""

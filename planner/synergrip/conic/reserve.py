@@ -15,7 +15,7 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.intersample import Bend, Looks, knots_in
+from synergrip.conic.intersample import Intersample, Looks, knots_in
 from synergrip.conic.rows import Kind, Rows
 from synergrip.linalg import Array, frozen, interpolated
 
@@ -24,17 +24,19 @@ from synergrip.linalg import Array, frozen, interpolated
 class Reserve:
     """A formulation between its knots: at the corners, and in curved pieces along their chords and as they bend."""
 
-    bend: Bend
+    intersample: Intersample
     shares: sparse.csr_matrix  # (C, T) of the knots in each corner
     corners: Formulation
     straight: Formulation
     bent: Formulation
 
     @classmethod
-    def of(cls, formulation: Formulation, bend: Bend) -> Reserve:
+    def of(cls, formulation: Formulation, intersample: Intersample) -> Reserve:
         """Return what lies between the knots of a formulation."""
-        corners, chords, curved = (_at(formulation, looks) for looks in (bend.corners, bend.chords, bend.curved))
-        return cls(bend, knots_in(corners.times, formulation.times), corners, chords, curved)
+        corners, chords, curved = (
+            _at(formulation, looks) for looks in (intersample.corners, intersample.chords, intersample.curved)
+        )
+        return cls(intersample, knots_in(corners.times, formulation.times), corners, chords, curved)
 
     def kept(self, rows_of: Callable[[Formulation], Sequence[Rows]], formulation: Formulation) -> list[Rows]:
         """Return rows at every knot and at every corner, each with the reserve that the curved pieces beside it need.
@@ -49,10 +51,10 @@ class Reserve:
             if at.kind is Kind.ZERO:
                 result.append(at)
                 continue
-            needed = _heads(at, self.bend.needed(_lost(at, after.constant - before.constant)))
-            result.append(replace(at, constant=frozen(at.constant - needed[~self.bend.corner])))
+            needed = _heads(at, self.intersample.needed(_lost(at, after.constant - before.constant)))
+            result.append(replace(at, constant=frozen(at.constant - needed[~self.intersample.corner])))
             if len(self.corners.times):
-                constant = frozen(inside.constant - needed[self.bend.corner])
+                constant = frozen(inside.constant - needed[self.intersample.corner])
                 result.append(replace(inside, constant=constant, inside=self.shares))
         return result
 

@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array, interpolated
-from synergrip.planning.instants import bend_of
+from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.task import Task
@@ -54,19 +54,19 @@ class Between:
 
 def between(task: Task, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:
     """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
-    bend = formulation.bend or bend_of(task, analysis)
-    if bend is None:
+    intersample = formulation.intersample or intersample_of(task, analysis)
+    if intersample is None:
         return None
-    looks = bend.all
+    looks = intersample.all
     dz_r = interpolated(looks.times, task.times, motion.dz_r)
     there = forward(analysis.response, looks.times, dz_r, looks.wrench)
     dense = replace(formulation, times=looks.times, wrench=looks.wrench, wanted=looks.wanted)
     usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
-    scale, (load, path) = analysis.response.scale, bend.departures(task.times, task.wrench, formulation.wanted)
+    scale, (load, path) = analysis.response.scale, intersample.departures(task.times, task.wrench, formulation.wanted)
     loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.wanted))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))
-    corners = tuple(dict.fromkeys(bend.corners.times.tolist()))
-    return Between(bend.samples, _size(*loads), _size(*paths), size, usages, corners)
+    corners = tuple(dict.fromkeys(intersample.corners.times.tolist()))
+    return Between(intersample.samples, _size(*loads), _size(*paths), size, usages, corners)
 
 
 def _size(departure: Array, whole: Array) -> float:

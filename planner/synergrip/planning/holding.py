@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from synergrip.conic.formulation import Formulation
-from synergrip.planning.instants import bend_of
+from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.task import Task
@@ -25,16 +25,16 @@ def held(task: Task, analysis: Analysis, formulation: Formulation, answer: Calla
         formulation: at the knots.
         answer: plans in a formulation.
     """
-    bend = bend_of(task, analysis) if task.between == "hold" else None
-    outcome = answer(replace(formulation, bend=bend))
-    if bend is None or bend.exact or not isinstance(outcome, Infeasible):
+    intersample = intersample_of(task, analysis) if task.between == "hold" else None
+    outcome = answer(replace(formulation, intersample=intersample))
+    if intersample is None or intersample.exact or not isinstance(outcome, Infeasible):
         return outcome
-    without = answer(replace(formulation, bend=bend.every()))
+    without = answer(replace(formulation, intersample=intersample.every()))
     if isinstance(without, Infeasible | Unknown):
         return without
     why = (
         'no plan keeps the limits with the reserve at the knots that task.between = "hold" takes for a load that is '
-        f"curved between them, and without it, at {bend.samples} instants in each interval, there is one: whether one "
+        f"curved between them, and without it, at {intersample.samples} instants in each interval, there is one: whether one "
         "keeps them at all times is not known; more knots make the reserve smaller"
     )
     return Unknown(task, analysis, why, (*outcome.decisions, *without.decisions))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.conic.intersample import Bend, Looks, samples_for, shares
+from synergrip.conic.intersample import Intersample, Looks, samples_for, shares
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.marks import SAME_TIME, Jump, Marks
@@ -16,7 +16,7 @@ SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""
 
 
-def bend_of(task: Task, analysis: Analysis) -> Bend | None:
+def intersample_of(task: Task, analysis: Analysis) -> Intersample | None:
     """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
     if task.course is None or len(task.times) < 2:
         return None
@@ -32,7 +32,7 @@ def bend_of(task: Task, analysis: Analysis) -> Bend | None:
     samples = samples_for(len(pieces))
     first, last = grid.times[pieces], grid.times[pieces + 1]
     inner = (first[:, None] + (last - first)[:, None] * shares(samples)).ravel()
-    return Bend(grid, corner, pieces, samples, _looked_at(task, task.course, inner, analysis))
+    return Intersample(grid, corner, pieces, samples, _looked_at(task, task.course, inner, analysis))
 
 
 def _looked_at(task: Task, course: Course, times: Array, analysis: Analysis) -> Looks:

@@ -12,7 +12,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.linalg import Array
-from synergrip.planning.instants import bend_of
+from synergrip.planning.instants import intersample_of
 from synergrip.planning.told import (
     arrays_of,
     between_document,
@@ -82,12 +82,12 @@ def _columns(judged: Judgement, arrays: Mapping[str, Array]) -> dict[str, Array]
 def _largest_margin(judged: Judgement) -> float:
     """Return the margin [N] that the references keep, with the reserve when it is asked for: the largest, if it is."""
     task, analysis = judged.task, judged.analysis
-    bend = bend_of(task, analysis) if task.between == "hold" else None
-    if bend is None:
+    intersample = intersample_of(task, analysis) if task.between == "hold" else None
+    if intersample is None:
         return float(judged.margins.min())
     formulation = judged.formulation
     unknowns = _unknowns(formulation, analysis.coordinates.coordinates(judged.motion.dz_r))
-    rows = Reserve.of(formulation, bend).kept(LargestMargin().rows, formulation)
+    rows = Reserve.of(formulation, intersample).kept(LargestMargin().rows, formulation)
     return formulation.force_unit * min(_room(part, unknowns) for part in rows if np.any(part.epigraph))
 
 

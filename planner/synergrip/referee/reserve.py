@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from synergrip.conic.goals.goal import Goal
-from synergrip.conic.intersample import Bend, Looks
+from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, interpolated
@@ -21,10 +21,10 @@ Writer = Callable[[Looks, Expression | None], Model]
 
 
 @dataclass(frozen=True)
-class Courses:
+class Instants:
     """The same task written down between the knots: at the corners, and in curved pieces along chords and as it is."""
 
-    bend: Bend
+    intersample: Intersample
     corners: Model | None
     """Its references are those of the knots, on straight lines between them; None when there are no corners."""
     straight: Model | None
@@ -32,13 +32,13 @@ class Courses:
     bent: Model | None
 
     @classmethod
-    def of(cls, model: Model, bend: Bend, write: Writer) -> Courses:
+    def of(cls, model: Model, intersample: Intersample, write: Writer) -> Instants:
         """Write the task of `model` down with `write`: at other instants, with given references or any."""
-        corners = bend.corners
+        corners = intersample.corners
         inside = write(corners, _shares(corners.times, model.times) @ model.dz_r) if len(corners.times) else None
-        if bend.exact:
-            return cls(bend, inside, None, None)
-        return cls(bend, inside, write(bend.chords, None), write(bend.curved, None))
+        if intersample.exact:
+            return cls(intersample, inside, None, None)
+        return cls(intersample, inside, write(intersample.chords, None), write(intersample.curved, None))
 
     def kept(
         self, at: Sequence[Cone], inside: Sequence[Cone], again: Callable[[Model], Sequence[Cone]]
@@ -53,8 +53,8 @@ class Courses:
         if self.straight is None or self.bent is None:
             return list(at), list(inside)
         pairs = zip(_values(again(self.straight)), _values(again(self.bent)), strict=True)
-        needed = [self.bend.needed(_lost(*pair)) for pair in pairs]
-        corner = self.bend.corner
+        needed = [self.intersample.needed(_lost(*pair)) for pair in pairs]
+        corner = self.intersample.corner
         return _lower(at, [each[~corner] for each in needed]), _lower(inside, [each[corner] for each in needed])
 
 
@@ -86,10 +86,10 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
         write: writes the task down at other instants.
     """
     wish = write_goal(model, question.goal)
-    bend = question.formulation.bend
-    if bend is None:
+    intersample = question.formulation.intersample
+    if intersample is None:
         return wish, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
-    time_basis = Courses.of(model, bend, write)
+    instants = Instants.of(model, intersample, write)
     cones: list[Cone] = []
     inside: list[Cone] = []
     for limit in question.limits:
@@ -97,12 +97,12 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
         if limit.couples_knots:
             cones += at
             continue
-        there = () if time_basis.corners is None else write_limit(time_basis.corners, limit)
-        kept, between = time_basis.kept(at, there, partial(_limit_again, limit))
+        there = () if instants.corners is None else write_limit(instants.corners, limit)
+        kept, between = instants.kept(at, there, partial(_limit_again, limit))
         cones, inside = cones + kept, inside + between
-    other = None if time_basis.corners is None else write_goal(time_basis.corners, question.goal)
+    other = None if instants.corners is None else write_goal(instants.corners, question.goal)
     again = partial(_wish_again, question.goal)
-    kept, between = time_basis.kept(wish.cones, () if other is None else other.cones, again)
+    kept, between = instants.kept(wish.cones, () if other is None else other.cones, again)
     same = () if other is None or other.scalar is None else (other.scalar == wish.scalar,)
     return replace(wish, cones=tuple(kept)), cones, Inside(tuple(inside), tuple(between), same)
 
