@@ -181,7 +181,7 @@ def _proof(outcome: Infeasible) -> list[str]:
         if block.kind.value == "second-order":
             outside = np.linalg.norm(part[:, 1:], axis=1) - part[:, 0]
             wrong += [f"{block.limit} leaves its cone"] * bool(outside.max() > 1e-15 * np.abs(y).max())
-    drop = float(program.b @ y + np.abs(program.A.T @ y) @ program.box)
+    drop = float(program.b @ y + np.abs(program.A.T @ y) @ program.variable_bounds)
     wrong += [f"proves nothing: {drop:.1e}"] * (not drop < 0)
     stated = {"limits.margin", "task.tolerance", "task.drift", *(limit.key for limit in outcome.task.limits)}
     return wrong + [f"{clash.key} clashes unstated" for clash in outcome.clashes if clash.key not in stated]

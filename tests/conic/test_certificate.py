@@ -59,7 +59,9 @@ def test_a_true_optimum_verifies_and_tampering_does_not(seed: int) -> None:
     assert not judge_optimal(program, solution.x, 1.01 * solution.z + 1e-3).verified
     assert not judge_optimal(program, solution.x, np.zeros_like(solution.z)).verified
     assert not judge_optimal(program, np.full(5, np.nan), solution.z).verified
-    assert not judge_optimal(replace(program, box=frozen(np.full(5, 1e-6))), solution.x, solution.z).verified
+    assert not judge_optimal(
+        replace(program, variable_bounds=frozen(np.full(5, 1e-6))), solution.x, solution.z
+    ).verified
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -127,7 +129,7 @@ def test_save_and_load_give_the_exact_program(tmp_path: Path, seed: int, feasibl
     loaded = Program.load(tmp_path / "program.npz")
     assert (loaded.P != program.P).nnz == 0
     assert (loaded.A != program.A).nnz == 0
-    for name in ("q", "b", "box"):
+    for name in ("q", "b", "variable_bounds"):
         assert np.array_equal(getattr(loaded, name), getattr(program, name))
     for name in ("blocks", "knots", "n_v", "constant"):
         assert getattr(loaded, name) == getattr(program, name)

@@ -77,9 +77,9 @@ def test_a_box_of_time_basis_holds_every_plan_in_the_box_of_the_knots() -> None:
     time_basis = frozen(np.column_stack([np.ones(KNOTS), np.linspace(-1, 1, KNOTS)]))
     left = formulation.around(np.zeros((KNOTS, formulation.n_v)), np.eye(formulation.n_v), time_basis)
     whole, part = build(formulation, limits, LeastEffort()), build(left, limits, LeastEffort())
-    box = whole.unknowns(whole.box)
+    box = whole.unknowns(whole.variable_bounds)
     for _ in range(200):
         coefficients = rng.normal(size=(2, formulation.n_v))
         v = time_basis @ coefficients
         coefficients /= np.abs(v / box).max(axis=0)  # at the edge of the box
-        assert np.all(np.abs(coefficients.ravel()) <= part.box * (1 + 1e-9))
+        assert np.all(np.abs(coefficients.ravel()) <= part.variable_bounds * (1 + 1e-9))

@@ -108,12 +108,12 @@ def test_the_box_contains_everything_the_limits_allow(seed: int, name: str) -> N
             q = np.zeros(len(program.q))
             q[column] = sign
             pushed = type(program)(0 * program.P, frozen(q), program.A, program.b, program.blocks, program.knots,
-                                   program.n_v, program.box)  # fmt: skip
+                                   program.n_v, program.variable_bounds)  # fmt: skip
             solution = clarabel_.solve(pushed, Settings())
             if solution.claim is Claim.OPTIMAL:
-                assert abs(solution.x[column]) <= program.box[column] * (1 + 1e-6)
+                assert abs(solution.x[column]) <= program.variable_bounds[column] * (1 + 1e-6)
             elif solution.claim is Claim.UNBOUNDED:
-                assert program.box[column] == 1e6
+                assert program.variable_bounds[column] == 1e6
 
 
 def test_accelerations_are_second_derivatives_of_a_parabola_on_uneven_knots() -> None:
@@ -123,7 +123,7 @@ def test_accelerations_are_second_derivatives_of_a_parabola_on_uneven_knots() ->
     dz_r = 0.3 + np.outer(formulation.times, rates) + 0.5 * np.outer(formulation.times**2, 3 * rates)
     motion = forward(formulation.response, formulation.times, dz_r, formulation.wrench)
     found = LIMITS["acceleration"](grasp).usage(formulation, motion).value
-    np.testing.assert_allclose(found[1:-1], np.tile(3 * rates, (KNOTS - 2, 1)), atol=1e-12)
+    np.testing.assert_allclose(found[1:-1], np.block(3 * rates, (KNOTS - 2, 1)), atol=1e-12)
     assert not found[[0, -1]].any()
 
 

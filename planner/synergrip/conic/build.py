@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.assembly import Tile, stacked, without_rounding
+from synergrip.conic.assembly import Block, stacked, without_rounding
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
-from synergrip.conic.variable_bounds import box, farthest
+from synergrip.conic.variable_bounds import farthest, variable_bounds
 from synergrip.linalg import Array, frozen
 
 
@@ -34,7 +34,7 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
-    bounds = np.concatenate([np.tile(box(formulation, limits), T), np.full(extra, farthest(formulation))])
+    bounds = np.concatenate([np.tile(variable_bounds(formulation, limits), T), np.full(extra, farthest(formulation))])
     blocks = tuple(_block(part, T) for part in rows)
     program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
     if formulation.time_basis is None:
@@ -53,19 +53,19 @@ def _of_time_basis(program: Program, time_basis: Array, divisor: float) -> Progr
         [sparse.kron(time_basis, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc"
     )
     # the coefficients that make v are the pseudo-inverse of the time_basis times v
-    sizes = np.abs(np.linalg.pinv(time_basis)) @ program.unknowns(program.box)
-    bounds = np.concatenate([sizes.ravel(), program.box[len(program.box) - extra :]])
+    sizes = np.abs(np.linalg.pinv(time_basis)) @ program.unknowns(program.variable_bounds)
+    bounds = np.concatenate([sizes.ravel(), program.variable_bounds[len(program.variable_bounds) - extra :]])
     P, A = sparse.csc_matrix(N.T @ program.P @ N), sparse.csc_matrix(program.A @ N)
     P.data /= divisor
     q, constant = frozen(np.asarray(N.T @ program.q) / divisor), program.constant / divisor
-    return replace(program, P=P, q=q, A=A, box=frozen(bounds), time_basis=time_basis, constant=constant)
+    return replace(program, P=P, q=q, A=A, variable_bounds=frozen(bounds), time_basis=time_basis, constant=constant)
 
 
 def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
     """Return the matrix of rows, those at the knots before those between them."""
     at = [part for part in rows if part.inside is None]
-    tiles = [Tile(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in at]
-    A = stacked(tiles, knots, n_v, extra)
+    blocks = [Block(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in at]
+    A = stacked(blocks, knots, n_v, extra)
     between = [_between(part, part.inside, extra) for part in rows if part.inside is not None]
     return sparse.csc_matrix(sparse.vstack([A, *between])) if between else A
 
@@ -101,7 +101,7 @@ def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, extra: int) -> 
     n = knots * n_v + extra
     P, q = sparse.csc_matrix((n, n)), np.zeros(n)
     for part in squares:
-        tile = Tile(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
-        B = stacked([tile], knots, n_v, extra)
+        block = Block(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
+        B = stacked([block], knots, n_v, extra)
         P, q = P + sparse.csc_matrix(B.T @ B), q + B.T @ part.constant.ravel()
     return P, q

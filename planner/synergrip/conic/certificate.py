@@ -65,7 +65,8 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     if not (np.all(np.isfinite(x)) and np.all(np.isfinite(z))):
         return Certificate("optimal", False)
     primal = max(
-        distance_to_cones(program, program.b - program.A @ x), float((np.abs(x) - program.box).max(initial=0.0))
+        distance_to_cones(program, program.b - program.A @ x),
+        float((np.abs(x) - program.variable_bounds).max(initial=0.0)),
     )
     moved = project_on_dual(program, z)
     stationarity = program.P @ x + program.q + program.A.T @ moved
@@ -112,5 +113,5 @@ def judge_infeasible(program: Program, y: Array) -> Certificate:
     moved = float(np.abs(ray - y / drop).max())
     leak = np.abs(program.A.T @ ray)
     allowance = ROUNDING * float(np.abs(program.b) @ np.abs(ray))
-    sign = -1.0 + float(leak @ program.box) + allowance
+    sign = -1.0 + float(leak @ program.variable_bounds) + allowance
     return Certificate("infeasible", sign < 0, float(leak.max(initial=0.0)), moved, sign, frozen(ray))

@@ -59,8 +59,8 @@ class Program:
     knots: int
     n_v: int
     """Unknowns at each knot."""
-    box: Array
-    """(n,) every unknown is also bounded by |x| <= box, which the limits imply or no plan exceeds."""
+    variable_bounds: Array
+    """(n,) every unknown is also bounded by |x| <= these, which the limits imply or no plan exceeds."""
     time_basis: Array | None = None
     """(T, f) the time_basis in time that the unknowns of the knots are made of; None when each knot has its own."""
     constant: float = 0.0
@@ -97,7 +97,12 @@ class Program:
         """Write the exact program to an .npz file, atomically."""
         blocks = [asdict(block) for block in self.blocks]
         header = {"knots": self.knots, "n_v": self.n_v, "constant": self.constant, "blocks": blocks}
-        arrays = {"q": self.q, "b": self.b, "box": self.box, "header": np.array(json.dumps(header))}
+        arrays = {
+            "q": self.q,
+            "b": self.b,
+            "variable_bounds": self.variable_bounds,
+            "header": np.array(json.dumps(header)),
+        }
         if self.time_basis is not None:
             arrays["time_basis"] = self.time_basis
         for name, matrix in (("P", self.P), ("A", self.A)):
@@ -139,6 +144,6 @@ class Program:
         ]
         return cls(
             matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
-            header["knots"], header["n_v"], frozen(stored["box"]),
+            header["knots"], header["n_v"], frozen(stored["variable_bounds"]),
             frozen(stored["time_basis"]) if "time_basis" in stored else None, header.get("constant", 0.0),
         )  # fmt: skip

@@ -22,7 +22,7 @@ FARTHEST = 1e12
 """A limit that is farther away than this is none, but the rounding of what it looks at."""
 
 
-def box(formulation: Formulation, limits: Sequence[Limit]) -> Array:
+def variable_bounds(formulation: Formulation, limits: Sequence[Limit]) -> Array:
     """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
     result = np.full(formulation.n_v, np.inf)
     cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
