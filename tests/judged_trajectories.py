@@ -184,7 +184,9 @@ def _proof(outcome: Infeasible) -> list[str]:
     drop = float(program.b @ y + np.abs(program.A.T @ y) @ program.variable_bounds)
     wrong += [f"proves nothing: {drop:.1e}"] * (not drop < 0)
     stated = {"limits.margin", "task.tolerance", "task.drift", *(limit.key for limit in outcome.task.limits)}
-    return wrong + [f"{clash.key} clashes unstated" for clash in outcome.clashes if clash.key not in stated]
+    return wrong + [
+        f"{conflict.key} conflicts unstated" for conflict in outcome.conflicts if conflict.key not in stated
+    ]
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Blocks stacked into a sparse matrix, against the dense matrix that their definition gives entry by entry."""
+"""Bands stacked into a sparse matrix, against the dense matrix that their definition gives entry by entry."""
 
 from __future__ import annotations
 
@@ -6,30 +6,30 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from synergrip.conic.assembly import Block, stacked
+from synergrip.conic.assembly import Band, stacked
 from synergrip.conic.rows import Earlier
 
 Array = NDArray[np.float64]
 
 
-def dense(blocks: list[Block], knots: int, n_v: int, extra: int) -> Array:
-    """Write every copy of every block where it belongs."""
-    blocks = []
-    for block in blocks:
-        for copy in range(block.count):
-            knot = knots - block.count + copy
-            rows = np.zeros((len(block.matrix), knots * n_v + extra))
-            rows[:, knot * n_v : (knot + 1) * n_v] += block.matrix
-            for part in block.earlier:
+def dense(bands: list[Band], knots: int, n_v: int, extra: int) -> Array:
+    """Write every copy of every band where it belongs."""
+    dense_rows = []
+    for band in bands:
+        for copy in range(band.count):
+            knot = knots - band.count + copy
+            rows = np.zeros((len(band.matrix), knots * n_v + extra))
+            rows[:, knot * n_v : (knot + 1) * n_v] += band.matrix
+            for part in band.earlier:
                 start = (knot - part.lag) * n_v
                 rows[:, start : start + n_v] += part.weights[copy] * part.matrix
             if extra:
-                rows[:, -1] = block.scalar
-            blocks.append(rows)
-    return np.vstack(blocks)
+                rows[:, -1] = band.scalar
+            dense_rows.append(rows)
+    return np.vstack(dense_rows)
 
 
-def random_block(rng: np.random.Generator, knots: int, n_v: int, extra: int) -> Block:
+def random_band(rng: np.random.Generator, knots: int, n_v: int, extra: int) -> Band:
     """Return one whose own knot speaks by its matrix, or, weighted, as the earlier knot of lag 0."""
     height, lags, weighted = int(rng.integers(1, 5)), int(rng.integers(0, 3)), rng.random() < 0.3
     sparse_matrix = rng.normal(size=(height, n_v)) * (rng.random((height, n_v)) < 0.7) * (not weighted)
@@ -38,24 +38,24 @@ def random_block(rng: np.random.Generator, knots: int, n_v: int, extra: int) -> 
         for lag in rng.permutation(np.arange(0 if weighted else 1, lags + 1))
     )
     scalar = rng.normal(size=height) * (rng.random(height) < 0.5) * extra
-    return Block(sparse_matrix, earlier, scalar, knots - lags)
+    return Band(sparse_matrix, earlier, scalar, knots - lags)
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_stacked_blocks_are_what_they_are_entry_by_entry(seed: int) -> None:
+def test_stacked_bands_are_what_they_are_entry_by_entry(seed: int) -> None:
     rng = np.random.default_rng(seed)
     knots, n_v, extra = int(rng.integers(3, 8)), int(rng.integers(1, 4)), int(rng.integers(0, 2))
-    blocks = [random_block(rng, knots, n_v, extra) for _ in range(rng.integers(1, 5))]
-    found = stacked(blocks, knots, n_v, extra)
-    assert np.array_equal(found.toarray(), dense(blocks, knots, n_v, extra))
+    bands = [random_band(rng, knots, n_v, extra) for _ in range(rng.integers(1, 5))]
+    found = stacked(bands, knots, n_v, extra)
+    assert np.array_equal(found.toarray(), dense(bands, knots, n_v, extra))
     assert np.all(found.data != 0)
     assert found.has_canonical_format
     assert found.indices.dtype == np.int32
 
 
 def test_what_rounding_left_of_zeros_is_dropped_and_small_entries_are_kept() -> None:
-    block = Block(np.array([[1.0, 2e-16], [1e-14, 1.0], [1e-30, 1e-30]]), (), np.zeros(3), 2)
-    found = stacked([block], 2, 2, 0)
+    band = Band(np.array([[1.0, 2e-16], [1e-14, 1.0], [1e-30, 1e-30]]), (), np.zeros(3), 2)
+    found = stacked([band], 2, 2, 0)
     assert np.array_equal(found.toarray()[:3, :2], [[1.0, 0.0], [1e-14, 1.0], [1e-30, 1e-30]])
 
 

@@ -96,7 +96,11 @@ def test_a_squeeze_that_may_not_begin_early_is_refused_by_its_rate() -> None:
         outcome = asked(times, weight, ("effort",), rate, pinned(21, known))
         assert outcome.verdict == verdict
         if isinstance(outcome, Infeasible):
-            assert {clash.key for clash in outcome.clashes} == {"limits.margin", "limits.synergy_rate", "limits.pinned"}
+            assert {conflict.key for conflict in outcome.conflicts} == {
+                "limits.margin",
+                "limits.synergy_rate",
+                "limits.pinned",
+            }
 
 
 @pytest.mark.parametrize("intervals", [11, 20])
@@ -111,7 +115,7 @@ def test_from_rest_to_rest_the_least_peak_of_acceleration_is_bang_bang(intervals
         outcome = asked(times, 0 * times, ("effort",), limit, pinned(intervals + 1, known), margin=0.0)
         assert outcome.verdict == verdict, factor
         if isinstance(outcome, Infeasible):
-            assert {clash.key for clash in outcome.clashes} == {"limits.synergy_acceleration", "limits.pinned"}
+            assert {conflict.key for conflict in outcome.conflicts} == {"limits.synergy_acceleration", "limits.pinned"}
 
 
 def test_least_travel_between_two_squeezes_is_a_straight_line() -> None:

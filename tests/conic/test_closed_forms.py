@@ -134,7 +134,7 @@ def test_a_joint_that_yields_under_the_load_may_leave_its_range() -> None:
         outcome = plan(pinch(joint_compliance=2e-3), task([0, 0, -3, 0, 0, 0], 0.1, "effort", limit))
         assert outcome.verdict == verdict
         if isinstance(outcome, Infeasible):
-            assert {clash.key for clash in outcome.clashes} == {"limits.joint_range"}
+            assert {conflict.key for conflict in outcome.conflicts} == {"limits.joint_range"}
 
 
 def test_a_squeeze_may_push_the_object_no_farther_than_its_limit() -> None:
@@ -152,7 +152,7 @@ def test_drift_counts_the_sag_under_the_load() -> None:
         outcome = plan(pinch(), task([0, 0, -2, 0, 0, 0], 0.1, "effort", limit, NormalForce(0.0, 20.0)))
         assert outcome.verdict == verdict
         if isinstance(outcome, Infeasible):
-            assert {clash.key for clash in outcome.clashes} == {"limits.drift"}
+            assert {conflict.key for conflict in outcome.conflicts} == {"limits.drift"}
 
 
 def test_effort_is_least_among_all_squeezes() -> None:

@@ -1,4 +1,4 @@
-"""What clashes, read from proofs whose cause is known."""
+"""What conflicts, read from proofs whose cause is known."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def refused(name: str, *overrides: str) -> Infeasible:
 
 def test_a_margin_beyond_the_normal_force_limit_clashes_with_that_limit_only() -> None:
     outcome = refused("pinch-soft", "limits.margin=12 N", "limits.joint_torque=1000")
-    assert {clash.key for clash in outcome.clashes} == {"limits.margin", "limits.normal_force"}
-    assert sum(clash.share for clash in outcome.clashes) == pytest.approx(1.0, abs=1e-3)
+    assert {conflict.key for conflict in outcome.conflicts} == {"limits.margin", "limits.normal_force"}
+    assert sum(conflict.share for conflict in outcome.conflicts) == pytest.approx(1.0, abs=1e-3)
     # n = (12 + sqrt(1 + 0.2^2)) / 0.5
     assert f"{(12 + np.sqrt(1.04)) / 0.5:.4g} N of normal force would do" in outcome.why
 
@@ -30,7 +30,7 @@ def test_a_margin_beyond_the_normal_force_limit_clashes_with_that_limit_only() -
 def test_a_torque_limit_that_bites_is_named_with_its_joint() -> None:
     torques = "limits.joint_torque=[1000,1000,1000,1000,2,1000,1000,1000]"
     outcome = refused("pinch-soft", "limits.margin=3 N", torques)
-    found = {clash.key: clash for clash in outcome.clashes}
+    found = {conflict.key: conflict for conflict in outcome.conflicts}
     assert found["limits.joint_torque"].items == ("q5",)
     assert found["limits.joint_torque"].share > 3 * found["limits.normal_force"].share  # far from its own bound
 
@@ -52,14 +52,14 @@ def test_a_hopeless_geometry_is_told_from_a_limit() -> None:
 )
 def test_the_reason_names_the_limit_that_clashes_most_and_not_friction_alone(name: str, limit: str) -> None:
     outcome = refused(name, limit)
-    chief = outcome.clashes[0]
+    chief = outcome.conflicts[0]
     assert chief.key != "limits.margin"
     assert f"{chief.key} ({chief.items[0]})" in outcome.why
 
 
 def test_the_reason_names_no_limit_where_friction_clashes_most() -> None:
     outcome = refused("barrett-ball-hold", "contacts.friction=0.3")
-    assert outcome.clashes[0].key == "limits.margin"
+    assert outcome.conflicts[0].key == "limits.margin"
     assert outcome.why.startswith("within these limits some contact slips")
 
 

@@ -74,4 +74,4 @@ def test_a_sag_that_nothing_counters_is_proven_without_any_limit() -> None:
         outcome = plan(problem.grasp, problem.task)
         assert outcome.verdict == verdict
         if isinstance(outcome, Infeasible):
-            assert {clash.key for clash in outcome.clashes} == {"task.tolerance"}
+            assert {conflict.key for conflict in outcome.conflicts} == {"task.tolerance"}

@@ -44,7 +44,7 @@ def refused(outcome: Outcome, key: str) -> None:
     """Assert a verified proof in which the limit counts."""
     assert isinstance(outcome, Infeasible)
     assert (outcome.stage, outcome.certificate.verified) == ("magnitude", True)
-    shares = {clash.key: clash.share for clash in outcome.clashes}
+    shares = {conflict.key: conflict.share for conflict in outcome.conflicts}
     assert shares.get(key, 0.0) > 0.05, shares
 
 
@@ -66,6 +66,6 @@ def test_joint_ranges_turn_the_answer_and_the_joint_is_named() -> None:
     assert isinstance(left, Plan)
     (note,) = (note for note in left.notes if "range" in note)
     assert isinstance(outcome, Infeasible)
-    items = next(clash.items for clash in outcome.clashes if clash.key == "limits.joint_range")
+    items = next(conflict.items for conflict in outcome.conflicts if conflict.key == "limits.joint_range")
     assert f"'{items[0]}'" in note
     assert isinstance(outcome_of("dlr-ball-move", "task.knots=11", move.replace("12", "2"), ranges), Plan)

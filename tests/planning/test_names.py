@@ -83,16 +83,16 @@ def test_names_change_neither_plan_nor_proof(scheme: str, solver: str) -> None:
     no, same_no = (asked(grasp, 9.0, *LIMITS, solver=solver) for grasp in (plain, other))
     assert isinstance(no, Infeasible)
     assert isinstance(same_no, Infeasible)
-    assert no.clashes
-    assert [(c.key, c.share) for c in same_no.clashes] == [(c.key, c.share) for c in no.clashes]
-    assert [c.items for c in same_no.clashes] == [tuple(translated[i] for i in c.items) for c in no.clashes]
+    assert no.conflicts
+    assert [(c.key, c.share) for c in same_no.conflicts] == [(c.key, c.share) for c in no.conflicts]
+    assert [c.items for c in same_no.conflicts] == [tuple(translated[i] for i in c.items) for c in no.conflicts]
 
 
 def test_three_tips_are_three(tmp_path: Path) -> None:
     """Every contact carries a like share of the proof, and each is named."""
     outcome = asked(named(SCHEMES["parentheses"]), 9.0, NormalForce(0.0, 2.0))
     assert isinstance(outcome, Infeasible)
-    assert {clash.key: set(clash.items) for clash in outcome.clashes} == {
+    assert {conflict.key: set(conflict.items) for conflict in outcome.conflicts} == {
         "limits.margin": set(SCHEMES["parentheses"]),
         "limits.normal_force": set(SCHEMES["parentheses"]),
     }

@@ -18,7 +18,7 @@ ROUNDING = 1e-15
 
 
 @dataclass(frozen=True)
-class Block:
+class Band:
     """The rows of one knot, which repeat down the diagonal: ``matrix v_k``, earlier knots' parts, and the scalar's."""
 
     matrix: Array  # (h, n_v)
@@ -31,7 +31,7 @@ class Block:
 
 @dataclass(frozen=True)
 class _Part:
-    """What the copies of a block say of knots: the same entries again and again, each copy's times its weight."""
+    """What the copies of a band say of knots: the same entries again and again, each copy's times its weight."""
 
     first_knot: int
     """The one that the first copy speaks of; the others follow."""
@@ -49,19 +49,19 @@ class _Part:
         return self.first_knot, self.first_knot + len(self.weights)
 
 
-def stacked(blocks: Sequence[Block], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
-    """Return the blocks below one another.
+def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
+    """Return the bands below one another.
 
     Args:
-        blocks: (h, n_v) each.
+        bands: (h, n_v) each.
         knots: number of knots T.
         n_v: unknowns of a knot.
         extra: columns beyond those of the knots: 1 with a scalar, else 0.
     """
-    tops = np.cumsum([0, *(len(block.matrix) * block.count for block in blocks)])
-    placed = list(zip(blocks, tops.tolist(), strict=False))
-    parts = [part for block, top in placed for part in _parts(block, top, knots)]
-    scalars = [_scalar_column(block, top) for block, top in placed] if extra else []
+    tops = np.cumsum([0, *(len(band.matrix) * band.count for band in bands)])
+    placed = list(zip(bands, tops.tolist(), strict=False))
+    parts = [part for band, top in placed for part in _parts(band, top, knots)]
+    scalars = [_scalar_column(band, top) for band, top in placed] if extra else []
     total = sum(part.value.size * len(part.weights) for part in parts) + sum(len(rows) for rows, _ in scalars)
     index: type[np.int32 | np.int64] = np.int32 if max(total, tops[-1]) < 2**31 else np.int64
     lengths = np.zeros(knots * n_v + extra, dtype=index)
@@ -82,11 +82,11 @@ def stacked(blocks: Sequence[Block], knots: int, n_v: int, extra: int) -> sparse
     return sparse.csc_matrix((data, indices, ends), shape=(int(tops[-1]), len(lengths)))
 
 
-def _parts(block: Block, top: int, knots: int) -> list[_Part]:
-    """Return what a block says of its own knots, and of those before them."""
-    height, first = len(block.matrix), knots - block.count
+def _parts(band: Band, top: int, knots: int) -> list[_Part]:
+    """Return what a band says of its own knots, and of those before them."""
+    height, first = len(band.matrix), knots - band.count
     result = []
-    for part in (Earlier(0, block.matrix, np.ones(block.count)), *sorted(block.earlier, key=lambda part: part.lag)):
+    for part in (Earlier(0, band.matrix, np.ones(band.count)), *sorted(band.earlier, key=lambda part: part.lag)):
         row, column = np.nonzero(without_rounding(part.matrix))
         value = part.matrix[row, column]
         result.append(_Part(first - part.lag, part.weights, top, height, row, column, value))
@@ -99,10 +99,10 @@ def without_rounding(matrix: Array) -> Array:
     return np.where(size > ROUNDING * size.max(axis=1, keepdims=True, initial=0.0), matrix, 0.0)
 
 
-def _scalar_column(block: Block, top: int) -> tuple[NDArray[np.intp], Array]:
-    used = np.flatnonzero(block.scalar)
-    rows = top + np.arange(block.count)[:, None] * len(block.scalar) + used
-    return rows.ravel(), np.tile(block.scalar[used], block.count)
+def _scalar_column(band: Band, top: int) -> tuple[NDArray[np.intp], Array]:
+    used = np.flatnonzero(band.scalar)
+    rows = top + np.arange(band.count)[:, None] * len(band.scalar) + used
+    return rows.ravel(), np.tile(band.scalar[used], band.count)
 
 
 def _fill(

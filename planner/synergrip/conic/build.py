@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.assembly import Block, stacked, without_rounding
+from synergrip.conic.assembly import Band, stacked, without_rounding
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
@@ -64,8 +64,8 @@ def _of_time_basis(program: Program, time_basis: Array, divisor: float) -> Progr
 def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
     """Return the matrix of rows, those at the knots before those between them."""
     at = [part for part in rows if part.inside is None]
-    blocks = [Block(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in at]
-    A = stacked(blocks, knots, n_v, extra)
+    bands = [Band(part.matrix, part.earlier, part.epigraph, len(part.constant)) for part in at]
+    A = stacked(bands, knots, n_v, extra)
     between = [_between(part, part.inside, extra) for part in rows if part.inside is not None]
     return sparse.csc_matrix(sparse.vstack([A, *between])) if between else A
 
@@ -101,7 +101,7 @@ def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, extra: int) -> 
     n = knots * n_v + extra
     P, q = sparse.csc_matrix((n, n)), np.zeros(n)
     for part in squares:
-        block = Block(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
-        B = stacked([block], knots, n_v, extra)
+        band = Band(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
+        B = stacked([band], knots, n_v, extra)
         P, q = P + sparse.csc_matrix(B.T @ B), q + B.T @ part.constant.ravel()
     return P, q

@@ -1,4 +1,4 @@
-"""What clashes in an infeasible task, read from its proof: every limit with its share, and the items that carry it."""
+"""What conflicts in an infeasible task, read from its proof: every limit with its share, and the items that carry it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FRICTION = frozenset({"limits.margin", "limits.margin_angle", "limits.safety_fac
 
 
 @dataclass(frozen=True)
-class Clash:
+class Conflict:
     """One limit's part in a proof of infeasibility."""
 
     key: str
@@ -33,13 +33,13 @@ class Clash:
     """Contacts, joints or synergies, the heaviest first."""
 
 
-def beside_friction(found: Sequence[Clash]) -> str:
+def beside_friction(found: Sequence[Conflict]) -> str:
     """Return the limit that carries most of a proof, with its heaviest item; empty when that is friction itself."""
-    chief = max(found, key=lambda clash: clash.share, default=None)
+    chief = max(found, key=lambda conflict: conflict.share, default=None)
     return "" if chief is None or chief.key in FRICTION else f"{chief.key} ({chief.items[0]})"
 
 
-def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
+def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
     """Return the limits that a proof of infeasibility y (m,) rests on, the heaviest first.
 
     Multipliers of the two sides of one limit cancel: what is left is a proof as well, and a stronger one.
@@ -60,8 +60,8 @@ def clashes(program: Program, y: Array) -> tuple[Clash, ...]:
         if share > COUNTS:
             ordered = sorted(items, key=lambda item: -items[item])
             heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
-            found.append(Clash(key, share, tuple(heavy)))
-    return tuple(sorted(found, key=lambda clash: -clash.share))
+            found.append(Conflict(key, share, tuple(heavy)))
+    return tuple(sorted(found, key=lambda conflict: -conflict.share))
 
 
 def _weights(sums: dict[tuple[str, bool], Array]) -> dict[str, float]:

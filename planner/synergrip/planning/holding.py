@@ -34,7 +34,7 @@ def held(task: Task, analysis: Analysis, formulation: Formulation, answer: Calla
         return without
     why = (
         'no plan keeps the limits with the reserve at the knots that task.between = "hold" takes for a load that is '
-        f"curved between them, and without it, at {intersample.samples} instants in each interval, there is one: whether one "
-        "keeps them at all times is not known; more knots make the reserve smaller"
+        f"curved between them, and without it, at {intersample.samples} instants in each interval, there is one: "
+        "whether one keeps them at all times is not known; more knots make the reserve smaller"
     )
     return Unknown(task, analysis, why, (*outcome.decisions, *without.decisions))

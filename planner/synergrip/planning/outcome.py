@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.conic.certificate import Certificate
-from synergrip.conic.conflicts import Clash
+from synergrip.conic.conflicts import Conflict
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
@@ -87,7 +87,7 @@ class Infeasible:
     decisions: tuple[Decision, ...]
     largest_margin: float | None
     """The largest margin [N] that the other limits allow, when that is what falls short."""
-    clashes: tuple[Clash, ...] = ()
+    conflicts: tuple[Conflict, ...] = ()
     """The limits that the proof rests on, when the program itself is infeasible."""
     hints: tuple[str, ...] = ()
     """What in the problem may not say what its author means, and what would come of it; computed, not guessed."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from synergrip.conic.conflicts import Clash, beside_friction, clashes
+from synergrip.conic.conflicts import Conflict, beside_friction, conflicts
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
@@ -151,13 +151,13 @@ class _Planner:
 
     def _infeasible(self, proven: Decision, largest: float | None) -> Infeasible:
         ray = proven.certificate.y
-        found = clashes(proven.program, ray) if ray is not None else ()
+        found = conflicts(proven.program, ray) if ray is not None else ()
         return Infeasible(
             self.task, self.analysis, "magnitude", f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
             proven.certificate, proven.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 
-    def _shortfall(self, largest: float | None, found: Sequence[Clash]) -> str:
+    def _shortfall(self, largest: float | None, found: Sequence[Conflict]) -> str:
         chief = beside_friction(found)
         if largest is None:
             named = f"; {chief} is what clashes most" if chief else ""

@@ -109,9 +109,9 @@ def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
 def _missed(between: Between | None) -> Iterator[str]:
     """Yield a note when the knots are so far apart that the plan passes over a good part of the wanted motion."""
     if between is not None and between.path_departure > PASSED_OVER * between.path_size:
-        size, intersample = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))
+        size, departure = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))
         yield (
-            f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to {intersample}"
+            f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to {departure}"
             ": more knots follow it more closely"
         )
 

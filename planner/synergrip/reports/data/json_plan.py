@@ -71,8 +71,8 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
         "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
         "hints": list(outcome.hints),
     }  # fmt: skip
-    if outcome.clashes:
-        document["clashes"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.clashes]
+    if outcome.conflicts:
+        document["conflicts"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.conflicts]
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})

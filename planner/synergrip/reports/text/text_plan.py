@@ -160,8 +160,8 @@ def _proof(outcome: Infeasible) -> str:
 
 def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
     yield from refused_lines(word, outcome.stage, outcome.why)
-    for i, clash in enumerate(outcome.clashes):
-        yield f"{'Clashes' if i == 0 else '':8} {clash.share:4.0%}  {clash.key}  ({', '.join(clash.items)})"
+    for i, conflict in enumerate(outcome.conflicts):
+        yield f"{'Clashes' if i == 0 else '':8} {conflict.share:4.0%}  {conflict.key}  ({', '.join(conflict.items)})"
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
     for change in repairs(outcome):
