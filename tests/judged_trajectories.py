@@ -184,9 +184,7 @@ def _proof(outcome: Infeasible) -> list[str]:
     drop = float(program.b @ y + np.abs(program.A.T @ y) @ program.variable_bounds)
     wrong += [f"proves nothing: {drop:.1e}"] * (not drop < 0)
     stated = {"limits.margin", "task.tolerance", "task.drift", *(limit.key for limit in outcome.task.limits)}
-    return wrong + [
-        f"{conflict.key} conflicts unstated" for conflict in outcome.conflicts if conflict.key not in stated
-    ]
+    return wrong + [f"{each.key} conflicts unstated" for each in outcome.conflicts if each.key not in stated]
 
 
 def main() -> None:

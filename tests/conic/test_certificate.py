@@ -209,7 +209,7 @@ def test_without_a_sharp_claim_the_chain_returns_its_best() -> None:
     decision = decide("test", program, lambda p, s: replace(true, x=frozen(true.x + next(shifts) * outward)))
     assert decision.attempts == 2
     assert decision.optimal
-    assert not decision.certificate.sharp()
+    assert not decision.certificate.tight()
 
 
 def test_a_modest_claim_is_heard_on_both_counts() -> None:

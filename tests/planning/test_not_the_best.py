@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synergrip.conic.certificate import NEARLY
+from synergrip.conic.certificate import ACCEPTABLE
 from synergrip.conic.decide import ATTEMPTS
-from synergrip.conic.goals.least_motion import SOFTER, STIFFEST, LeastMotion
+from synergrip.conic.goals.least_motion import RESCALED, STIFFEST, LeastMotion
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
@@ -62,7 +62,7 @@ def test_a_plan_that_is_the_best_to_some_digits_is_given_with_a_note() -> None:
     assert isinstance(outcome, Plan)
     assert isinstance(best, Plan)
     assert not outcome.decisions[0].optimal
-    assert 1e-8 < outcome.decisions[0].certificate.gap <= NEARLY
+    assert 1e-8 < outcome.decisions[0].certificate.gap <= ACCEPTABLE
     (note,) = said(outcome)
     assert "'least torque effort' was not verified; by the solver's own bound" in note
     assert not said(best)
@@ -94,8 +94,8 @@ def test_a_plan_that_breaks_a_limit_is_not_nearly_the_best() -> None:
     loose = spoiled(-1e-5)  # a little less squeeze than the margin needs
     outcome = planned("['effort']", {"least contact effort": loose})
     assert isinstance(outcome, Unknown)
-    assert outcome.decisions[0].certificate.gap <= NEARLY
-    assert not outcome.decisions[0].nearly
+    assert outcome.decisions[0].certificate.gap <= ACCEPTABLE
+    assert not outcome.decisions[0].acceptable
 
 
 def test_a_later_goal_that_is_nearly_reached_counts_with_a_note() -> None:
@@ -113,14 +113,14 @@ def test_smoothness_that_does_not_verify_is_looked_at_less_closely() -> None:
         goal = question.goal
         assert isinstance(goal, LeastMotion)
         asked.append(goal.stiffest)
-        return nothing(question, best) if goal.stiffest > SOFTER else best
+        return nothing(question, best) if goal.stiffest > RESCALED else best
 
     outcome, best = planned("['smooth']", {"smoothest references": blunt}), planned("['smooth']", {})
     assert isinstance(outcome, Plan)
     assert isinstance(best, Plan)
     assert asked[: len(ATTEMPTS)] == [STIFFEST] * len(ATTEMPTS)
-    assert asked[-1] == SOFTER
+    assert asked[-1] == RESCALED
     assert not said(outcome)
     np.testing.assert_allclose(outcome.motion.dz_r, best.motion.dz_r, atol=1e-6)
-    assert LeastMotion("accelerations", exact=True).softer is None
-    assert LeastMotion().softer is None
+    assert LeastMotion("accelerations", exact=True).rescaled is None
+    assert LeastMotion().rescaled is None

@@ -21,9 +21,9 @@ PRIMAL_TOLERANCE = 5e-7
 """Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
 DUAL_TOLERANCE = 1e-7
 GAP_TOLERANCE = 1e-8
-NEARLY = 1e-4
+ACCEPTABLE = 1e-4
 """Gap within which a plan that holds is still of use, although it is not the best to all digits."""
-SHARP = 1e-7
+TIGHT = 1e-7
 """A violation below this is not worth another attempt, when nothing smaller hangs on it."""
 FAR = 1e3
 """Size of an unknown from which on units do not suit it."""
@@ -50,11 +50,11 @@ class Certificate:
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
 
     @property
-    def nearly(self) -> bool:
+    def acceptable(self) -> bool:
         """True for an x that keeps every row and is the best to some digits, verified or not."""
-        return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= NEARLY
+        return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= ACCEPTABLE
 
-    def sharp(self, violation: float = SHARP) -> bool:
+    def tight(self, violation: float = TIGHT) -> bool:
         """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
         return self.verified and (self.kind != "optimal" or self.primal_residual <= violation)
 

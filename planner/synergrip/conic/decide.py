@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from synergrip.conic.certificate import SHARP, Certificate, judge_infeasible, judge_optimal, judge_unbounded
+from synergrip.conic.certificate import TIGHT, Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
 
@@ -40,9 +40,9 @@ class Decision:
         return self.certificate.verified and self.certificate.kind == "optimal"
 
     @property
-    def nearly(self) -> bool:
+    def acceptable(self) -> bool:
         """True when a plan was found that holds and is nearly the best, even if that it is the best did not verify."""
-        return self.certificate.nearly
+        return self.certificate.acceptable
 
     @property
     def unbounded(self) -> bool:
@@ -55,7 +55,7 @@ class Decision:
         return self.certificate.verified and self.certificate.kind == "infeasible"
 
 
-def decide(goal: str, program: Program, solver: Solver, violation: float = SHARP) -> Decision:
+def decide(goal: str, program: Program, solver: Solver, violation: float = TIGHT) -> Decision:
     """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
 
     Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
@@ -69,7 +69,7 @@ def decide(goal: str, program: Program, solver: Solver, violation: float = SHARP
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
         if best is None or rank(decision) < rank(best):
             best = decision
-        if decision.certificate.sharp(violation):
+        if decision.certificate.tight(violation):
             return decision
     if best is None:
         raise ValueError("the retry chain is empty")
@@ -81,7 +81,7 @@ def rank(decision: Decision) -> tuple[int, float]:
     certificate = decision.certificate
     if certificate.verified:
         return 0, certificate.primal_residual
-    return (1, certificate.gap) if certificate.nearly else (2, certificate.primal_residual)
+    return (1, certificate.gap) if certificate.acceptable else (2, certificate.primal_residual)
 
 
 def judge(program: Program, solution: Solution) -> Certificate:

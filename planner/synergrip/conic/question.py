@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.conic.build import build
-from synergrip.conic.certificate import SHARP
+from synergrip.conic.certificate import TIGHT
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
@@ -19,7 +19,7 @@ class Question:
     formulation: Formulation
     limits: tuple[Limit, ...]
     goal: Goal
-    violation: float = SHARP
+    violation: float = TIGHT
     """Of a cone, below which an answer is not tried to be bettered."""
     worth: float = 1.0
     """What sums of squares are divided by, so that their value is near 1; it changes no answer."""

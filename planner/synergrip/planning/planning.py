@@ -83,7 +83,7 @@ class _Planner:
         first, *others = goals_of(self.task)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
-        if not best.decision.nearly:
+        if not best.decision.acceptable:
             return self._without_optimum(best.decision, first)
         notes = () if best.decision.optimal else (not_the_best(best.decision),)
         stage = Stage(best.question.formulation, limits, first, (best.decision,), notes)

@@ -91,7 +91,7 @@ class Answered:
     @cached_property
     def coarse(self) -> bool:
         """True for a largest margin in a unit so far above all forces that its tolerances hide the forces."""
-        if not isinstance(self.question.goal, LargestMargin) or not self.decision.nearly:
+        if not isinstance(self.question.goal, LargestMargin) or not self.decision.acceptable:
             return False
         formulation, found = self.question.formulation, self.decision.certificate
         error = formulation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
@@ -107,7 +107,7 @@ class Answered:
     def place(self) -> tuple[bool, int, float]:
         """Its place among answers to the same question: settled ones first, then by violation, then by gap."""
         decision = self.decision
-        if not self.settled and decision.nearly and self.value > 0:
+        if not self.settled and decision.acceptable and self.value > 0:
             return True, 1, decision.certificate.gap * max(1.0, 1.0 / self.value)
         return not self.settled, *rank(decision)
 
@@ -198,9 +198,9 @@ def _largest(values: Array) -> float:
 def _less_closely(best: Answered, solver: Answerer) -> Answered:
     """Return smoothness looked at less closely, when nothing verifies."""
     goal = best.question.goal
-    if best.decision.certificate.verified or not isinstance(goal, LeastMotion) or goal.softer is None:
+    if best.decision.certificate.verified or not isinstance(goal, LeastMotion) or goal.rescaled is None:
         return best
-    second = _decided(replace(best.question, goal=goal.softer), solver)
+    second = _decided(replace(best.question, goal=goal.rescaled), solver)
     return second if second.decision.optimal else best
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.certificate import SHARP
+from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Squares
@@ -99,7 +99,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     if not formulation.n_v:
         note = f"the goals before it leave nothing open for '{goal.name}'"
         return replace(stage, notes=(*stage.notes, note)) if asked else stage
-    nearly = stage
+    acceptable = stage
     for limits in _limits(stage, formulation):
         try:
             answered = ask(Question(formulation, limits, goal, _violation(stage)), solver)
@@ -115,10 +115,10 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
         )  # fmt: skip
         if decision.optimal:
             return best
-        if decision.nearly:
-            nearly = replace(best, notes=(*stage.notes, not_the_best(decision)))
-    if nearly is not stage:
-        return nearly
+        if decision.acceptable:
+            acceptable = replace(best, notes=(*stage.notes, not_the_best(decision)))
+    if acceptable is not stage:
+        return acceptable
     note = f"'{goal.name}' among the plans that are best by the goals before it was not verified; it is one of them"
     return replace(stage, notes=(*stage.notes, note))
 
@@ -181,7 +181,7 @@ def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...
 
 def _violation(stage: Stage) -> float:
     """Return the violation worth another attempt: less than what the next goal may give up of a margin or a peak."""
-    return SLACKS[0] if isinstance(stage.goal, LargestMargin | LeastPeak) else SHARP
+    return SLACKS[0] if isinstance(stage.goal, LargestMargin | LeastPeak) else TIGHT
 
 
 def _carried(stage: Stage) -> float:

@@ -111,8 +111,8 @@ def _missed(between: Between | None) -> Iterator[str]:
     if between is not None and between.path_departure > PASSED_OVER * between.path_size:
         size, departure = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))
         yield (
-            f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to {departure}"
-            ": more knots follow it more closely"
+            f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to "
+            f"{departure}: more knots follow it more closely"
         )
 
 

@@ -13,7 +13,7 @@ from synergrip.conic.goals.goal import Objective, Squares, squares_of
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
 
-STIFFEST, SOFTER = 1e6, 1e4
+STIFFEST, RESCALED = 1e6, 1e4
 """Largest entry of the Hessian of rates and accelerations; beyond, rounding would drown the bends between many knots.
 A factor before a goal changes no plan, only how closely the solver looks at it: less closely, but to the end, with the
 second, which is for programs that do not verify with the first."""
@@ -42,11 +42,11 @@ class LeastMotion:
         return {"references": "least motion", "rates": "least travel", "accelerations": "smoothest references"}[self.of]
 
     @property
-    def softer(self) -> Self | None:
+    def rescaled(self) -> Self | None:
         """The same goal looked at less closely; None when there is no such way."""
-        if self.exact or self.of == "references" or self.stiffest <= SOFTER:
+        if self.exact or self.of == "references" or self.stiffest <= RESCALED:
             return None
-        return replace(self, stiffest=SOFTER)
+        return replace(self, stiffest=RESCALED)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return none."""
