@@ -1,4 +1,4 @@
-"""What conflicts in an infeasible task, read from its proof: every limit with its share, and the items that carry it."""
+"""What conflicts in an infeasible task, read from its proof: every limit with its share, and the items with it."""
 
 from __future__ import annotations
 

@@ -50,8 +50,8 @@ def answerer(name: str) -> Answerer:
 SMALL, NOTHING = 1e-2, 1e-12
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
 and below which a sum of squares, which is never less than 0, is as good as 0. A force is the root of that."""
-FINE, FINE_OF_FORCES = 1e-6, 1e-7
-"""How closely a largest margin is known when it is one: to a share of the load, or of the largest force with it."""
+FINE = 1e-6
+"""How closely a largest margin is known when it is one: to this share of the load, or of the largest force with it."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
 APART = 3.0
@@ -96,7 +96,7 @@ class Answered:
         formulation, found = self.question.formulation, self.decision.certificate
         error = formulation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
         largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
-        return bool(error > max(FINE * formulation.load_size, FINE_OF_FORCES * largest))
+        return bool(error > FINE * max(formulation.load_size, largest))
 
     @property
     def settled(self) -> bool:
