@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.certificate import GAP_TOLERANCE
+from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
 from synergrip.conic.decide import Decision, decide, rank
 from synergrip.conic.formulation import Units
 from synergrip.conic.goals.goal import Squares
@@ -94,7 +94,8 @@ class Answered:
         if not isinstance(self.question.goal, LargestMargin) or not self.decision.acceptable:
             return False
         formulation, found = self.question.formulation, self.decision.certificate
-        error = formulation.force_unit * (found.primal_residual + found.dual_residual + found.gap)
+        share = found.primal_residual + found.dual_residual + found.gap if found.verified else TIGHT
+        error = share * formulation.force_unit
         largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
         return bool(error > FINE * max(formulation.load_size, largest))
 
