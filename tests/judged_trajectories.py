@@ -137,17 +137,17 @@ def _slippery(grasp: Grasp, ratios: Array) -> Grasp:
     return replace(grasp, contacts=tuple(less))
 
 
-def _tracking(outcome: Plan, found: Course, rigid: Array, wanted: Array) -> dict[str, float]:
-    """Return how far the motion is from the wanted one beyond what is tolerated, as a share of that."""
+def _tracking(outcome: Plan, found: Course, rigid: Array, target: Array) -> dict[str, float]:
+    """Return how far the motion is from the target one beyond what is tolerated, as a share of that."""
     grasp, task = outcome.analysis.grasp, outcome.task
     compliant = task.tracking == "compliant"
     reached = found.du if compliant else rigid
-    rounding = 1e-6 * float(np.linalg.norm(wanted, axis=1).max()) + 1e-12
+    rounding = 1e-6 * float(np.linalg.norm(target, axis=1).max()) + 1e-12
     tolerance = task.tolerance if compliant else max(task.tolerance, rounding)
-    result = {"task.tolerance": float(sizes_on(grasp, task.axes, reached - wanted).max()) / tolerance - 1}
+    result = {"task.tolerance": float(sizes_on(grasp, task.axes, reached - target).max()) / tolerance - 1}
     rest = tuple(axis for axis in AXES if axis not in task.axes)
     if rest and task.drift is not None:
-        result["task.drift"] = float(sizes_on(grasp, rest, reached - wanted).max()) / task.drift - 1
+        result["task.drift"] = float(sizes_on(grasp, rest, reached - target).max()) / task.drift - 1
     return result
 
 
@@ -161,8 +161,8 @@ def _rigid_part(outcome: Plan, found: Course) -> Array:
 def _wanted(outcome: Plan) -> Array:
     """Return where the object is wanted (T, 6): where it starts, on the axes that are not asked for."""
     task, basis = outcome.task, outcome.analysis.spaces.Gamma_ucs
-    values = task.wanted.values
-    whole = values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T
+    values = task.target.values
+    whole = values if task.target.kind == "motion" else values @ basis[:, : values.shape[1]].T
     return whole * np.isin(AXES, task.axes)
 
 

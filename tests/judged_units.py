@@ -44,11 +44,11 @@ def capped(task: Task, upper: float) -> Task:
 def in_units(grasp: Grasp, task: Task, factor: float) -> tuple[Grasp, Task]:
     """The same question with every force and every motion multiplied by a factor."""
     lambda_0 = None if grasp.lambda_0 is None else frozen(factor * grasp.lambda_0)
-    wanted = replace(task.wanted, values=frozen(factor * task.wanted.values))
+    wanted = replace(task.target, values=frozen(factor * task.target.values))
     return (
         replace(grasp, lambda_0=lambda_0, w_0=frozen(factor * grasp.w_0)),
         replace(
-            task, wrench=frozen(factor * task.wrench), wanted=wanted, margin=factor * task.margin,
+            task, wrench=frozen(factor * task.wrench), target=wanted, margin=factor * task.margin,
             tolerance=factor * task.tolerance, limits=tuple(_times(limit, factor) for limit in task.limits),
         ),
     )  # fmt: skip

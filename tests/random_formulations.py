@@ -56,5 +56,5 @@ def random_formulation(seed: int, redundancy: bool = True) -> tuple[np.random.Ge
     formulation = formulate(analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=wrench,
                         beta=beta, units=Units(1.7, 0.3, 0.01), redundancy=redundancy,
                         beta_basis=np.eye(beta.shape[1])[:, : max(beta.shape[1] - seed // 3, 1)],
-                        wanted=1e-3 * rng.normal(size=(KNOTS, 6)))  # fmt: skip
+                        target=1e-3 * rng.normal(size=(KNOTS, 6)))  # fmt: skip
     return rng, formulation

@@ -22,7 +22,7 @@ from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
-from synergrip.tasks.task import GoalName, Task, Wanted, still
+from synergrip.tasks.task import GoalName, Target, Task, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 RADIUS = 0.02  # [m] of the object
@@ -123,7 +123,7 @@ def _task(rng: np.random.Generator, grasp: Grasp) -> Task:
     wanted = still(times)
     dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
     if dimension and rng.uniform() < 0.6:
-        wanted = Wanted("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
+        wanted = Target("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
     return Task(times, wrench, wanted, 0.1, _limits(rng, grasp, load), (goal,))
 
 
@@ -168,5 +168,5 @@ def moving_random_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
     times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))
     wrench = np.linspace(task.wrench[0], task.wrench[-1], 5) + 0.1 * rng.normal(size=(5, 6)) * [1, 1, 1, 0, 0, 0]
     dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
-    wanted = Wanted("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
-    return grasp, replace(task, times=times, wrench=frozen(wrench), wanted=wanted)
+    wanted = Target("modes", frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=dimension))))
+    return grasp, replace(task, times=times, wrench=frozen(wrench), target=wanted)

@@ -26,7 +26,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.task import GoalName, Task, Wanted, still
+from synergrip.tasks.task import GoalName, Target, Task, still
 
 ORDERS: tuple[tuple[GoalName, ...], ...] = (
     ("effort",), ("torque",), ("actuator",), ("margin",), ("peak_force",), ("references",), ("travel",), ("smooth",),
@@ -108,18 +108,18 @@ def _tracked(rng: np.random.Generator, analysis: Analysis, task: Task) -> Task:
     if draw < 0.2:
         return task
     if draw < 0.4:
-        return replace(task, wanted=Wanted("modes", frozen(modes)))
+        return replace(task, target=Target("modes", frozen(modes)))
     values = modes @ basis.T
     axes: tuple[AxisName, ...] = tuple(axis for axis in AXES if rng.uniform() < 0.5) or AXES
     drift = float(MOTION * rng.uniform(1, 5)) if rng.uniform() < 0.6 and len(axes) < 6 else None
     if draw < 0.7:
         if outside:
             values = values + MOTION * (smooth(rng, times, 6) - 0.5) * [1, 1, 1, 20, 20, 20]
-        task = replace(task, wanted=Wanted("motion", frozen(values)))
+        task = replace(task, target=Target("motion", frozen(values)))
         return task if draw < 0.55 else replace(task, axes=axes, drift=drift)
     other = 0.2 * MOTION * smooth(rng, times, 6) * [1, 1, 1, 20, 20, 20]
     return replace(
-        task, wanted=Wanted("motion", frozen(values + other - other[0])), tracking="compliant",
+        task, target=Target("motion", frozen(values + other - other[0])), tracking="compliant",
         tolerance=float(MOTION * 10 ** rng.uniform(-1, 0.7)),
         axes=axes if rng.uniform() < 0.5 else AXES, drift=drift if len(axes) < 6 else None,
     )  # fmt: skip
@@ -133,7 +133,7 @@ def _limits(rng: np.random.Generator, task: Task, easy: Plan) -> tuple[Limit, ..
     bends = 2 * np.diff(rates, axis=0) / (h[1:] + h[:-1])
     scale = easy.analysis.response.scale
     elastic = np.linalg.norm(scale.twist(easy.elastic_motion), axis=1).max()
-    error = np.linalg.norm((motion.du - easy.formulation.wanted) * ([1.0] * 3 + [scale.length] * 3), axis=1).max()
+    error = np.linalg.norm((motion.du - easy.formulation.target) * ([1.0] * 3 + [scale.length] * 3), axis=1).max()
     normal = float(motion.forces[:, grasp.normal_rows].max())
     limits: list[Limit] = [
         NormalForce(float(rng.choice([0.0, 0.02])) * easy.formulation.force_unit, normal * _more(rng)),

@@ -20,7 +20,7 @@ from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import GoalName, Task, Wanted, still
+from synergrip.tasks.task import GoalName, Target, Task, still
 
 COMPLIANCE = 1e-3  # [m/N] of each contact of the pinch: n = dz_r / COMPLIANCE
 MU, MARGIN = 0.5, 0.3
@@ -179,7 +179,7 @@ def test_an_object_is_carried_by_the_squeeze_that_its_softer_side_gives_way_to()
     wanted = np.zeros((41, 6))
     wanted[:, 0] = 12e-3 * np.sin(np.pi * times / 4) ** 2
     task = Task(
-        frozen(times), frozen(np.zeros((41, 6))), Wanted("motion", frozen(wanted)), MARGIN, (NormalForce(0.0, 50.0),),
+        frozen(times), frozen(np.zeros((41, 6))), Target("motion", frozen(wanted)), MARGIN, (NormalForce(0.0, 50.0),),
         ("effort",), tolerance=tolerance, tracking="compliant", axes=("x",),
     )  # fmt: skip
     outcome = plan(pinch(MU, compliance=(1e-3, 5e-3)), task)

@@ -31,7 +31,7 @@ class Swinging:
     def load_at(self, times: Array) -> Array:
         return np.asarray(self.spline(times))
 
-    def wanted_at(self, times: Array) -> Array:
+    def target_at(self, times: Array) -> Array:
         return np.zeros((len(times), 0))
 
     @property
@@ -47,7 +47,7 @@ def swinging(seed: int, goal: str) -> tuple[Grasp, Task]:
     limits = (*task.limits, ObjectError(0.05))
     course = Swinging(CubicSpline(times, values))
     return grasp, replace(
-        task, times=times, wrench=frozen(values), wanted=still(times), limits=limits, course=course,
+        task, times=times, wrench=frozen(values), target=still(times), limits=limits, course=course,
         order=(goal,), margin=0.02,
     )  # type: ignore[arg-type]  # fmt: skip
 
@@ -60,7 +60,7 @@ def worst_between(outcome: Plan, per_interval: int = 200) -> float:
     wrench = task.course.load_at(times)
     assert wrench is not None
     motion = forward(response, times, interpolated(times, task.times, outcome.motion.dz_r), wrench)
-    there = replace(outcome.formulation, times=times, wrench=wrench, wanted=np.zeros((len(times), 6)))
+    there = replace(outcome.formulation, times=times, wrench=wrench, target=np.zeros((len(times), 6)))
     limits = [limit for limit in (FrictionCone(task.margin), *task.kept) if not limit.couples_knots]
     usages = [limit.usage(there, motion) for limit in limits]
     return max(usage.violation for usage in usages)

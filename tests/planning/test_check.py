@@ -19,7 +19,7 @@ from synergrip.planning.references import References, read_references
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import plan_csv, write_outcome
-from synergrip.tasks.task import Wanted
+from synergrip.tasks.task import Target
 
 TRIPOD = (
     "tripod", "goal={minimise='effort'}", "limits={margin='1 N', normal_force='20 N', joint_torque=4}",
@@ -153,7 +153,7 @@ def test_references_that_do_not_cover_the_task_are_refused(times: list[float]) -
 def test_a_task_that_no_references_can_do_is_a_refusal() -> None:
     problem, _ = _solved("tripod")
     sideways = np.outer(problem.task.times, [0.01, 0, 0, 0, 0, 0])
-    task = replace(problem.task, wanted=Wanted("motion", frozen(sideways), "task.motion"))
+    task = replace(problem.task, target=Target("motion", frozen(sideways), "task.motion"))
     with pytest.raises(MotionDirectionError):
         judge_references(problem.grasp, task, References(task.times, frozen(np.zeros((11, 4))), {}))
     loose = load_problem("pinch-hard")

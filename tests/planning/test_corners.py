@@ -162,7 +162,7 @@ class Bumped:
         load[:, 0] = 20 * np.sin(np.pi * times) ** 2
         return load
 
-    def wanted_at(self, times: Array) -> Array:
+    def target_at(self, times: Array) -> Array:
         return np.zeros((len(times), 0))
 
     marks = Marks(curved=((0.0, 1.0),))

@@ -20,7 +20,7 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Task, Wanted
+from synergrip.tasks.task import Target, Task
 
 
 def moving_task(seed: int) -> tuple[Grasp, Task]:
@@ -37,7 +37,7 @@ def moving_task(seed: int) -> tuple[Grasp, Task]:
     motion = frozen(1e-3 * np.outer(np.linspace(0, 1, 5), rng.normal(size=6) * [1, 1, 1, 20, 20, 20]))
     tolerance = float(10 ** rng.uniform(-4, -2.5))
     return grasp, replace(
-        task, wanted=Wanted("motion", motion), tracking="compliant", tolerance=tolerance, axes=axes, drift=drift
+        task, target=Target("motion", motion), tracking="compliant", tolerance=tolerance, axes=axes, drift=drift
     )
 
 
@@ -87,7 +87,7 @@ def _judge(outcome: Plan, objective: float) -> None:
         assert outcome.margins.min() == pytest.approx(objective, abs=1e-6 * max(size, np.abs(outcome.alpha).max()))
     rigid = outcome.beta @ spaces.Gamma_ucs.T
     reached = outcome.motion.du if task.tracking == "compliant" else rigid
-    wanted = task.wanted.values if task.wanted.kind == "motion" else task.wanted.values @ spaces.Gamma_ucs.T
+    wanted = task.target.values if task.target.kind == "motion" else task.target.values @ spaces.Gamma_ucs.T
     error = np.linalg.norm((reached - wanted) @ axis_weights(task.axes, scale.length).T, axis=1).max()
     assert error <= task.tolerance * (1 + 1e-6) + 1e-9
     rest = [axis for axis in AXES if axis not in task.axes]

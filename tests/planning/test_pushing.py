@@ -67,7 +67,7 @@ def test_a_contact_that_would_have_to_pull_holds_nothing(mu: float) -> None:
         asked = replace(
             task, times=frozen([0.0]), wrench=frozen([[0, 0, weight, 0, 0, 0]]), margin=0.0,
             limits=(NormalForce(0.0, 100.0),),
-            order=("effort",), wanted=replace(task.wanted, kind="hold", values=frozen(np.zeros((1, 0)))),
+            order=("effort",), target=replace(task.target, kind="hold", values=frozen(np.zeros((1, 0)))),
         )  # fmt: skip
         outcome = plan(grasp, asked)
         assert outcome.verdict == verdict or (outcome.verdict == "unknown" and mu < 1e-8)

@@ -16,7 +16,7 @@ from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import Task, Wanted, still
+from synergrip.tasks.task import Target, Task, still
 
 TIMES = np.linspace(0.0, 1.0, 3)
 WEIGHT = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
@@ -24,7 +24,7 @@ WEIGHT = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
 
 def task(**changes: Any) -> Task:
     given: dict[str, Any] = {
-        "times": TIMES, "wrench": np.tile(WEIGHT, (3, 1)), "wanted": still(TIMES), "margin": 0.1,
+        "times": TIMES, "wrench": np.tile(WEIGHT, (3, 1)), "target": still(TIMES), "margin": 0.1,
         "limits": (NormalForce(0.0, 50.0),), "order": ("effort",),
     }  # fmt: skip
     return Task(**(given | changes))
@@ -106,7 +106,7 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
     for wrench in (WEIGHT, np.array(WEIGHT), tuple(WEIGHT)):
         assert np.array_equal(task(wrench=wrench).wrench, task().wrench)
     six = np.linspace(0, 1, 6)
-    assert np.array_equal(task(times=six, wanted=still(six), wrench=WEIGHT).wrench, np.tile(WEIGHT, (6, 1)))
+    assert np.array_equal(task(times=six, target=still(six), wrench=WEIGHT).wrench, np.tile(WEIGHT, (6, 1)))
     assert isinstance(plan(pinch(), task(wrench=WEIGHT)), Plan)
 
 
@@ -127,8 +127,8 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
         ({"times": []}, "times", "expected one or more instants in seconds, got none"),
         ({"times": np.zeros((3, 1))}, "times", "expected shape (3,)"),
         ({"times": "0 s"}, "times", "got '0 s'"),
-        ({"times": np.linspace(0, 1, 4), "wrench": WEIGHT}, "wanted", "expected a row at each of 4 knots, got (3, 0)"),
-        ({"wanted": Wanted("motion", np.zeros(3))}, "wanted", "got (3,)"),
+        ({"times": np.linspace(0, 1, 4), "wrench": WEIGHT}, "target", "expected a row at each of 4 knots, got (3, 0)"),
+        ({"target": Target("motion", np.zeros(3))}, "wanted", "got (3,)"),
         ({"order": ("weighted",)}, "weights", "'weighted' in the order needs weights"),
         ({"order": ("efort",)}, "order[0]", "did you mean 'effort'?"),
         ({"order": ("margin", "smoooth")}, "order[1]", "did you mean 'smooth'?"),

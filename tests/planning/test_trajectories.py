@@ -71,7 +71,7 @@ def test_the_trajectories_ask_for_everything_there_is() -> None:
     keys = [{limit.key for limit in task.limits} for task in tasks]
     assert all(sum(name in each for each in keys) >= 3 for name in ONE_FOR_ALL)
     assert {task.order for task in tasks} == set(ORDERS)
-    kinds = [(task.tracking, len(task.axes) < 6, task.wanted.kind) for task in tasks]
+    kinds = [(task.tracking, len(task.axes) < 6, task.target.kind) for task in tasks]
     for kind in (("rigid", False, "hold"), ("rigid", False, "modes"), ("rigid", False, "motion"),
                  ("rigid", True, "motion"), ("compliant", False, "motion"), ("compliant", True, "motion")):  # fmt: skip
         assert kinds.count(kind) >= 2, kind

@@ -63,7 +63,7 @@ def test_two_csv_files_bring_the_knots_of_both(tmp_path: Path) -> None:
     motion = _csv(tmp_path, "m.csv", MOTION, [0, 0.3, 0.6, 1.0 + 1e-13])
     found = _loads(tmp_path, wrench=wrench, motion=motion)
     assert found.times == pytest.approx([0, 0.3, 0.6, 1.0], abs=1e-12)  # 0.1 + 0.2 and 0.3 are one knot
-    assert found.wanted.values[:, 5] == pytest.approx(6 * found.times)
+    assert found.target.values[:, 5] == pytest.approx(6 * found.times)
 
 
 def test_a_shorter_duration_cuts_a_csv_file_and_ends_on_a_knot(tmp_path: Path) -> None:
@@ -144,13 +144,13 @@ def test_nothing_said_of_the_load_is_not_the_same_as_no_load(tmp_path: Path) -> 
 
 
 def test_the_wanted_motion_is_that_of_the_file_of_the_moves_or_to_hold_still(tmp_path: Path) -> None:
-    motion = _loads(tmp_path, motion=_csv(tmp_path, "m.csv", MOTION, [0, 1])).wanted
+    motion = _loads(tmp_path, motion=_csv(tmp_path, "m.csv", MOTION, [0, 1])).target
     assert (motion.kind, motion.key, motion.values.shape) == ("motion", "task.motion", (2, 6))
-    modes = _loads(tmp_path, modes=_csv(tmp_path, "b.csv", "t_s,beta_1,beta_2", [0, 1, 2])).wanted
+    modes = _loads(tmp_path, modes=_csv(tmp_path, "b.csv", "t_s,beta_1,beta_2", [0, 1, 2])).target
     assert (modes.kind, modes.key, modes.values.tolist()) == ("modes", "task.modes", [[0, 0], [1, 2], [2, 4]])
-    moves = _loads(tmp_path, move=[LIFT], knots=2).wanted
+    moves = _loads(tmp_path, move=[LIFT], knots=2).target
     assert moves.values == pytest.approx(np.array([[0] * 6, [0, 0, 0.01, 0, 0, 0]]))
-    still = _loads(tmp_path, knots=4).wanted
+    still = _loads(tmp_path, knots=4).target
     assert (still.kind, still.values.shape) == ("hold", (4, 0))
 
 

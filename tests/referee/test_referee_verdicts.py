@@ -16,18 +16,18 @@ from synergrip.linalg import frozen
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Task, Wanted, still
+from synergrip.tasks.task import Target, Task, still
 
 
 def test_the_referee_judges_wanted_motions() -> None:
-    seed = next(s for s in range(100) if random_task_on_grasp(np.random.default_rng(s))[1].wanted.kind == "modes")
+    seed = next(s for s in range(100) if random_task_on_grasp(np.random.default_rng(s))[1].target.kind == "modes")
     grasp, task = random_task_on_grasp(np.random.default_rng(seed))
     analysis = analyse(grasp)
-    inside = task.wanted.values @ analysis.spaces.Gamma_ucs.T
-    same = replace(task, wanted=Wanted("motion", frozen(inside)))
+    inside = task.target.values @ analysis.spaces.Gamma_ucs.T
+    same = replace(task, target=Target("motion", frozen(inside)))
     assert referee(analysis, same).verdict == referee(analysis, task).verdict == plan(grasp, same).verdict
     away = np.linalg.svd(analysis.spaces.Gamma_ucs, full_matrices=True)[0][:, -1]
-    leaving = replace(task, wanted=Wanted("motion", frozen(inside + 1e-3 * away)))
+    leaving = replace(task, target=Target("motion", frozen(inside + 1e-3 * away)))
     assert referee(analysis, leaving).verdict == plan(grasp, leaving).verdict == "infeasible"
 
 

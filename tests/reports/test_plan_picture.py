@@ -33,7 +33,7 @@ def test_charts_hold_the_motion_the_limits_and_the_references_of_the_plan() -> N
     assert list(found) == ["object displacement", "object rotation", "slip margin", "normal force", "joint torque",
                            "tracking error", "synergy reference"]  # fmt: skip
     np.testing.assert_allclose(found["object displacement"].values, 1e3 * outcome.motion.du[:, :3])
-    np.testing.assert_allclose(found["object displacement"].wanted[-1], [0, 0, 3], atol=1e-9)
+    np.testing.assert_allclose(found["object displacement"].target[-1], [0, 0, 3], atol=1e-9)
     np.testing.assert_allclose(found["object rotation"].values, np.degrees(outcome.motion.du[:, 3:]))
     assert found["slip margin"].bounds == (0.5,)
     assert found["normal force"].bounds == (0.0, 20.0)
@@ -64,7 +64,7 @@ def test_every_line_of_every_chart_is_drawn_with_its_limits(tmp_path: Path) -> N
     draw_plan(outcome, "A title with <signs> & letters", tmp_path / "two.svg")
     svg = (tmp_path / "one.svg").read_text(encoding="utf-8")
     assert svg == (tmp_path / "two.svg").read_text(encoding="utf-8")
-    lines = sum(chart.values.shape[1] * (2 if chart.wanted is not None else 1) for chart in charts(outcome))
+    lines = sum(chart.values.shape[1] * (2 if chart.target is not None else 1) for chart in charts(outcome))
     limits = sum(len(chart.bounds) for chart in charts(outcome))
     curves = re.findall(r'<path d="([^"]*)" clip-path=', svg)
     assert len(curves) == lines + limits

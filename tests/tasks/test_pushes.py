@@ -98,9 +98,9 @@ def test_between_the_knots_the_profiles_are_those_at_the_knots() -> None:
         palm={"axis": "x", "turn": "1 rad"}, move=[{"axis": "z", "lift": "1 mm"}],
     )  # fmt: skip
     assert found.profiles.load_at(found.times) == pytest.approx(found.wrench, abs=0)
-    assert found.profiles.wanted_at(found.times) == pytest.approx(found.wanted.values, abs=0)
+    assert found.profiles.target_at(found.times) == pytest.approx(found.target.values, abs=0)
     fine = np.linspace(0, 1, 1000)
-    assert found.profiles.wanted_at(fine).shape == (1000, 6)
+    assert found.profiles.target_at(fine).shape == (1000, 6)
     assert found.wrench is not None
     linear = np.column_stack([np.interp(fine, found.times, column) for column in found.wrench.T])
     assert 1e-5 < np.abs(found.profiles.load_at(fine) - linear).max() < 0.02

@@ -17,7 +17,7 @@ from synergrip.planning.planning import plan
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.task import Task, Wanted, still
+from synergrip.tasks.task import Target, Task, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 LENGTH = 0.04
@@ -37,7 +37,7 @@ def _task(values: object, kind: str = "motion", tolerance: float = 0.0) -> Task:
     task = _tripod()[0].task
     return replace(
         task, times=frozen(np.linspace(0, 1, count)), wrench=frozen(np.zeros((count, 6))), tolerance=tolerance,
-        wanted=Wanted(kind, wanted, "task.motion"),  # type: ignore[arg-type]
+        target=Target(kind, wanted, "task.motion"),  # type: ignore[arg-type]
     )  # fmt: skip
 
 
@@ -64,7 +64,7 @@ def test_a_motion_made_of_gamma_ucs_gives_its_coordinates_back(seed: int) -> Non
 
 def test_to_hold_and_to_stay_are_the_same() -> None:
     times = frozen(np.linspace(0, 1, 3))
-    held = rigid_coordinates(_tripod()[1], replace(_task(np.zeros((3, 6))), wanted=still(times)))
+    held = rigid_coordinates(_tripod()[1], replace(_task(np.zeros((3, 6))), target=still(times)))
     assert held.tolist() == _beta(np.zeros((3, 6))).tolist() == [[0, 0]] * 3
 
 

@@ -32,7 +32,7 @@ def _loads(folder: Path, **keys: Any) -> Loads:
 def _rates(found: Loads, times: Array, order: int, step: float, side: int = 0) -> Array:
     """Derivatives of the wanted motion by differences: central, or from one side."""
     shifts = {0: (-1, 0, 1), 1: (0, 1, 2), -1: (-2, -1, 0)}[side]
-    a, b, c = (found.profiles.wanted_at(times + k * step) for k in shifts)
+    a, b, c = (found.profiles.target_at(times + k * step) for k in shifts)
     if order == 2:
         return np.asarray((a - 2 * b + c) / step**2)
     first = {0: c - a, 1: 4 * b - 3 * a - c, -1: 3 * c - 4 * b + a}[side]
@@ -42,10 +42,10 @@ def _rates(found: Loads, times: Array, order: int, step: float, side: int = 0) -
 @pytest.mark.parametrize("profile", PROFILES)
 def test_the_object_is_at_every_waypoint_when_it_is_wanted_there(profile: str, tmp_path: Path) -> None:
     found = _loads(tmp_path, waypoint=WAY, profile=profile)
-    assert (found.wanted.kind, found.wanted.key) == ("motion", "task.waypoint")
-    assert found.profiles.wanted_at(TIMES) == pytest.approx(POSES, abs=1e-14)
+    assert (found.target.kind, found.target.key) == ("motion", "task.waypoint")
+    assert found.profiles.target_at(TIMES) == pytest.approx(POSES, abs=1e-14)
     assert set(TIMES) <= set(found.times)  # at knots too
-    at_knots = found.wanted.values[np.isin(found.times, TIMES)]
+    at_knots = found.target.values[np.isin(found.times, TIMES)]
     assert at_knots == pytest.approx(POSES, abs=1e-14)
 
 
@@ -54,7 +54,7 @@ def test_between_two_waypoints_the_motion_is_the_course_of_a_move(profile: Any, 
     found = _loads(tmp_path, waypoint=WAY, profile=profile)
     times = np.linspace(0.3, 0.75, 30)
     gone = Rise(profile, 0.3, 0.75).at(times)[:, None]
-    assert found.profiles.wanted_at(times) == pytest.approx(POSES[1] + gone * (POSES[2] - POSES[1]), abs=1e-15)
+    assert found.profiles.target_at(times) == pytest.approx(POSES[1] + gone * (POSES[2] - POSES[1]), abs=1e-15)
 
 
 @pytest.mark.parametrize(("profile", "order"), [("min-jerk", 1), ("min-jerk", 2), ("cubic", 1)])
@@ -69,7 +69,7 @@ def test_a_linear_way_is_the_straight_line_from_one_to_the_next(tmp_path: Path) 
     found = _loads(tmp_path, waypoint=WAY, profile="linear")
     times = np.linspace(0, 2, 57)
     expected = np.column_stack([np.interp(times, TIMES, column) for column in POSES.T])
-    assert found.profiles.wanted_at(times) == pytest.approx(expected, abs=1e-15)
+    assert found.profiles.target_at(times) == pytest.approx(expected, abs=1e-15)
 
 
 def test_a_spline_is_twice_differentiable_and_at_rest_at_its_ends(tmp_path: Path) -> None:
@@ -86,7 +86,7 @@ def test_a_spline_is_twice_differentiable_and_at_rest_at_its_ends(tmp_path: Path
 def test_a_spline_to_a_single_waypoint_is_the_cubic_course(tmp_path: Path) -> None:
     """The one cubic from rest to rest."""
     way = [{"time": "0.8 s", "position": ["1 m", "0 m", "-2 m"]}]
-    spline, cubic = (_loads(tmp_path, waypoint=way, profile=name).wanted.values for name in ("spline", "cubic"))
+    spline, cubic = (_loads(tmp_path, waypoint=way, profile=name).target.values for name in ("spline", "cubic"))
     assert spline == pytest.approx(cubic, abs=1e-14)
     assert spline[20] == pytest.approx([0.5, 0, -1, 0, 0, 0])
 
@@ -96,7 +96,7 @@ def test_after_the_last_waypoint_the_object_stays(profile: str, tmp_path: Path) 
     way = WAY[:2]
     found = _loads(tmp_path, waypoint=way, profile=profile, duration="1 s")
     assert found.times[-1] == 1.0
-    assert found.wanted.values[found.times >= 0.75] == pytest.approx(np.tile(POSES[2], (11, 1)), abs=1e-14)
+    assert found.target.values[found.times >= 0.75] == pytest.approx(np.tile(POSES[2], (11, 1)), abs=1e-14)
 
 
 def test_the_last_waypoint_ends_the_task_unless_the_duration_is_given(tmp_path: Path) -> None:
@@ -115,8 +115,8 @@ def test_there_are_knots_between_the_waypoints(tmp_path: Path) -> None:
 def test_waypoints_along_modes(tmp_path: Path) -> None:
     way = [{"time": "1 s", "modes": ["5 mm", "-1 mm"]}, {"time": "2 s", "modes": ["0 mm", "2 mm"]}]
     found = _loads(tmp_path, waypoint=way)
-    assert found.wanted.kind == "mode moves"
-    asked = found.profiles.wanted_at(np.array([0.0, 1.0, 1.5, 2.0]))
+    assert found.target.kind == "mode moves"
+    asked = found.profiles.target_at(np.array([0.0, 1.0, 1.5, 2.0]))
     assert asked == pytest.approx(np.array([[0, 0], [0.005, -0.001], [0.0025, 0.0005], [0, 0.002]]))
 
 

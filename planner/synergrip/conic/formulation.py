@@ -64,7 +64,7 @@ class Formulation:
     alpha: Affine  # (dim E_s) [N]
     beta: Affine  # (dim Gamma_ucs) [m]
     gamma: Affine  # (dim Gamma_zr)
-    wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
+    target: Array  # (T, 6) wanted displacement of the object about B [m, rad]
     units: Units
     """Of the program's unknowns and rows; they change no answer."""
     stated: Units
@@ -225,7 +225,7 @@ class Formulation:
 def formulate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
-    beta_basis: Array | None = None, wanted: Array | None = None, stated: Units | None = None,
+    beta_basis: Array | None = None, target: Array | None = None, stated: Units | None = None,
 ) -> Formulation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -239,7 +239,7 @@ def formulate(
         units: sizes of the unknowns.
         redundancy: whether gamma is an unknown (some limit looks at more than forces) or zero.
         beta_basis: (dim Gamma_ucs, m) orthonormal directions in which beta may differ from what is given; none.
-        wanted: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
+        target: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
         stated: units in which weights are stated; those of the unknowns when None.
     """
     n_alpha, n_beta, n_gamma = spaces.dimensions
@@ -253,5 +253,5 @@ def formulate(
         response, spaces, coords, frozen(times), frozen(wrench),
         Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
         Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
-        frozen(beta @ spaces.Gamma_ucs.T if wanted is None else wanted), units, stated or units, units.force,
+        frozen(beta @ spaces.Gamma_ucs.T if target is None else target), units, stated or units, units.force,
     )  # fmt: skip

@@ -27,11 +27,11 @@ class Looks:
 
     times: Array  # (J,) [s]
     wrench: Array  # (J, 6) external wrench
-    wanted: Array  # (J, 6) wanted displacement of the object
+    target: Array  # (J, 6) target displacement of the object
 
     def of(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Looks:
         """Return some of them."""
-        return Looks(*(frozen(values[chosen]) for values in (self.times, self.wrench, self.wanted)))
+        return Looks(*(frozen(values[chosen]) for values in (self.times, self.wrench, self.target)))
 
 
 @dataclass(frozen=True)
@@ -67,10 +67,10 @@ class Intersample:
         """The instants (P * samples,) in the curved pieces, as if these were straight."""
         share = np.tile(shares(self.samples), len(self.pieces))[:, None]
         first = np.repeat(self.pieces, self.samples)
-        wrench, wanted = (
-            values[first] * (1 - share) + values[first + 1] * share for values in (self.grid.wrench, self.grid.wanted)
+        wrench, target = (
+            values[first] * (1 - share) + values[first + 1] * share for values in (self.grid.wrench, self.grid.target)
         )
-        return Looks(self.curved.times, frozen(wrench), frozen(wanted))
+        return Looks(self.curved.times, frozen(wrench), frozen(target))
 
     @property
     def allowance(self) -> float:
@@ -99,12 +99,12 @@ class Intersample:
         nothing = np.zeros(0, dtype=np.intp)
         return Intersample(whole.of(order), corner, nothing, 0, whole.of(nothing))
 
-    def departures(self, times: Array, wrench: Array, wanted: Array) -> tuple[Array, Array]:
+    def departures(self, times: Array, wrench: Array, target: Array) -> tuple[Array, Array]:
         """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""
         looks = self.all
         return (
             looks.wrench - interpolated(looks.times, times, wrench),
-            looks.wanted - interpolated(looks.times, times, wanted),
+            looks.target - interpolated(looks.times, times, target),
         )
 
 
@@ -132,4 +132,4 @@ def knots_in(times: Array, knots: Array) -> sparse.csr_matrix:
 
 
 def _arrays(looks: Looks) -> tuple[Array, Array, Array]:
-    return looks.times, looks.wrench, looks.wanted
+    return looks.times, looks.wrench, looks.target

@@ -67,7 +67,7 @@ def _at(formulation: Formulation, looks: Looks) -> Formulation:
 
     return replace(
         formulation, times=looks.times, alpha=moved(formulation.alpha), beta=moved(formulation.beta),
-        gamma=moved(formulation.gamma), wrench=looks.wrench, wanted=looks.wanted,
+        gamma=moved(formulation.gamma), wrench=looks.wrench, target=looks.target,
     )  # fmt: skip
 
 

@@ -60,10 +60,10 @@ def between(task: Task, analysis: Analysis, formulation: Formulation, motion: Mo
     looks = intersample.all
     dz_r = interpolated(looks.times, task.times, motion.dz_r)
     there = forward(analysis.response, looks.times, dz_r, looks.wrench)
-    dense = replace(formulation, times=looks.times, wrench=looks.wrench, wanted=looks.wanted)
+    dense = replace(formulation, times=looks.times, wrench=looks.wrench, target=looks.target)
     usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
-    scale, (load, path) = analysis.response.scale, intersample.departures(task.times, task.wrench, formulation.wanted)
-    loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.wanted))
+    scale, (load, path) = analysis.response.scale, intersample.departures(task.times, task.wrench, formulation.target)
+    loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.target))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))
     corners = tuple(dict.fromkeys(intersample.corners.times.tolist()))
     return Between(intersample.samples, _size(*loads), _size(*paths), size, usages, corners)

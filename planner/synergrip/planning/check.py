@@ -23,7 +23,7 @@ from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.marks import SAME_TIME, distinct
 from synergrip.tasks.task import Task
-from synergrip.tasks.tracking import wished
+from synergrip.tasks.tracking import target_displacement
 
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
@@ -133,16 +133,16 @@ def _inside(times: Array, task: Task) -> Array:
 
 def _at(task: Task, times: Array) -> Task:
     """Return the task at other knots: loads and wishes as they are there."""
-    values, wrench = (interpolated(times, task.times, values) for values in (task.wanted.values, task.wrench))
+    values, wrench = (interpolated(times, task.times, values) for values in (task.target.values, task.wrench))
     if task.course is not None and not np.array_equal(times, task.times):
         load = task.course.load_at(times)
-        values, wrench = task.course.wanted_at(times), wrench if load is None else load
-    return replace(task, times=times, wrench=frozen(wrench), wanted=replace(task.wanted, values=frozen(values)))
+        values, wrench = task.course.target_at(times), wrench if load is None else load
+    return replace(task, times=times, wrench=frozen(wrench), target=replace(task.target, values=frozen(values)))
 
 
 def _within_reach(analysis: Analysis, task: Task) -> Task:
     """Return the task with a tolerance that refuses no wish: between its own knots it may be whatever it is."""
     if task.tracking == "compliant":
         return task
-    wish = analysis.response.scale.twist(wished(analysis, task, task.wanted.values))
+    wish = analysis.response.scale.twist(target_displacement(analysis, task, task.target.values))
     return replace(task, tolerance=max(task.tolerance, float(np.linalg.norm(wish, axis=1).max(initial=0.0))))

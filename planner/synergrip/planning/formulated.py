@@ -22,9 +22,9 @@ def formulated(analysis: Analysis, task: Task, *, redundancy: bool) -> Formulati
         InputError: modes are given that do not fit the grasp.
     """
     follow = followed(analysis, task)
-    sizes = expected_units(analysis, task, follow.beta, follow.wanted)
+    sizes = expected_units(analysis, task, follow.beta, follow.target)
     return formulate(
         analysis.response, analysis.spaces, analysis.coordinates,
-        times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, wanted=follow.wanted,
+        times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, target=follow.target,
         units=sizes, redundancy=redundancy, stated=units_of(analysis, task),
     )  # fmt: skip

@@ -10,7 +10,7 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.marks import SAME_TIME, Jump, Marks
 from synergrip.tasks.task import Course, Task
-from synergrip.tasks.tracking import wished
+from synergrip.tasks.tracking import target_displacement
 
 SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""
@@ -21,7 +21,7 @@ def intersample_of(task: Task, analysis: Analysis) -> Intersample | None:
     if task.course is None or len(task.times) < 2:
         return None
     marks = task.course.marks
-    knots = Looks(task.times, task.wrench, wished(analysis, task, task.wanted.values))
+    knots = Looks(task.times, task.wrench, target_displacement(analysis, task, task.target.values))
     corners, sides = _corners(task, task.course, marks, analysis)
     new = _off_the_knots(corners, sides, knots)
     grid, corner = _grid(knots, corners.of(new), sides[new])
@@ -39,7 +39,7 @@ def _looked_at(task: Task, course: Course, times: Array, analysis: Analysis) -> 
     """Return load and wish at any instants."""
     load = course.load_at(times)
     wrench = interpolated(times, task.times, task.wrench) if load is None else load
-    return Looks(frozen(times), frozen(wrench), wished(analysis, task, course.wanted_at(times)))
+    return Looks(frozen(times), frozen(wrench), target_displacement(analysis, task, course.target_at(times)))
 
 
 def _corners(task: Task, course: Course, marks: Marks, analysis: Analysis) -> tuple[Looks, NDArray[np.intp]]:
@@ -57,7 +57,7 @@ def _corners(task: Task, course: Course, marks: Marks, analysis: Analysis) -> tu
         for jump in marks.jumps:
             if (_on_a_knot(jump, task.times), jump.side) == (time, side):
                 wrench[i] += jump.change
-    return Looks(looks.times, frozen(wrench), looks.wanted), sides
+    return Looks(looks.times, frozen(wrench), looks.target), sides
 
 
 def _on_a_knot(jump: Jump, knots: Array) -> float:
@@ -72,7 +72,7 @@ def _off_the_knots(corners: Looks, sides: NDArray[np.intp], knots: Looks) -> NDA
     nearer = corners.times - knots.times[after - 1] < knots.times[after] - corners.times
     nearest = np.where(nearer, after - 1, after)
     new = np.abs(corners.times - knots.times[nearest]) > SAME_TIME * max(float(knots.times[-1]), 1.0)
-    for one, other in ((corners.wrench, knots.wrench), (corners.wanted, knots.wanted)):
+    for one, other in ((corners.wrench, knots.wrench), (corners.target, knots.target)):
         size = float(np.abs(other).max(initial=0.0))
         new |= np.abs(one - other[nearest]).max(axis=1, initial=0.0) > SAME * size
     return np.asarray(new | (sides != 0))
@@ -80,7 +80,7 @@ def _off_the_knots(corners: Looks, sides: NDArray[np.intp], knots: Looks) -> NDA
 
 def _grid(knots: Looks, corners: Looks, sides: NDArray[np.intp]) -> tuple[Looks, NDArray[np.bool_]]:
     """Return knots and corners in order, and which of them are corners."""
-    pairs = ((knots.times, corners.times), (knots.wrench, corners.wrench), (knots.wanted, corners.wanted))
+    pairs = ((knots.times, corners.times), (knots.wrench, corners.wrench), (knots.target, corners.target))
     whole = Looks(*(np.concatenate(pair) for pair in pairs))
     order = np.lexsort((np.concatenate([np.zeros(len(knots.times)), sides]), whole.times))
     return whole.of(order), order >= len(knots.times)
@@ -88,7 +88,7 @@ def _grid(knots: Looks, corners: Looks, sides: NDArray[np.intp]) -> tuple[Looks,
 
 def _changes(grid: Looks) -> NDArray[np.bool_]:
     """Return at which instants (G,) load or wish are not what they are at both neighbours."""
-    same = np.all(np.diff(np.hstack([grid.wrench, grid.wanted]), axis=0) == 0, axis=1)
+    same = np.all(np.diff(np.hstack([grid.wrench, grid.target]), axis=0) == 0, axis=1)
     ends = np.zeros(1, dtype=bool)
     return np.asarray(~(np.concatenate([ends, same]) & np.concatenate([same, ends])))
 

@@ -21,7 +21,7 @@ def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, ref
     if isinstance(refusal, NotRestrainedError):
         return _free(grasp, scale, refusal.free_twists)
     if isinstance(refusal, MotionCountError):
-        wish = scale.twist(task.wanted.values)
+        wish = scale.twist(task.target.values)
         size = float(np.linalg.norm(wish, axis=1).max(initial=0.0))
         counts = apart_by(wish, refusal.asked) > max(RIGID_TOLERANCE * size, task.tolerance)
         ratio = apart_by(wish, refusal.asked) / max(size, 1e-300)
@@ -49,7 +49,7 @@ def _outside(task: Task, analysis: Analysis, scale: Scale, refusal: MotionDirect
     direction = scale.twist(refusal.residual)
     direction = direction / np.linalg.norm(direction)
     leak = float(np.abs(direction @ scale.motion @ analysis.spaces.Gamma_ucs).max(initial=0.0))
-    wish = scale.twist(np.where(np.isin(AXES, task.axes), task.wanted.values, 0.0))
+    wish = scale.twist(np.where(np.isin(AXES, task.axes), task.target.values, 0.0))
     reach = float(np.abs(wish @ direction).max())
     size = float(np.linalg.norm(wish, axis=1).max())
     counts = reach * (1 + RANK_TOLERANCE) > max(RIGID_TOLERANCE * size, task.tolerance)

@@ -80,9 +80,9 @@ def _holds(grasp: Grasp, task: Task, plan_again: Callable[[Grasp, Task], Outcome
 def _at_its_largest_load(task: Task) -> Task:
     """Return the task at the knot of its largest load alone, which is soon judged and part of the whole."""
     at = [int(np.argmax(np.abs(task.wrench).sum(axis=1)))]
-    wanted = replace(task.wanted, values=frozen(task.wanted.values[at]))
+    wanted = replace(task.target, values=frozen(task.target.values[at]))
     return replace(
-        task, times=frozen(task.times[at]), wrench=frozen(task.wrench[at]), wanted=wanted, course=None, between="report"
+        task, times=frozen(task.times[at]), wrench=frozen(task.wrench[at]), target=wanted, course=None, between="report"
     )
 
 

@@ -24,7 +24,7 @@ from synergrip.tasks.palm_motion import Palm, PalmMotion, Weight
 from synergrip.tasks.palm_path import palm_path, rotations_of
 from synergrip.tasks.profiles import SHORTEST, Constant, Profile, Profiles, Rise, Tabled, WaypointProfile
 from synergrip.tasks.pushes import Push
-from synergrip.tasks.task import Wanted
+from synergrip.tasks.task import Target
 from synergrip.tasks.waypoints import Waypoints
 
 Kind = Literal["hold", "motion", "modes", "mode moves"]
@@ -44,7 +44,7 @@ class Loads:
     times: Array  # (T,) [s]
     wrench: Array | None
     """(T, 6) external wrench on the object; None when nothing is said of it."""
-    wanted: Wanted
+    target: Target
     profiles: Profiles
     """The same at any time, between the knots too."""
 
@@ -70,7 +70,7 @@ def loads(task: TaskTable, folder: Path, mass: float, thing: Object | None = Non
         cover(table, times, f"task.{key}")
     kind, key, wanted = _wanted(task, tables, start, end)
     profiles = Profiles((*_load(task, tables, start, end, mass, thing), *pushes), wanted)
-    wanted_motion = Wanted(kind, profiles.wanted_at(times), key)
+    wanted_motion = Target(kind, profiles.target_at(times), key)
     return Loads(frozen(times), profiles.load_at(times), wanted_motion, profiles)
 
 

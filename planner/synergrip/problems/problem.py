@@ -173,7 +173,7 @@ def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> Task:
         wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
     limits = limits_of(file, touching.grasp, touching.limits)
     return Task(
-        times, wrench, happening.wanted, file.limits.margin, limits, file.goal.names,
+        times, wrench, happening.target, file.limits.margin, limits, file.goal.names,
         file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, file.goal.weights,
         happening.profiles,
         file.task.between, touching.limits.ranges,

@@ -31,7 +31,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import items_of
 from synergrip.errors import SynergripError, one_of
 from synergrip.linalg import Array
-from synergrip.referee.model import Cone, Expression, Model, Wish
+from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
 from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
 
@@ -51,7 +51,7 @@ def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
     return LIMITS[type(limit)](model, limit)
 
 
-def write_goal(model: Model, goal: Goal) -> Wish:
+def write_goal(model: Model, goal: Goal) -> Written:
     """Write a goal down, in its own units.
 
     Raises:
@@ -140,14 +140,14 @@ def _synergy_rate(model: Model, limit: SynergyRate) -> tuple[Cone, ...]:
     return Cone(limit.key, falling, allowed / unit + share), Cone(limit.key, rising, allowed / unit - share)
 
 
-def _largest_margin(model: Model, goal: LargestMargin) -> Wish:
+def _largest_margin(model: Model, goal: LargestMargin) -> Written:
     import cvxpy as cp
 
     margin = cp.Variable()
-    return Wish(-margin, friction(model, margin), margin)
+    return Written(-margin, friction(model, margin), margin)
 
 
-def _least_effort(model: Model, goal: LeastEffort) -> Wish:
+def _least_effort(model: Model, goal: LeastEffort) -> Written:
     import cvxpy as cp
 
     scale = model.response.scale
@@ -157,20 +157,20 @@ def _least_effort(model: Model, goal: LeastEffort) -> Wish:
         share = model.torque / (model.force_unit * scale.length)
     else:
         share = model.torque @ model.response.grasp.S / (model.force_unit * scale.length)
-    return Wish(0.5 * cp.sum_squares(share))
+    return Written(0.5 * cp.sum_squares(share))
 
 
-def _least_peak(model: Model, goal: LeastPeak) -> Wish:
+def _least_peak(model: Model, goal: LeastPeak) -> Written:
     import cvxpy as cp
 
     peak = cp.Variable()
     items = items_of(contact.name for contact in model.response.grasp.contacts)
-    return Wish(peak, (Cone("goal.minimise", items, peak - _normals(model)),), peak)
+    return Written(peak, (Cone("goal.minimise", items, peak - _normals(model)),), peak)
 
 
-def _weighted_sum(model: Model, goal: WeightedSum) -> Wish:
+def _weighted_sum(model: Model, goal: WeightedSum) -> Written:
     model = replace(model, units=model.stated)
-    return Wish(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
+    return Written(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
 
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
@@ -186,7 +186,7 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     ElasticMotion: elastic_motion,
     ObjectError: object_error,
 }
-GOALS: dict[type, Callable[[Model, Any], Wish]] = {
+GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LargestMargin: _largest_margin,
     LeastEffort: _least_effort,
     LeastPeak: _least_peak,

@@ -22,7 +22,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.referee.formulas import friction, write_goal, write_limit
-from synergrip.referee.model import Expression, Model, Posed, Wish, pose, pose_relaxed, write_model
+from synergrip.referee.model import Expression, Model, Posed, Written, pose, pose_relaxed, write_model
 from synergrip.referee.reserve import cones_of
 from synergrip.referee.targets import followed
 from synergrip.statics.analysis import Analysis
@@ -80,19 +80,19 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     unit, options = _force_unit(analysis, task), TIGHT.get(cvxpy_solver, {})
     model = write_model(
         analysis.response, analysis.coordinates, times=task.times, wrench=task.wrench, beta=beta,
-        beta_basis=basis, wanted=wanted, rigid_basis=analysis.spaces.Gamma_ucs,
+        beta_basis=basis, target=wanted, rigid_basis=analysis.spaces.Gamma_ucs,
         units=Units(unit, 1.0), redundancy=task.watches_references,
     )  # fmt: skip
     limits = [cone for limit in task.kept for cone in write_limit(model, limit)]
     asked = [*limits, *friction(model, task.margin / unit)]
-    relaxed, wish, largest = pose_relaxed(model, asked), write_goal(model, goals_of(task)[0]), None
+    relaxed, objective, largest = pose_relaxed(model, asked), write_goal(model, goals_of(task)[0]), None
     relaxed.run(cvxpy_solver, options)
     relaxation = relaxed.value if relaxed.solved else np.nan
     if task.goal == "margin":
-        free = pose(model, wish.cost, [*limits, *wish.cones])
+        free = pose(model, objective.cost, [*limits, *objective.cones])
         free.run(cvxpy_solver, options)
         largest = -free.value * unit if free.solved else None
-    best = pose(model, wish.cost, [*asked, *wish.cones])
+    best = pose(model, objective.cost, [*asked, *objective.cones])
     status = best.run(cvxpy_solver, options)
     verdict, status = _verdict(status, relaxation), f"{status}, relaxation {relaxation:.3g}"
     if verdict != "feasible" or not best.solved:
@@ -134,11 +134,11 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         NotWrittenError: a limit or the goal is of a type that has no formula.
     """
     formulation = question.formulation
-    knots = Looks(formulation.times, formulation.wrench, formulation.wanted)
+    knots = Looks(formulation.times, formulation.wrench, formulation.target)
     model = _written(formulation, knots, _references(formulation))
-    wish, limits, inside = cones_of(question, model, partial(_written, formulation))
-    cost = wish.cost / (formulation.divisor * question.worth) if wish.scalar is None else wish.cost
-    posed = pose(model, cost, [*limits, *wish.cones, *inside.limits, *inside.wish], inside.same)
+    objective, limits, inside = cones_of(question, model, partial(_written, formulation))
+    cost = objective.cost / (formulation.divisor * question.worth) if objective.scalar is None else objective.cost
+    posed = pose(model, cost, [*limits, *objective.cones, *inside.limits, *inside.objective], inside.same)
     status = posed.run("CLARABEL", _options(settings))
     claim, iterations, seconds = CLAIMS.get(status, Claim.NOTHING), posed.iterations, posed.seconds
     if claim is Claim.NOTHING:
@@ -149,7 +149,7 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
         iterations, seconds = iterations + posed.iterations, seconds + posed.seconds
     x, z = np.zeros(len(program.q)), np.zeros(len(program.b))
     if posed.solved:
-        x, z = _unknowns(program, formulation, model, wish), _multipliers(program, posed)
+        x, z = _unknowns(program, formulation, model, objective), _multipliers(program, posed)
     return Solution(claim, frozen(x), frozen(z), _name(), status, iterations, seconds)
 
 
@@ -159,7 +159,7 @@ def _written(formulation: Formulation, looks: Looks, references: Expression | No
     return write_model(
         formulation.response, formulation.coordinates, times=looks.times, wrench=looks.wrench,
         beta=interpolated(looks.times, formulation.times, whole.beta.constant), units=formulation.units,
-        redundancy=whole.frees_gamma, beta_basis=formulation.beta_basis, wanted=looks.wanted,
+        redundancy=whole.frees_gamma, beta_basis=formulation.beta_basis, target=looks.target,
         rigid_basis=formulation.spaces.Gamma_ucs, references=references, stated=formulation.stated,
     )  # fmt: skip
 
@@ -175,11 +175,11 @@ def _references(formulation: Formulation) -> Expression | None:
     return constant + (free if time_basis is None else time_basis @ free) @ matrix.T
 
 
-def _unknowns(program: Program, formulation: Formulation, model: Model, wish: Wish) -> Array:
+def _unknowns(program: Program, formulation: Formulation, model: Model, objective: Written) -> Array:
     """Return x (n,) of the references found."""
     reference = formulation.reference
     v = np.linalg.lstsq(reference.matrix, (model.dz_r.value - reference.constant).T, rcond=None)[0].T
-    return program.solution(v, None if wish.scalar is None else wish.scalar.value)
+    return program.solution(v, None if objective.scalar is None else objective.scalar.value)
 
 
 def _multipliers(program: Program, posed: Posed) -> Array:

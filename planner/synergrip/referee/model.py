@@ -74,7 +74,7 @@ class Model:
     """beta as wanted where it is, and gamma = 0 where nothing asks about it."""
     redundancy: bool
     """Whether gamma is free."""
-    wanted: Array  # (T, 6) wanted displacement of the object
+    target: Array  # (T, 6) wanted displacement of the object
     units: Units
     """Of rows and of goals."""
     stated: Units
@@ -102,7 +102,7 @@ class Model:
 
 
 @dataclass(frozen=True)
-class Wish:
+class Written:
     """A goal: what is minimised, in the goal's units, and the cones of its scalar."""
 
     cost: Expression
@@ -113,7 +113,7 @@ class Wish:
 def write_model(
     response: Response, coordinates: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
-    beta_basis: Array, wanted: Array, rigid_basis: Array, references: Expression | None = None,
+    beta_basis: Array, target: Array, rigid_basis: Array, references: Expression | None = None,
     stated: Units | None = None,
 ) -> Model:  # fmt: skip
     """Write a task down; the arguments are those of `formulate`, and the references when they are not wholly free."""
@@ -136,7 +136,7 @@ def write_model(
         tracking.append(_equal("gamma", gamma))
     return Model(
         response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T,
-        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, wanted, units,
+        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, target, units,
         stated or units,
     )  # fmt: skip
 

@@ -66,5 +66,5 @@ def object_error(model: Model, limit: ObjectError) -> tuple[Cone, ...]:
     reached = model.moved + sag if limit.part == "whole" else model.rigid
     sizes = np.array([1.0, 1.0, 1.0, *[model.response.scale.length] * 3])
     columns = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in limit.axes]
-    error = (reached - model.wanted)[:, columns] @ np.diag(sizes[columns] / limit.limit)
+    error = (reached - model.target)[:, columns] @ np.diag(sizes[columns] / limit.limit)
     return (Cone(limit.key, (Item("object", "norm"),), np.ones(len(model.times)), error),)

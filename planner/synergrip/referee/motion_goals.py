@@ -7,29 +7,29 @@ import numpy as np
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
-from synergrip.referee.model import Model, Wish
+from synergrip.referee.model import Model, Written
 from synergrip.referee.motion_formulas import times_rows
 
 
-def least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Wish:
+def least_reconfiguration(model: Model, goal: LeastReconfiguration) -> Written:
     """Write the squares of gamma and of the free part of beta down."""
     import cvxpy as cp
 
     cost = 0.5 * cp.sum_squares(model.gamma / model.stated.reference) if model.redundancy else 0.0
     if model.beta_free.size:
         cost = cost + 0.5 * cp.sum_squares(model.beta_free / model.stated.motion)
-    return Wish(cost)
+    return Written(cost)
 
 
-def least_motion(model: Model, goal: LeastMotion) -> Wish:
+def least_motion(model: Model, goal: LeastMotion) -> Written:
     """Write the squares of references, rates or accelerations down, for a task that lasts 1."""
     import cvxpy as cp
 
     z = model.dz_r / model.units.reference
     if goal.of == "references":
-        return Wish(0.5 * cp.sum_squares(z))
+        return Written(0.5 * cp.sum_squares(z))
     if len(model.times) < (2 if goal.of == "rates" else 3):
-        return Wish(cp.Constant(0.0))
+        return Written(cp.Constant(0.0))
     h = (np.diff(model.times) / (model.times[-1] - model.times[0]))[:, None]
     rates = times_rows(1 / h, z[1:] - z[:-1])
     if goal.of == "rates":
@@ -39,10 +39,10 @@ def least_motion(model: Model, goal: LeastMotion) -> Wish:
         parts = times_rows(1 / np.sqrt(span), rates[1:] - rates[:-1])
         stiffest = float(((1 / h[1:] + 1 / h[:-1]) ** 2 / span).max())  # the middle weight is the largest, squared
     factor = len(model.times) if goal.exact else min(float(len(model.times)), goal.stiffest / stiffest)
-    return Wish(0.5 * factor * cp.sum_squares(parts))
+    return Written(0.5 * factor * cp.sum_squares(parts))
 
 
-def centred_joints(model: Model, goal: CentredJoints) -> Wish:
+def centred_joints(model: Model, goal: CentredJoints) -> Written:
     """Write the squared distances of the joints from the middle of their ranges down, in half ranges."""
     import cvxpy as cp
 
@@ -51,4 +51,6 @@ def centred_joints(model: Model, goal: CentredJoints) -> Wish:
     middle = (goal.lower + goal.upper)[used] / 2
     known = (model.wrench - model.response.grasp.w_0) @ model.response.dq_dw.T + goal.start
     q = model.dz_r @ model.response.dq_dzr.T + known
-    return Wish(0.5 * cp.sum_squares((q[:, used] - np.tile(middle, (len(model.times), 1))) @ np.diag(1 / half[used])))
+    return Written(
+        0.5 * cp.sum_squares((q[:, used] - np.tile(middle, (len(model.times), 1))) @ np.diag(1 / half[used]))
+    )

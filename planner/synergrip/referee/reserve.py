@@ -14,7 +14,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, interpolated
 from synergrip.referee.formulas import write_goal, write_limit
-from synergrip.referee.model import Cone, Expression, Model, Wish
+from synergrip.referee.model import Cone, Expression, Model, Written
 
 Writer = Callable[[Looks, Expression | None], Model]
 """Writes a task down at any instants, with given references or any."""
@@ -72,12 +72,12 @@ class Inside:
     """What is asked at the corners between the knots."""
 
     limits: tuple[Cone, ...] = ()
-    wish: tuple[Cone, ...] = ()
+    objective: tuple[Cone, ...] = ()
     same: tuple[Expression, ...] = ()
     """That the goal's scalar is the same there."""
 
 
-def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, list[Cone], Inside]:
+def cones_of(question: Question, model: Model, write: Writer) -> tuple[Written, list[Cone], Inside]:
     """Write goal and limits down at the knots, and between them when that is asked for.
 
     Args:
@@ -85,10 +85,10 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
         model: the task at the knots.
         write: writes the task down at other instants.
     """
-    wish = write_goal(model, question.goal)
+    objective = write_goal(model, question.goal)
     intersample = question.formulation.intersample
     if intersample is None:
-        return wish, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
+        return objective, [cone for limit in question.limits for cone in write_limit(model, limit)], Inside()
     instants = Instants.of(model, intersample, write)
     cones: list[Cone] = []
     inside: list[Cone] = []
@@ -101,13 +101,13 @@ def cones_of(question: Question, model: Model, write: Writer) -> tuple[Wish, lis
         kept, between = instants.kept(at, there, partial(_limit_again, limit))
         cones, inside = cones + kept, inside + between
     other = None if instants.corners is None else write_goal(instants.corners, question.goal)
-    again = partial(_wish_again, question.goal)
-    kept, between = instants.kept(wish.cones, () if other is None else other.cones, again)
-    same = () if other is None or other.scalar is None else (other.scalar == wish.scalar,)
-    return replace(wish, cones=tuple(kept)), cones, Inside(tuple(inside), tuple(between), same)
+    again = partial(_objective_again, question.goal)
+    kept, between = instants.kept(objective.cones, () if other is None else other.cones, again)
+    same = () if other is None or other.scalar is None else (other.scalar == objective.scalar,)
+    return replace(objective, cones=tuple(kept)), cones, Inside(tuple(inside), tuple(between), same)
 
 
-def _wish_again(goal: Goal, there: Model) -> tuple[Cone, ...]:
+def _objective_again(goal: Goal, there: Model) -> tuple[Cone, ...]:
     return write_goal(there, goal).cones
 
 

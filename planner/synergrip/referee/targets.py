@@ -17,10 +17,10 @@ def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array
     """Return beta (T, dim Gamma_ucs) as far as it is fixed (None when it cannot be), where it is free, the motion."""
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
     dimension = basis.shape[1]
-    values = task.wanted.values
+    values = task.target.values
     rows = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in task.axes]
     wanted = np.zeros((len(task.times), 6))  # on the other axes, where the object starts
-    wanted[:, rows] = (values if task.wanted.kind == "motion" else values @ basis[:, : values.shape[1]].T)[:, rows]
+    wanted[:, rows] = (values if task.target.kind == "motion" else values @ basis[:, : values.shape[1]].T)[:, rows]
     if task.tracking == "compliant":
         return np.zeros((len(task.times), dimension)), np.eye(dimension), wanted
     if len(task.axes) == 6:
@@ -38,11 +38,11 @@ def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array
 def _wanted(analysis: Analysis, task: Task) -> Array | None:
     """Return beta (T, dim Gamma_ucs), or None when the wanted motion is no motion of Gamma_ucs."""
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
-    if task.wanted.kind != "motion":  # beta itself; columns that are not there stand for zero
+    if task.target.kind != "motion":  # beta itself; columns that are not there stand for zero
         beta = np.zeros((len(task.times), basis.shape[1]))
-        beta[:, : task.wanted.values.shape[1]] = task.wanted.values
+        beta[:, : task.target.values.shape[1]] = task.target.values
         return beta
-    wish = scale.twist(task.wanted.values)
+    wish = scale.twist(task.target.values)
     beta = np.asarray(np.linalg.lstsq(scale.motion @ basis, wish.T, rcond=None)[0].T)
     outside = np.linalg.norm(wish - scale.twist(beta @ basis.T), axis=1).max(initial=0.0)
     allowed = max(OUTSIDE * np.linalg.norm(wish, axis=1).max(initial=0.0), task.tolerance)

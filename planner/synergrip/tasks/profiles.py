@@ -103,8 +103,8 @@ class Profiles:
 
     load: tuple[Profile, ...]
     """Wrenches (T, 6) about B [N, N m] that add up; none when nothing is said of the load."""
-    wanted: Profile
-    """What `Loads.wanted` holds at the knots."""
+    target: Profile
+    """What `Loads.target` holds at the knots."""
 
     def load_at(self, times: Array) -> Array | None:
         """Return the external wrench on the object (T, 6) at any times (T,) [s]; None when nothing is said of it."""
@@ -112,11 +112,11 @@ class Profiles:
             return None
         return frozen(sum((part.at(times) for part in self.load), np.zeros((len(times), 6))))
 
-    def wanted_at(self, times: Array) -> Array:
-        """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Loads.wanted`."""
-        return frozen(self.wanted.at(times))
+    def target_at(self, times: Array) -> Array:
+        """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Loads.target`."""
+        return frozen(self.target.at(times))
 
     @property
     def marks(self) -> Marks:
         """Where load or wish have corners, where the load jumps, and where one of them is curved."""
-        return together(part.marks for part in (*self.load, self.wanted))
+        return together(part.marks for part in (*self.load, self.target))

@@ -31,24 +31,24 @@ def units_of(analysis: Analysis, task: Task) -> Units:
     return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def expected_units(analysis: Analysis, task: Task, beta: Array, wanted: Array) -> Units:
+def expected_units(analysis: Analysis, task: Task, beta: Array, target: Array) -> Units:
     """Return the sizes near which the unknowns of a task are expected.
 
     Args:
         analysis: of the grasp.
         task: its loads and limits.
         beta: (T, dim Gamma_ucs) the rigid motion as far as it is given [m].
-        wanted: (T, 6) wanted displacement of the object [m, rad].
+        target: (T, 6) wanted displacement of the object [m, rad].
     """
     least = max((limit.lower for limit in task.limits if isinstance(limit, NormalForce)), default=0.0)
-    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, wanted))
+    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, target))
     if not force > 0:
         force = smallest_cap(analysis, task)
     n_alpha, n_beta, _ = analysis.coordinates.dimensions
     inverse = np.abs(analysis.coordinates.inverse)
     moving = np.abs(beta).max(axis=0, initial=0.0)
     if task.tracking == "compliant":
-        moving = np.full(n_beta, np.linalg.norm(analysis.response.scale.twist(wanted), axis=1).max(initial=0.0))
+        moving = np.full(n_beta, np.linalg.norm(analysis.response.scale.twist(target), axis=1).max(initial=0.0))
     references = force * inverse[:, :n_alpha].sum(axis=1) + inverse[:, n_alpha : n_alpha + n_beta] @ moving
     reference = float(references.max(initial=0.0))
     return Units(force, reference if reference > 0 else 1.0, _motion(task))
@@ -91,14 +91,14 @@ def _load(analysis: Analysis, task: Task) -> float:
     return response.scale.largest_force(forces_at_start(response) - change)
 
 
-def _of_motion(analysis: Analysis, task: Task, wanted: Array) -> float:
+def _of_motion(analysis: Analysis, task: Task, target: Array) -> float:
     """Return the largest contact force [N] that compliant tracking takes because the motion leaves Gamma_ucs."""
     response, spaces, scale = analysis.response, analysis.spaces, analysis.response.scale
     n_alpha = spaces.E_s.shape[1]
     if task.tracking != "compliant" or not n_alpha:
         return 0.0
     sag = (task.wrench - analysis.grasp.w_0) @ response.du_dw.T
-    missing = scale.twist(wanted - sag)
+    missing = scale.twist(target - sag)
     rigid = scale.motion @ spaces.Gamma_ucs  # orthonormal columns
     missing = missing - missing @ rigid @ rigid.T
     if not np.linalg.norm(missing, axis=1).max(initial=0.0) > task.tolerance:

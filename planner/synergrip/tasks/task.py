@@ -43,8 +43,8 @@ class Course(Protocol):
     def load_at(self, times: Array) -> Array | None:
         """Return the external wrench (T, 6) at any times (T,) [s]; None when it is w_0 throughout."""
 
-    def wanted_at(self, times: Array) -> Array:
-        """Return the wanted motion (T, m) at any times (T,), with the columns of `Wanted.values`."""
+    def target_at(self, times: Array) -> Array:
+        """Return the wanted motion (T, m) at any times (T,), with the columns of `Target.values`."""
 
     @property
     def marks(self) -> Marks:
@@ -52,7 +52,7 @@ class Course(Protocol):
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Target:
     """The wanted object motion from the start of the task."""
 
     kind: Literal["hold", "motion", "modes", "mode moves"]
@@ -69,7 +69,7 @@ class Task:
 
     times: Array  # (T,) [s]
     wrench: Array  # (T, 6), or (6,) for one that stays, external wrench on the object about B, axes of N
-    wanted: Wanted
+    target: Target
     margin: float
     """Slip margin that every contact keeps [N]."""
     limits: tuple[Limit, ...]
@@ -105,8 +105,8 @@ class Task:
         times = times_of(judge, self.times)
         raise_issues(judge.issues)  # all that follows goes by the knots
         wrench = wrench_of(judge, self.wrench, len(times))
-        if np.ndim(self.wanted.values) != 2 or len(self.wanted.values) != len(times):
-            judge.refuse("wanted", f"expected a row at each of {len(times)} knots, got {np.shape(self.wanted.values)}")
+        if np.ndim(self.target.values) != 2 or len(self.target.values) != len(times):
+            judge.refuse("target", f"expected a row at each of {len(times)} knots, got {np.shape(self.target.values)}")
         axes = [name for name in self.axes if name not in AXES]
         raise_issues([
             *judge.issues,
@@ -148,9 +148,9 @@ class Task:
         return tuple(limits)
 
 
-def still(times: Array) -> Wanted:
+def still(times: Array) -> Target:
     """Return the wish to hold the object."""
-    return Wanted("hold", np.zeros((len(times), 0)))
+    return Target("hold", np.zeros((len(times), 0)))
 
 
 def unbounded() -> InputError:

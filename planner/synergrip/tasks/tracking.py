@@ -25,7 +25,7 @@ class Followed:
     beta: Array  # (T, dim Gamma_ucs) [m]
     basis: Array
     """(dim Gamma_ucs, m) orthonormal directions in which beta is the program's choice."""
-    wanted: Array  # (T, 6) wanted displacement of the object about B [m, rad]
+    target: Array  # (T, 6) wanted displacement of the object about B [m, rad]
 
 
 def followed(analysis: Analysis, task: Task) -> Followed:
@@ -40,9 +40,9 @@ def followed(analysis: Analysis, task: Task) -> Followed:
         InputError: modes are given with another number of columns than Gamma_ucs has.
     """
     dimension = analysis.spaces.Gamma_ucs.shape[1]
-    if task.wanted.kind in ("modes", "mode moves"):
+    if task.target.kind in ("modes", "mode moves"):
         _beta_of_modes(analysis, task)
-    wanted = wished(analysis, task, task.wanted.values)
+    wanted = target_displacement(analysis, task, task.target.values)
     if task.tracking == "compliant":
         return Followed(frozen(np.zeros((len(task.times), dimension))), frozen(np.eye(dimension)), wanted)
     if len(task.axes) == len(AXES):
@@ -50,37 +50,37 @@ def followed(analysis: Analysis, task: Task) -> Followed:
     return _on_axes(analysis, task, wanted)
 
 
-def wished(analysis: Analysis, task: Task, values: Array) -> Array:
+def target_displacement(analysis: Analysis, task: Task, values: Array) -> Array:
     """Return the displacement (K, 6) that a wish asks for: where the object stays on the axes that are not asked for.
 
     Args:
         analysis: of the grasp.
         task: says what the wish means.
-        values: (K, m) at any instants, with the columns of `Wanted.values`.
+        values: (K, m) at any instants, with the columns of `Target.values`.
     """
-    if task.wanted.kind == "motion":
+    if task.target.kind == "motion":
         whole = np.asarray(values)
     else:
         whole = values @ analysis.spaces.Gamma_ucs[:, : values.shape[1]].T
     return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
 
 
-def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
+def _on_axes(analysis: Analysis, task: Task, target: Array) -> Followed:
     """Fix beta as far as the asked axes see it."""
     scale = analysis.response.scale
     weights = axis_weights(task.axes, scale.length)
     seen = weights @ analysis.spaces.Gamma_ucs  # (asked, dim Gamma_ucs)
-    beta = wanted @ weights.T @ np.linalg.pinv(seen, rcond=RANK_TOLERANCE).T
-    outside = wanted @ weights.T - beta @ seen.T
+    beta = target @ weights.T @ np.linalg.pinv(seen, rcond=RANK_TOLERANCE).T
+    outside = target @ weights.T - beta @ seen.T
     k = int(np.argmax(np.linalg.norm(outside, axis=1)))
     # outside is orthogonal to all that the asked axes see of Gamma_ucs; the same covector in scaled coordinates
     covector = np.linalg.solve(scale.motion.T, weights.T @ outside[k])
-    reach = float(abs(scale.twist(wanted[k]) @ covector)) / max(float(np.linalg.norm(covector)), 1e-300)
-    wish = float(np.linalg.norm(scale.twist(wanted), axis=1).max(initial=0.0))
+    reach = float(abs(scale.twist(target[k]) @ covector)) / max(float(np.linalg.norm(covector)), 1e-300)
+    wish = float(np.linalg.norm(scale.twist(target), axis=1).max(initial=0.0))
     allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
     if min(reach, float(np.linalg.norm(outside[k]))) > allowed:
         missed, whole = (
-            describe_displacement(twist, scale.length) for twist in (_twist(weights, outside[k]), wanted[k])
+            describe_displacement(twist, scale.length) for twist in (_twist(weights, outside[k]), target[k])
         )
         message = (
             f"the rigid motions that these {analysis.grasp.n_z} synergies can produce (Gamma_ucs, dimension "
@@ -89,7 +89,7 @@ def _on_axes(analysis: Analysis, task: Task, wanted: Array) -> Followed:
         )
         residual = np.linalg.solve(scale.motion, covector)
         raise MotionDirectionError(message, frozen(residual), float(task.times[k]), reach / wish, reach)
-    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), wanted)
+    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), target)
 
 
 def _twist(weights: Array, values: Array) -> Array:
@@ -106,10 +106,10 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
         InputError: modes are given with another number of columns than Gamma_ucs has.
     """
     dimension = analysis.spaces.Gamma_ucs.shape[1]
-    values = task.wanted.values
-    if task.wanted.kind == "hold":
+    values = task.target.values
+    if task.target.kind == "hold":
         return frozen(np.zeros((len(task.times), dimension)))
-    if task.wanted.kind in ("modes", "mode moves"):
+    if task.target.kind in ("modes", "mode moves"):
         return _beta_of_modes(analysis, task)
     wish = float(np.linalg.norm(analysis.response.scale.twist(values), axis=1).max(initial=0.0))
     allowed = max(RIGID_TOLERANCE * wish, task.tolerance)
@@ -122,11 +122,11 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
 
 
 def _beta_of_modes(analysis: Analysis, task: Task) -> Array:
-    dimension, asked = analysis.spaces.Gamma_ucs.shape[1], task.wanted.values.shape[1]
-    if asked > dimension or (task.wanted.kind == "modes" and asked < dimension):
-        what = f"mode {asked} is asked for" if task.wanted.kind == "mode moves" else f"{asked} columns of beta given"
-        raise InputError.at(task.wanted.key, f"{what}, but Gamma_ucs of this grasp has dimension {dimension}")
-    return frozen(np.pad(task.wanted.values, ((0, 0), (0, dimension - asked))))
+    dimension, asked = analysis.spaces.Gamma_ucs.shape[1], task.target.values.shape[1]
+    if asked > dimension or (task.target.kind == "modes" and asked < dimension):
+        what = f"mode {asked} is asked for" if task.target.kind == "mode moves" else f"{asked} columns of beta given"
+        raise InputError.at(task.target.key, f"{what}, but Gamma_ucs of this grasp has dimension {dimension}")
+    return frozen(np.pad(task.target.values, ((0, 0), (0, dimension - asked))))
 
 
 def _count(analysis: Analysis, values: Array, allowed: float) -> None:
@@ -170,7 +170,7 @@ def _spread(wish: Array, count: int) -> list[int]:
 
 
 def _direction(analysis: Analysis, task: Task, outside: Array, sizes: Array) -> MotionDirectionError:
-    scale, values = analysis.response.scale, task.wanted.values
+    scale, values = analysis.response.scale, task.target.values
     k = int(np.argmax(sizes))
     share = float(sizes[k] / np.linalg.norm(scale.twist(values[k])))
     dimension, n_z = analysis.spaces.Gamma_ucs.shape[1], analysis.grasp.n_z

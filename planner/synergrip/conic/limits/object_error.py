@@ -53,14 +53,14 @@ class ObjectError:
         if self.part == "rigid":
             _, beta, _ = formulation.coordinates.coordinates(motion.dz_r)
             reached = beta @ formulation.spaces.Gamma_ucs.T
-        size = np.linalg.norm((reached - formulation.wanted) @ self._weights(formulation).T, axis=1)
+        size = np.linalg.norm((reached - formulation.target) @ self._weights(formulation).T, axis=1)
         return norm_usage(self.title, "m", "object", size, self.limit, motion.times)
 
     def _error(self, formulation: Formulation) -> Affine:
         whole = (
             formulation.displacement if self.part == "whole" else formulation.beta.after(formulation.spaces.Gamma_ucs)
         )
-        return whole.plus(-formulation.wanted).after(self._weights(formulation))
+        return whole.plus(-formulation.target).after(self._weights(formulation))
 
     def _weights(self, formulation: Formulation) -> Array:
         """Return the rows of D (len(axes), 6) that count."""

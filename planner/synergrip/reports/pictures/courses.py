@@ -25,7 +25,7 @@ class Chart:
     """(T, m)."""
     bounds: tuple[float, ...] = ()
     """Levels that no line passes; none where every line has its own."""
-    wanted: Array | None = None
+    target: Array | None = None
     """(T, m) where the lines are wanted."""
 
     @property
@@ -41,10 +41,10 @@ def charts(plan: Plan) -> tuple[Chart, ...]:
 
 def _motion(plan: Plan) -> Iterator[Chart]:
     """Yield translation and rotation of the object about B, as far as it moves or is to move."""
-    wanted, reached = plan.formulation.wanted, plan.motion.du
+    wanted, reached = plan.formulation.target, plan.motion.du
     for title, unit, part in (("object displacement", "m", slice(0, 3)), ("object rotation", "rad", slice(3, 6))):
         factor, shown = SHOWN_IN[unit]
-        yield Chart(title, shown, ("x", "y", "z"), factor * reached[:, part], wanted=factor * wanted[:, part])
+        yield Chart(title, shown, ("x", "y", "z"), factor * reached[:, part], target=factor * wanted[:, part])
 
 
 def _usage(usage: Usage) -> Chart:

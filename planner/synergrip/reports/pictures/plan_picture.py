@@ -59,8 +59,8 @@ def _draw(axes: Any, times: np.ndarray, chart: Chart) -> None:
         color = COLORS[number] if number < len(COLORS) else FAINT
         name = chart.names[number] if number < len(COLORS) else None
         axes.plot(times, chart.values[:, number], color=color, lw=1.6, marker=marker, label=name, zorder=3)
-        if chart.wanted is not None:
-            axes.plot(times, chart.wanted[:, number], color=color, lw=1.0, ls=(0, (4, 3)), zorder=2)
+        if chart.target is not None:
+            axes.plot(times, chart.target[:, number], color=color, lw=1.0, ls=(0, (4, 3)), zorder=2)
     for bound in chart.bounds:
         axes.axhline(bound, color=INK, lw=1.0, ls=(0, (4, 3)), zorder=1)
     axes.spines[["top", "right"]].set_visible(False)

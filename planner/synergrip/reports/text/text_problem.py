@@ -52,10 +52,10 @@ def _load(task: Task) -> float:
 
 def _wanted(task: Task) -> str:
     """Return what is wanted of the object, with its size: numbers in the wrong unit are seen there first."""
-    values = task.wanted.values
-    if task.wanted.kind == "hold":
+    values = task.target.values
+    if task.target.kind == "hold":
         return "hold the object"
-    if task.wanted.kind != "motion":
+    if task.target.kind != "motion":
         return f"move along Γ_ucs by up to {1e3 * np.linalg.norm(values, axis=1).max():.3g} mm"
     shift, turn = (np.linalg.norm(part, axis=1).max() for part in (values[:, :3], values[:, 3:]))
     sizes = [f"{1e3 * shift:.3g} mm"] * bool(shift) + [f"{np.degrees(turn):.3g} deg"] * bool(turn)
