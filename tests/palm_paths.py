@@ -36,11 +36,11 @@ def write_path(folder: Path, times: Array, positions: Array, rotations: Array) -
     (folder / "palm.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def path_loads(folder: Path, path: str = "palm.csv", thing: Object | None = None, **keys: Any) -> Loads:
-    """What happens to a box of 0.4 kg, or another thing, in a palm on a path with inertia unless told otherwise."""
+def path_loads(folder: Path, path: str = "palm.csv", body: Object | None = None, **keys: Any) -> Loads:
+    """What happens to a box of 0.4 kg, or another one, in a palm on a path with inertia unless told otherwise."""
     palm = {"path": path, "inertia": keys.pop("inertia", True)}
-    thing = thing or thing_of()
-    return loads(TaskTable.model_validate({"palm": palm, **keys}), folder, thing.mass, thing)
+    body = body or thing_of()
+    return loads(TaskTable.model_validate({"palm": palm, **keys}), folder, body.mass, body)
 
 
 def load_at(found: Loads, times: Array = TIMES) -> Array:

@@ -61,7 +61,7 @@ def synergy_matrix():
     return np.array(file["S"])
 
 
-def nearest(thing, point):
+def nearest(body, point):
     """Return the point of the object's surface nearest to a point outside, and the inward normal there."""
     centre = np.array([metres(text) for text in thing["position"]])
     away = point - centre

@@ -20,18 +20,18 @@ from synergrip.problems.problem import load_problem
 
 HELD = load_problem("barrett-ball-hold").held
 assert HELD is not None
-HAND, BALL, TOUCHES, Q = HELD.hand, HELD.thing, HELD.touches, HELD.q
+HAND, BALL, TOUCHES, Q = HELD.hand, HELD.body, HELD.touches, HELD.q
 MOTORS, CLOSE, JOINTS = (HAND.synergy_sets[name] for name in ("motors", "close", "joints"))
 SPREAD = np.deg2rad(60.0)
 BENT = {name: HAND.joint_names.index(f"{name}_inner") for name in ("finger1", "finger2", "finger3")}
 
 
-def closed(q: Array, wish: str | dict[str, float], thing: Object = BALL, synergies: SynergySet = MOTORS) -> Array:
-    return close(HAND, q, closing_direction(HAND, synergies, wish), thing, TOUCHES)
+def closed(q: Array, wish: str | dict[str, float], body: Object = BALL, synergies: SynergySet = MOTORS) -> Array:
+    return close(HAND, q, closing_direction(HAND, synergies, wish), body, TOUCHES)
 
 
-def placed(q: Array, thing: Object) -> Placed:
-    return place("test", HAND, MOTORS, q, thing, TOUCHES, HAND.C_q, frozen(np.zeros((4, 4))))
+def placed(q: Array, body: Object) -> Placed:
+    return place("test", HAND, MOTORS, q, body, TOUCHES, HAND.C_q, frozen(np.zeros((4, 4))))
 
 
 @pytest.mark.parametrize("wish", ["close", {"finger1": 1.0, "finger2": 1.0, "finger3": 1.0},

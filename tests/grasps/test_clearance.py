@@ -87,6 +87,6 @@ def test_the_shipped_grasp_is_clear_and_a_ball_on_the_palm_is_not() -> None:
     held = load_problem("barrett-ball-hold").held
     assert held is not None
     assert held.notes == ()
-    sunk = replace(held.thing, position=frozen([0, 0, 0.04]))
+    sunk = replace(held.body, position=frozen([0, 0, 0.04]))
     (note,) = collision_notes(held.hand, held.q, sunk, held.touches)
     assert "from link 'palm' to link 'finger1_base'" in note

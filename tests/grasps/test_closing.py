@@ -21,9 +21,9 @@ def thing_at(centre: Sequence[float], shape: Shape | None) -> Object:
     return Object("thing", 0.1, frozen(centre), shape)
 
 
-def refused(hand: Hand, q: Sequence[float], along: Sequence[float], thing: Object, *pads: Pad) -> list[tuple[str, str]]:
+def refused(hand: Hand, q: Sequence[float], along: Sequence[float], body: Object, *pads: Pad) -> list[tuple[str, str]]:
     with pytest.raises(InputError) as caught:
-        close(hand, frozen(q), frozen(along), thing, touching(*pads))
+        close(hand, frozen(q), frozen(along), body, touching(*pads))
     return [(issue.key, issue.message) for issue in caught.value.issues]
 
 
@@ -45,8 +45,8 @@ def test_a_gripper_closes_on_a_ball_off_its_middle(rates: tuple[float, float], p
 
 @pytest.mark.parametrize("x", [0.0, 2e-13, 1e-11, 3e-4, -3e-4])
 def test_pads_that_touch_within_the_same_step_stop_one_after_the_other(x: float) -> None:
-    thing = thing_at((x, 0, 0), Sphere(0.0207))
-    q = close(GRIPPER, frozen([0, 0]), frozen([1, 1]), thing, touching(*TIPS))
+    body = thing_at((x, 0, 0), Sphere(0.0207))
+    q = close(GRIPPER, frozen([0, 0]), frozen([1, 1]), body, touching(*TIPS))
     assert q == pytest.approx([0.0293 + x, 0.0293 - x], abs=1e-10)
 
 
@@ -89,11 +89,11 @@ def test_a_joint_at_its_limit_stops_those_that_follow_it_and_no_other() -> None:
         slide("other", "palm", (0, 0.05, 0), (0, -1, 0)),
     ]
     tips = (pad("right/tip", "right_link"), pad("other/tip", "other_link"))
-    thing = thing_at((0, 0, 0), Sphere(0.02))
-    free = close(hand_of(joints), frozen([0, 0, 0]), frozen([1, 1, 1]), thing, touching(*tips))
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    free = close(hand_of(joints), frozen([0, 0, 0]), frozen([1, 1, 1]), body, touching(*tips))
     assert free == pytest.approx([0.01, 0.03, 0.03], abs=1e-12)
     coupled = hand_of(joints, couplings={"right": Coupling({"left": 1.0})})
-    ((key, message),) = refused(coupled, [0, 0, 0], [1, 1, 1], thing, *tips)
+    ((key, message),) = refused(coupled, [0, 0, 0], [1, 1, 1], body, *tips)
     assert key == "contacts.at[0]"
     assert (
         "pad 'right/tip' does not reach the ball r 20 mm: at its closest, closed by 0.01, it is 20 mm away" in message
@@ -101,7 +101,7 @@ def test_a_joint_at_its_limit_stops_those_that_follow_it_and_no_other() -> None:
     assert "(right stopped with left)" in message
     follower_first = hand_of([slide("left", "palm", (-0.05, 0, 0), (1, 0, 0)), *joints[1:]],
                              couplings={"left": Coupling({"other": 1.0})})  # fmt: skip
-    assert close(follower_first, frozen([0, 0, 0]), frozen([1, 1, 1]), thing, touching(*tips))[1:] == pytest.approx(
+    assert close(follower_first, frozen([0, 0, 0]), frozen([1, 1, 1]), body, touching(*tips))[1:] == pytest.approx(
         [0.03, 0.03], abs=1e-12
     )
 
@@ -124,8 +124,8 @@ def turned_by(length: float, centre: complex, radius: float) -> float:
 def test_a_stiff_finger_meets_a_cylinder_where_two_circles_cross(along: tuple[float, float], round_: float) -> None:
     centre, radius = 0.05 + 0.06j, 0.02
     tip = pad("tip", "b_link", (B, 0, 0), round_)
-    thing = thing_at((centre.real, centre.imag, 0.01), Cylinder(radius, 0.1))
-    q = close(FINGER, frozen([0, 0]), frozen(along), thing, touching(tip))
+    body = thing_at((centre.real, centre.imag, 0.01), Cylinder(radius, 0.1))
+    q = close(FINGER, frozen([0, 0]), frozen(along), body, touching(tip))
     assert q == pytest.approx([turned_by(A + B, centre, radius + round_), 0], abs=1e-12)
 
 
@@ -135,8 +135,8 @@ def test_a_finger_of_two_hinges_meets_a_cylinder_at_the_root_of_a_polynomial(
 ) -> None:
     """With z = exp(i theta) the tip is at A z + B z^power, and |tip - c|^2 = R^2 a polynomial in z, |z| = 1."""
     centre, radius = 0.035 + 0.05j, 0.02
-    thing = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
-    q = close(FINGER, frozen([0, 0]), frozen(along), thing, touching(TIP))
+    body = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
+    q = close(FINGER, frozen([0, 0]), frozen(along), body, touching(TIP))
     terms = np.zeros(2 * power + 1, dtype=complex)  # of z^-power to z^power
     position = {1: A, power: B, 0: -centre}
     for m, x in position.items():
@@ -151,9 +151,9 @@ def test_a_finger_of_two_hinges_meets_a_cylinder_at_the_root_of_a_polynomial(
 
 def test_a_pad_nearer_to_the_palm_stops_its_own_joints_and_the_finger_wraps_on() -> None:
     centre, radius = 0.03 + 0.03j, 0.015
-    thing = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
+    body = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
     start = np.array([-0.4, -0.5])
-    q = close(FINGER, frozen(start), frozen([1, 1]), thing, touching(MIDDLE, TIP))
+    q = close(FINGER, frozen(start), frozen([1, 1]), body, touching(MIDDLE, TIP))
     first = turned_by(0.8 * A, centre, radius)
     there = (centre - A * np.exp(1j * first)) * np.exp(-1j * first)  # the cylinder as the outer link sees it
     assert q == pytest.approx([first, turned_by(B, there, radius)], abs=1e-12)
@@ -174,8 +174,8 @@ def test_a_pad_that_grazes_a_cylinder_stops_and_one_that_just_misses_does_not(de
 def test_a_joint_at_its_limit_waits_for_the_others() -> None:
     centre, radius, limit = 0.03 + 0.055j, 0.01, 0.7
     short = hand_of([hinge("a", "palm", (0, 0, 0), (-1.0, limit)), hinge("b", "a_link", (A, 0, 0))])
-    thing = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
-    q = close(short, frozen([0, 0]), frozen([1, 0.5]), thing, touching(TIP))
+    body = thing_at((centre.real, centre.imag, 0.0), Cylinder(radius, 0.1))
+    q = close(short, frozen([0, 0]), frozen([1, 0.5]), body, touching(TIP))
     there = (centre - A * np.exp(1j * limit)) * np.exp(-1j * limit)
     assert q == pytest.approx([limit, turned_by(B, there, radius)], abs=1e-12)
     assert q[0] == limit
@@ -202,23 +202,23 @@ def test_a_joint_without_limits_is_given_up() -> None:
 
 @pytest.mark.parametrize("factor", [1e-6, 0.25, 3.0, 1e7])
 def test_the_size_of_the_weights_changes_nothing(factor: float) -> None:
-    thing = thing_at((0.03, 0.03, 0.0), Cylinder(0.015, 0.1))
-    q = [close(FINGER, frozen([-0.4, -0.5]), frozen([f, 0.7 * f]), thing, touching(MIDDLE, TIP)) for f in (1, factor)]
+    body = thing_at((0.03, 0.03, 0.0), Cylinder(0.015, 0.1))
+    q = [close(FINGER, frozen([-0.4, -0.5]), frozen([f, 0.7 * f]), body, touching(MIDDLE, TIP)) for f in (1, factor)]
     assert q[1] == pytest.approx(q[0], abs=1e-12)
 
 
 def test_pads_that_the_closing_does_not_move_stay_where_they_are() -> None:
     still = pad("palm", "palm", (0, 0.03, 0))
-    thing = thing_at((0, 0.0098, 0), Sphere(0.02))
-    q = close(GRIPPER, frozen([0, 0]), frozen([1, 1]), thing, touching(*TIPS, still))
-    assert np.array_equal(q, close(GRIPPER, frozen([0, 0]), frozen([1, 1]), thing, touching(*TIPS)))
-    only_left = close(GRIPPER, frozen([0, 0.02]), frozen([1, 0]), thing, touching(*TIPS))
+    body = thing_at((0, 0.0098, 0), Sphere(0.02))
+    q = close(GRIPPER, frozen([0, 0]), frozen([1, 1]), body, touching(*TIPS, still))
+    assert np.array_equal(q, close(GRIPPER, frozen([0, 0]), frozen([1, 1]), body, touching(*TIPS)))
+    only_left = close(GRIPPER, frozen([0, 0.02]), frozen([1, 0]), body, touching(*TIPS))
     assert (only_left[0], only_left[1]) == (q[0], 0.02)
 
 
 def test_a_pad_that_touches_already_moves_no_more() -> None:
-    thing = thing_at((0, 0, 0), Sphere(0.02))
-    q = close(GRIPPER, frozen([0.03, 0]), frozen([1, 1]), thing, touching(*TIPS))
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    q = close(GRIPPER, frozen([0.03, 0]), frozen([1, 1]), body, touching(*TIPS))
     assert q == pytest.approx([0.03, 0.03], abs=1e-12)
 
 
@@ -233,8 +233,8 @@ def test_what_is_closed_is_not_written_into() -> None:
 
 
 def test_every_pad_inside_the_object_at_the_start_is_named() -> None:
-    thing = thing_at((0, 0, 0), Sphere(0.02))
-    found = refused(GRIPPER, [0.035, 0.031], [1, 1], thing, *TIPS)
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    found = refused(GRIPPER, [0.035, 0.031], [1, 1], body, *TIPS)
     assert [key for key, _ in found] == ["contacts.at[0]", "contacts.at[1]"]
     assert "pad 'left/tip' is 5 mm inside the ball r 20 mm before the hand closes" in found[0][1]
     assert "pad 'right/tip' is 1 mm inside" in found[1][1]
@@ -245,8 +245,8 @@ def test_every_pad_that_never_touches_is_named_with_how_close_it_came_and_what_s
     short = hand_of([
         slide("left", "palm", (-0.05, 0, 0), (1, 0, 0), upper=0.01), slide("right", "palm", (0.05, 0, 0), (-1, 0, 0)),
     ])  # fmt: skip
-    thing = thing_at((0, 0, 0), Sphere(0.02))
-    found = refused(short, [0, 0.025], [2, -1], thing, *TIPS)
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    found = refused(short, [0, 0.025], [2, -1], body, *TIPS)
     assert [key for key, _ in found] == ["contacts.at[0]", "contacts.at[1]"]
     assert "at its closest, closed by 0.005, it is 20 mm away (left at its limit)" in found[0][1]
     assert "at its closest, closed by 0, it is 5 mm away (right at its limit)" in found[1][1]
@@ -254,15 +254,15 @@ def test_every_pad_that_never_touches_is_named_with_how_close_it_came_and_what_s
 
 def test_a_finger_held_by_another_pad_says_so() -> None:
     """The tip touches first and stops both hinges: the middle of the finger stays away."""
-    thing = thing_at((0.055, 0.057, 0), Cylinder(0.01, 0.1))
-    ((key, message),) = refused(FINGER, [0, 0], [1, 0], thing, MIDDLE, TIP)
+    body = thing_at((0.055, 0.057, 0), Cylinder(0.01, 0.1))
+    ((key, message),) = refused(FINGER, [0, 0], [1, 0], body, MIDDLE, TIP)
     assert key == "contacts.at[0]"
     assert "(a stopped when pad 'tip' touched)" in message
 
 
 def test_a_closing_that_moves_no_pad_is_refused() -> None:
-    thing = thing_at((0, 0, 0), Sphere(0.02))
-    assert refused(GRIPPER, [0, 0], [0, 1], thing, TIPS[0]) == [
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    assert refused(GRIPPER, [0, 0], [0, 1], body, TIPS[0]) == [
         ("hand.close", "moves none of the pads that are to touch")
     ]
 
@@ -275,7 +275,7 @@ def test_a_closing_that_moves_no_pad_is_refused() -> None:
         (thing_at([math.nan] * 3, None), ["object.shape", "object.position"]),
     ],
 )
-def test_an_object_needs_a_shape_and_a_place(thing: Object, keys: list[str]) -> None:
-    found = refused(GRIPPER, [0, 0], [1, 1], thing, *TIPS)
+def test_an_object_needs_a_shape_and_a_place(body: Object, keys: list[str]) -> None:
+    found = refused(GRIPPER, [0, 0], [1, 1], body, *TIPS)
     assert [key for key, _ in found] == keys
     assert all(message.startswith("missing; hand.close") for _, message in found)

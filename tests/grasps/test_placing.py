@@ -71,12 +71,12 @@ def _touch(i: int, normal: Sequence[float] | Array, kind: str = "hard", point: S
 
 
 def _placed(
-    thing: Object | None, touches: Sequence[Touch], kinematics: Kinematics, q: Array = Q
+    body: Object | None, touches: Sequence[Touch], kinematics: Kinematics, q: Array = Q
 ) -> tuple[Grasp, Object]:
     hand, synergies = _hand(kinematics, len(q))
     C_q, C_z = frozen(np.eye(len(q))), frozen(np.zeros((len(q), len(q))))
-    placed = place("test", hand, synergies, q, thing, touches, C_q, C_z)
-    return placed.grasp, placed.thing
+    placed = place("test", hand, synergies, q, body, touches, C_q, C_z)
+    return placed.grasp, placed.body
 
 
 def _ball_on(points: Array, radius: float, inward: Array, **changes: object) -> tuple[Grasp, Object]:
@@ -147,8 +147,8 @@ def test_normals_come_from_the_surface(
 ) -> None:
     tilted = [np.array(n) + 0.3 * np.ones(3) for n in normals]
     touches = [_touch(i, n) for i, n in enumerate(tilted)]
-    thing = Object("thing", 0.1, SOMEWHERE, shape)
-    grasp, _ = _placed(thing, touches, Standing(frozen(SOMEWHERE + np.array(points))))
+    body = Object("thing", 0.1, SOMEWHERE, shape)
+    grasp, _ = _placed(body, touches, Standing(frozen(SOMEWHERE + np.array(points))))
     for contact, normal in zip(grasp.contacts, normals, strict=True):
         assert contact.frame[:, 0] == pytest.approx(np.array(normal), abs=1e-12)
 
@@ -158,21 +158,21 @@ def test_normals_come_from_the_pads_when_asked() -> None:
     tilted = inward + 0.2 * np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]])
     tilted /= np.linalg.norm(tilted, axis=1, keepdims=True)
     touches = [replace(_touch(i, n), normals="pad") for i, n in enumerate(tilted)]
-    thing = Object("ball", 0.2, SOMEWHERE, Sphere(0.04))
-    grasp, _ = _placed(thing, touches, Standing(frozen(points)))
+    body = Object("ball", 0.2, SOMEWHERE, Sphere(0.04))
+    grasp, _ = _placed(body, touches, Standing(frozen(points)))
     for contact, normal, toward in zip(grasp.contacts, tilted, inward, strict=True):
         assert contact.frame[:, 0] == pytest.approx(normal, abs=1e-12)
         assert contact.frame[:, 0] != pytest.approx(toward, abs=0.05)
 
 
 @pytest.mark.parametrize("thing", [None, Object("lump", 0.3, UNKNOWN, None)])
-def test_a_bare_object_sits_in_the_middle_of_its_contacts(thing: Object | None) -> None:
+def test_a_bare_object_sits_in_the_middle_of_its_contacts(body: Object | None) -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04, BELOW)
     touches = [_touch(i, n) for i, n in enumerate(inward)]
-    grasp, placed = _placed(thing, touches, Standing(frozen(points)))
+    grasp, placed = _placed(body, touches, Standing(frozen(points)))
     middle = points.mean(axis=0)
     assert placed.position == pytest.approx(middle, abs=1e-15)
-    assert (placed.title, placed.mass) == (("object", 0.0) if thing is None else ("lump", 0.3))
+    assert (placed.title, placed.mass) == (("object", 0.0) if body is None else ("lump", 0.3))
     for contact, point in zip(grasp.contacts, points, strict=True):
         assert np.cross(contact.frame[:, 0], middle - point) == pytest.approx(np.zeros(3), abs=1e-15)
         assert contact.frame[:, 0] @ (middle - point) > 0
@@ -182,12 +182,12 @@ def test_a_bare_object_sits_in_the_middle_of_its_contacts(thing: Object | None) 
 def test_a_pad_off_the_surface_is_refused_by_name(gap: float, word: str) -> None:
     points = np.array([[0.02, 0, 0], [-0.02 - gap, 0, 0]])
     touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0))]
-    thing = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    body = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
     if not word:
-        assert _placed(thing, touches, Standing(frozen(points)))[0].n_c == 2
+        assert _placed(body, touches, Standing(frozen(points)))[0].n_c == 2
         return
     with pytest.raises(InputError) as caught:
-        _placed(thing, touches, Standing(frozen(points)))
+        _placed(body, touches, Standing(frozen(points)))
     (issue,) = caught.value.issues
     assert issue.key == "contacts.at[1]"
     assert f"pad 'pad1' is 0.6 mm {word} the surface of the box 40 x 40 x 40 mm" in issue.message
@@ -208,9 +208,9 @@ def test_a_pad_that_faces_away_is_refused_by_name(shape: Shape | None, normals: 
 def test_every_pad_off_the_surface_or_facing_away_is_named_with_its_place() -> None:
     points = np.array([[0.02, 0, 0], [-0.023, 0.001, -1e-18], [0, 0.02, 0.0123]])
     touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0)), _touch(2, (0, 1, 0))]
-    thing = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    body = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
     with pytest.raises(InputError) as caught:
-        _placed(thing, touches, Standing(frozen(points)))
+        _placed(body, touches, Standing(frozen(points)))
     away, facing = caught.value.issues
     assert (away.key, facing.key) == ("contacts.at[1]", "contacts.at[2]")
     assert "pad 'pad1' is 3 mm outside" in away.message

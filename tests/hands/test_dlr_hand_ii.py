@@ -161,7 +161,7 @@ def test_fingers_lie_in_front_of_a_palm_that_faces_minus_x(hand):
 @pytest.mark.parametrize("problem", ["dlr-ball-eigengrasps", "dlr-ball-move"])
 def test_the_four_tips_touch_the_ball(problem):
     held = load_problem(problem).held
-    np.testing.assert_array_equal(held.thing.position, CENTRE)
+    np.testing.assert_array_equal(held.body.position, CENTRE)
     points, normals, radii = pads_at(held.hand, held.q, TIPS)
     distance = np.linalg.norm(points - CENTRE, axis=1)
     np.testing.assert_allclose(distance - radii, 0.045, rtol=0, atol=2e-5)

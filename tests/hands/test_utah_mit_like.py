@@ -97,7 +97,7 @@ def test_index_and_ring_mirror_each_other_and_the_thumb_faces_the_fingers(hand):
 
 def test_the_four_tips_touch_the_ball():
     held = load_problem("utah-mit-ball").held
-    np.testing.assert_array_equal(held.thing.position, CENTRE)
+    np.testing.assert_array_equal(held.body.position, CENTRE)
     points, normals, radii = pads_at(held.hand, held.q, TIPS)
     distance = np.linalg.norm(points - CENTRE, axis=1)
     np.testing.assert_allclose(distance - radii, 0.035, rtol=0, atol=5e-5)

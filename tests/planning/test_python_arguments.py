@@ -128,7 +128,7 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
         ({"times": np.zeros((3, 1))}, "times", "expected shape (3,)"),
         ({"times": "0 s"}, "times", "got '0 s'"),
         ({"times": np.linspace(0, 1, 4), "wrench": WEIGHT}, "target", "expected a row at each of 4 knots, got (3, 0)"),
-        ({"target": Target("motion", np.zeros(3))}, "wanted", "got (3,)"),
+        ({"target": Target("motion", np.zeros(3))}, "target", "got (3,)"),
         ({"order": ("weighted",)}, "weights", "'weighted' in the order needs weights"),
         ({"order": ("efort",)}, "order[0]", "did you mean 'effort'?"),
         ({"order": ("margin", "smoooth")}, "order[1]", "did you mean 'smooth'?"),

@@ -17,8 +17,8 @@ LIMITS = ("limits={margin='0.1 N', normal_force='400 N'}", "goal={minimise='effo
 
 def bar(x: float, *overrides: str, y: float = 40.0, z: float = 120.0) -> Problem:
     """The gripper's two pads, 28 mm to the left and right of the palm's axis, and a mass at (x, y, z) mm."""
-    thing = f"object={{mass='100 g', position=['{x} mm', '{y} mm', '{z} mm']}}"
-    return load_problem("gripper-box", [thing, PADS, *LIMITS, *overrides])
+    body = f"object={{mass='100 g', position=['{x} mm', '{y} mm', '{z} mm']}}"
+    return load_problem("gripper-box", [body, PADS, *LIMITS, *overrides])
 
 
 def squeeze(problem: Problem) -> tuple[float, np.ndarray]:

@@ -44,7 +44,7 @@ def test_a_place_on_a_link_is_as_good_as_a_pad() -> None:
     by_link = load_problem(NAME, [ball, *CURLED, NO_PADS, on_links(*(entry.format(i) for i in (1, 2, 3)))])
     assert np.array_equal(by_pad.grasp.G, by_link.grasp.G)
     assert np.array_equal(by_pad.grasp.J, by_link.grasp.J)
-    assert np.array_equal(held(by_pad).thing.position, held(by_link).thing.position)
+    assert np.array_equal(held(by_pad).body.position, held(by_link).body.position)
     assert [c.name for c in by_link.grasp.contacts] == ["finger1/pad", "finger2/pad", "finger3/pad"]
 
 
@@ -66,11 +66,11 @@ def test_a_ball_that_nobody_pushes_needs_a_position() -> None:
 def test_round_places_on_links_move_the_ball_away_by_their_radius() -> None:
     """The pads are as far from the centre as ball and round pad together."""
     entry = "{{link='finger{}_tip', normal='z', radius='4 mm'}}"
-    thing = held(load_problem(NAME, [NO_PADS, on_links(*(entry.format(i) for i in (1, 2, 3)))])).thing
+    body = held(load_problem(NAME, [NO_PADS, on_links(*(entry.format(i) for i in (1, 2, 3)))])).body
     for motion in held(load_problem(NAME)).hand.kinematics.at(
         held(load_problem(NAME)).q, [(f"finger{i}_tip", np.zeros(3)) for i in (1, 2, 3)]
     ):
-        assert np.linalg.norm(motion.position - thing.position) == pytest.approx(0.054, abs=1e-12)
+        assert np.linalg.norm(motion.position - body.position) == pytest.approx(0.054, abs=1e-12)
 
 
 def test_links_and_pads_that_the_hand_does_not_have_are_refused_together() -> None:

@@ -49,11 +49,11 @@ def test_the_document_holds_posture_object_and_contacts_in_the_palm_frame(ball: 
     assert held is not None
     assert (document["valid"], document["file"], document["title"]) == (True, str(ball.path), ball.title)
     assert document["posture"] == dict(zip(held.hand.joint_names, held.q, strict=True))
-    assert document["object"]["position_m"] == held.thing.position.tolist()
+    assert document["object"]["position_m"] == held.body.position.tolist()
     assert document["notes"] == []
     tips = held.hand.kinematics.at(held.q, [(f"finger{i}_tip", np.zeros(3)) for i in (1, 2, 3)])
     for contact, tip in zip(document["contacts"], tips, strict=True):
-        inward = (held.thing.position - tip.position) / 0.05
+        inward = (held.body.position - tip.position) / 0.05
         assert contact["point_m"] == pytest.approx(tip.position.tolist(), abs=1e-12)
         assert contact["normal"] == pytest.approx(inward.tolist(), abs=1e-9)
         assert contact["gap_m"] == pytest.approx(0, abs=1e-12)

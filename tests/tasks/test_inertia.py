@@ -30,9 +30,9 @@ def _thing(mass: float = 0.4, shape: Shape | None = None) -> Object:
     return Object("thing", mass, frozen(CENTRE), shape)
 
 
-def _loads(thing: Object | None, mass: float = 0.4, **keys: Any) -> Loads:
+def _loads(body: Object | None, mass: float = 0.4, **keys: Any) -> Loads:
     task = TaskTable.model_validate({"duration": "0.8 s", **keys})
-    return loads(task, Path(), mass if thing is None else thing.mass, thing)
+    return loads(task, Path(), mass if body is None else body.mass, body)
 
 
 def _load(found: Loads, times: Array) -> Array:
@@ -70,9 +70,9 @@ def test_the_acceleration_of_a_point_of_the_palm_is_that_of_its_way_through_the_
 @pytest.mark.parametrize("name", ["min-jerk", "cubic"])
 def test_force_and_moment_are_the_rates_of_momentum(name: Any) -> None:
     """Newton and Euler in the world: f = -m p'', m = -dL/dt, L = R I R' omega; seen from the palm."""
-    thing = _thing(shape=BOX)
-    tensor = thing.mass * uniform_tensor(BOX)
-    wrench = _load(_loads(thing, palm={**PALM, "profile": name}), TIMES)
+    body = _thing(shape=BOX)
+    tensor = body.mass * uniform_tensor(BOX)
+    wrench = _load(_loads(body, palm={**PALM, "profile": name}), TIMES)
 
     def angular_momentum(time: float) -> Array:
         step = 1e-5
@@ -83,9 +83,7 @@ def test_force_and_moment_are_the_rates_of_momentum(name: Any) -> None:
     for time, found in zip(TIMES, wrench, strict=True):
         step, seen = 1e-4, _placed(name, time)[0].inv()
         rate = (angular_momentum(time + step) - angular_momentum(time - step)) / (2 * step)
-        force = -thing.mass * _second_difference(
-            lambda t: _placed(name, t)[1] + _placed(name, t)[0].apply(CENTRE), time
-        )
+        force = -body.mass * _second_difference(lambda t: _placed(name, t)[1] + _placed(name, t)[0].apply(CENTRE), time)
         assert found[:3] == pytest.approx(seen.apply(force), rel=1e-5, abs=1e-5)
         assert found[3:] == pytest.approx(seen.apply(-rate), abs=1e-4 * np.abs(wrench[:, 3:]).max())
     assert np.abs(wrench[:, 3:]).max() > 1e-3
@@ -104,9 +102,9 @@ def test_a_shift_alone_gives_minus_mass_times_acceleration_in_closed_form() -> N
 
 def test_a_palm_that_swings_presses_the_object_outward() -> None:
     """At the middle of a min-jerk turn by 2 rad in 1 s: omega = 1.875 * 2, no tangential force."""
-    thing = Object("thing", 0.5, frozen([0.0, 0.2, 0.0]), None)
+    body = Object("thing", 0.5, frozen([0.0, 0.2, 0.0]), None)
     palm = {"axis": "z", "turn": "2 rad", "inertia": True}
-    wrench = _load(_loads(thing, palm=palm, duration="1 s"), np.array([0.5]))
+    wrench = _load(_loads(body, palm=palm, duration="1 s"), np.array([0.5]))
     assert wrench == pytest.approx(np.array([[0, 0.5 * 3.75**2 * 0.2, 0, 0, 0, 0]]), abs=1e-12)
 
 

@@ -97,7 +97,7 @@ def test_an_object_in_free_fall_has_no_load(spinning: bool, tmp_path: Path) -> N
     rotations = FRAME[0] * Rotation.from_rotvec(np.outer(2.0 * times * spinning, AXIS))
     centre = np.outer(times, [1.0, 0.5, 3.0]) + 0.5 * np.outer(times**2, down)
     write_path(tmp_path, times, centre - rotations.apply(CENTRE), rotations.as_rotvec())
-    found = load_at(path_loads(tmp_path, thing=thing_of(Sphere(0.05)), gravity=GRAVITY))
+    found = load_at(path_loads(tmp_path, body=thing_of(Sphere(0.05)), gravity=GRAVITY))
     assert found == pytest.approx(np.zeros((len(TIMES), 6)), abs=1e-4 if spinning else 1e-10)
     assert np.abs(load_at(path_loads(tmp_path, inertia=False, gravity=GRAVITY))).max() > 1
 

@@ -36,7 +36,7 @@ class _End:
         return cls(f"pad '{pad.name}'", pad.link, pad.point)
 
 
-def collision_notes(hand: Hand, q: Array, thing: Object, touches: Sequence[Touch]) -> tuple[str, ...]:
+def collision_notes(hand: Hand, q: Array, body: Object, touches: Sequence[Touch]) -> tuple[str, ...]:
     """Return a note on the lines of the hand's skeleton that run inside the object, or nothing.
 
     The skeleton is what is known of any hand: a line from the origin of each link to that of the link that carries
@@ -46,21 +46,21 @@ def collision_notes(hand: Hand, q: Array, thing: Object, touches: Sequence[Touch
     Args:
         hand: the hand.
         q: (n_q,) joint values.
-        thing: the object, where it is; nothing is inside one without a shape.
+        body: the object, where it is; nothing is inside one without a shape.
         touches: the contacts; their pads are part of the skeleton.
     """
-    if thing.shape is None:
+    if body.shape is None:
         return ()
     lines = list(_skeleton(hand, touches))
     motions = hand.kinematics.at(q, [(end.link, end.point) for line in lines for end in line])
-    points = [motion.position - thing.position for motion in motions]
-    depths = [depth(thing.shape, a, b) for a, b in zip(points[::2], points[1::2], strict=True)]
+    points = [motion.position - body.position for motion in motions]
+    depths = [depth(body.shape, a, b) for a, b in zip(points[::2], points[1::2], strict=True)]
     inside = ", ".join(
         f"from {a.name} to {b.name} ({1e3 * deep:.2g} mm deep)"
         for (a, b), deep in zip(lines, depths, strict=True)
         if deep > DEEP
     )
-    message = f"the hand may collide with the {thing.shape.title}: its skeleton runs inside on the line {inside}"
+    message = f"the hand may collide with the {body.shape.title}: its skeleton runs inside on the line {inside}"
     return (message,) if inside else ()
 
 

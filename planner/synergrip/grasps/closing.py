@@ -27,7 +27,7 @@ AT_LIMIT = 1e-12
 
 
 def close(
-    hand: Hand, q: Array, direction: Array, thing: Object, touches: Sequence[Touch], key: str = "hand.close"
+    hand: Hand, q: Array, direction: Array, body: Object, touches: Sequence[Touch], key: str = "hand.close"
 ) -> Array:
     """Return the joint values (n_q,) at which every pad that `direction` moves touches the object.
 
@@ -40,7 +40,7 @@ def close(
         hand: the hand.
         q: (n_q,) joint values to start from.
         direction: (n_q,) joint motion of closing by 1.
-        thing: the object.
+        body: the object.
         touches: the contacts.
         key: where the closing stands, for the error.
 
@@ -48,10 +48,10 @@ def close(
         InputError: an object without shape or position, no pad that moves, pads that start inside the object, or
             pads that do not reach it; all of them.
     """
-    missing = list(unknown_surface(thing))
-    if thing.shape is None or missing:
+    missing = list(unknown_surface(body))
+    if body.shape is None or missing:
         raise InputError(missing)
-    closing = _Closing.of(hand, direction, Gaps(hand, thing.shape, thing.position, touches))
+    closing = _Closing.of(hand, direction, Gaps(hand, body.shape, body.position, touches))
     state = closing.start(q)
     if not state.waiting.any():
         raise InputError.at(key, "moves none of the pads that are to touch")
@@ -65,11 +65,11 @@ def close(
     return frozen(state.q)
 
 
-def unknown_surface(thing: Object) -> Iterator[Issue]:
+def unknown_surface(body: Object) -> Iterator[Issue]:
     """Yield what is missing of an object to close a hand on it: its shape, its position."""
-    if thing.shape is None:
+    if body.shape is None:
         yield Issue("missing; hand.close closes the hand on a shape", key="object.shape", on_key=True)
-    if not np.all(np.isfinite(thing.position)):
+    if not np.all(np.isfinite(body.position)):
         message = "missing; hand.close needs to know where the object is: its centre in the palm frame, 3 lengths"
         yield Issue(message, key="object.position", on_key=True)
 

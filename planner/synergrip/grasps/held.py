@@ -26,7 +26,7 @@ class Held:
     """(n_q,) joint values [rad or m]."""
     C_q: Array
     """(n_q, n_q) joint compliance."""
-    thing: Object
+    body: Object
     """The object, where it is."""
     touches: tuple[Touch, ...]
     """The pads that touch, in the order of the contacts."""
@@ -41,4 +41,4 @@ class Held:
         arm = arm_notes(self.hand, self.synergies, touching)
         parted = parted_notes(self.hand, self.q)
         ranges = contradictions(ranges_of_followers(self.hand))
-        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.thing, self.touches))
+        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.body, self.touches))

@@ -41,9 +41,9 @@ class Touch:
     normal_at: str = ""
     """Where the normal of the pad is stated, for advice."""
 
-    def alone(self, thing: Object) -> bool:
+    def alone(self, body: Object) -> bool:
         """Tell whether nothing but the pad says where it pushes: a bare mass is a load, and may be anywhere."""
-        return thing.shape is None and self.normals == "pad"
+        return body.shape is None and self.normals == "pad"
 
 
 @dataclass(frozen=True)
@@ -51,14 +51,14 @@ class Placed:
     """A grasp, and what was found on the way to it."""
 
     grasp: Grasp
-    thing: Object
+    body: Object
     """The object, where it is."""
     gaps: tuple[float | None, ...]
     """Distance of each pad from the surface, > 0 outside [m]; None for an object without a shape."""
 
 
 def place(
-    title: str, hand: Hand, synergies: SynergySet, q: Array, thing: Object | None, touches: Sequence[Touch],
+    title: str, hand: Hand, synergies: SynergySet, q: Array, body: Object | None, touches: Sequence[Touch],
     C_q: Array, C_z: Array,
 ) -> Placed:  # fmt: skip
     """Return the grasp of an object by a hand in a posture.
@@ -68,7 +68,7 @@ def place(
         hand: the hand.
         synergies: its synergy matrix.
         q: (n_q,) joint values [rad].
-        thing: the object; when its position is not finite it is found from the contacts.
+        body: the object; when its position is not finite it is found from the contacts.
         touches: the contacts.
         C_q: (n_q, n_q) joint compliance [rad/(N m)].
         C_z: (n_z, n_z) synergy compliance.
@@ -77,7 +77,7 @@ def place(
         InputError: pads that do not reach the object, or face away from it, or touch it on the same spot; all of them.
     """
     motions = hand.kinematics.at(q, [(touch.pad.link, touch.pad.point) for touch in touches])
-    placed = _position(thing, touches, motions)
+    placed = _position(body, touches, motions)
     contacts, gaps = _contacts(placed, touches, motions)
     moved = [
         moved_to(motion, contact.point + placed.position) for motion, contact in zip(motions, contacts, strict=True)
@@ -108,26 +108,26 @@ def same_spots(names: Sequence[str], points: Sequence[Array]) -> Iterator[tuple[
                 yield later, f"contacts {pair} are on the same spot, {round(1e3 * apart, 6):.2g} mm apart"
 
 
-def _position(thing: Object | None, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> Object:
+def _position(body: Object | None, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> Object:
     """Return the object where it is said to be, or where the contacts put it."""
-    thing = thing or Object("object", 0.0, frozen(np.full(3, np.nan)), None)
-    if np.all(np.isfinite(thing.position)):
-        return thing
+    body = body or Object("object", 0.0, frozen(np.full(3, np.nan)), None)
+    if np.all(np.isfinite(body.position)):
+        return body
     points = np.array([motion.position for motion in motions])
     radii = np.array([touch.pad.radius for touch in touches])
     pushing = np.array([m.rotation @ t.pad.normal for m, t in zip(motions, touches, strict=True)])
-    if isinstance(thing.shape, Sphere):
-        return replace(thing, position=ball_centre(points, thing.shape.radius, radii, pushing.mean(axis=0)))
-    return replace(thing, position=frozen((points + radii[:, None] * pushing).mean(axis=0)))
+    if isinstance(body.shape, Sphere):
+        return replace(body, position=ball_centre(points, body.shape.radius, radii, pushing.mean(axis=0)))
+    return replace(body, position=frozen((points + radii[:, None] * pushing).mean(axis=0)))
 
 
 def _contacts(
-    thing: Object, touches: Sequence[Touch], motions: Sequence[PointMotion]
+    body: Object, touches: Sequence[Touch], motions: Sequence[PointMotion]
 ) -> tuple[tuple[Contact, ...], tuple[float | None, ...]]:
     found, issues = list[tuple[Contact, float | None]](), list[Issue]()
     for touch, motion in zip(touches, motions, strict=True):
         try:
-            found.append(_contact(thing, touch, motion))
+            found.append(_contact(body, touch, motion))
         except InputError as error:
             x, y, z = np.round(1e3 * motion.position, 2) + 0.0  # no -0
             where = f"; the pad is at ({x:g}, {y:g}, {z:g}) mm in the palm frame"
@@ -140,28 +140,28 @@ def _contacts(
     return tuple(contact for contact, _ in found), tuple(gap for _, gap in found)
 
 
-def _contact(thing: Object, touch: Touch, motion: PointMotion) -> tuple[Contact, float | None]:
-    point = motion.position - thing.position
+def _contact(body: Object, touch: Touch, motion: PointMotion) -> tuple[Contact, float | None]:
+    point = motion.position - body.position
     pushing = motion.rotation @ touch.pad.normal
     gap, inward = None, pushing
-    if thing.shape is not None:
-        distance, outward = thing.shape.surface(point)
-        gap, inward = _reached(thing.shape.title, touch, distance - touch.pad.radius), -outward
+    if body.shape is not None:
+        distance, outward = body.shape.surface(point)
+        gap, inward = _reached(body.shape.title, touch, distance - touch.pad.radius), -outward
     elif np.any(point):
         inward = -point / np.linalg.norm(point)
     elif not touch.aimed:
         message = f"pad '{touch.pad.name}' is at the centre of the object; give the contact's normal"
         raise InputError.at(touch.key, message)
-    to_surface = inward if thing.shape is not None or not touch.aimed else pushing
+    to_surface = inward if body.shape is not None or not touch.aimed else pushing
     normal = pushing if touch.normals == "pad" else inward
-    if touch.aimed and not touch.alone(thing) and (normal @ pushing <= 0 or normal @ inward <= 0):
+    if touch.aimed and not touch.alone(body) and (normal @ pushing <= 0 or normal @ inward <= 0):
         angle = np.degrees(np.arccos(np.clip(inward @ pushing, -1, 1)))
         message = f"pad '{touch.pad.name}' faces away from the object ({angle:.0f} deg from the inward normal)"
-        if thing.shape is None:
+        if body.shape is None:
             message += '; if the mass is beyond the pads, write normals = "pad": then each pushes as the pad says'
         raise InputError.at(touch.key, message)
     spot = frozen(point + touch.pad.radius * to_surface)
-    stated = touch.normal_at if touch.alone(thing) and not touch.pad.radius else ""  # a round one would touch elsewhere
+    stated = touch.normal_at if touch.alone(body) and not touch.pad.radius else ""  # a round one would touch elsewhere
     frame = contact_frame(normal)
     return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, frame, stated), gap
 

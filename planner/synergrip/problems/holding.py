@@ -53,15 +53,15 @@ def hand_grasp(file: ProblemFile, folder: Path) -> Grasp:
         palm=table.palm or "",
         key="hand.model",
     )
-    thing = _object(file.object)
+    body = _object(file.object)
     issues, touches = list[Issue](), list[Touch]()
     for contact in file.contact_list():
         try:
-            touches.append(_touch(hand, contact, thing))
+            touches.append(_touch(hand, contact, body))
         except InputError as error:
             issues += error.issues
     if table.close is not None:
-        issues += unknown_surface(thing)
+        issues += unknown_surface(body)
     try:
         synergies = select(hand, table.synergies, "hand.synergies", folder)
         _judge_drives(hand, synergies, table, [touch.pad.link for touch in touches])
@@ -71,9 +71,9 @@ def hand_grasp(file: ProblemFile, folder: Path) -> Grasp:
         raise InputError([*error.issues, *issues]) from None
     raise_issues(issues)
     if direction is not None:
-        q = close(hand, q, direction, thing, touches)
-    placed = place(file.title, hand, synergies, q, thing, touches, C_q, C_z)
-    held = Held(hand, synergies, q, C_q, placed.thing, tuple(touches), placed.gaps)
+        q = close(hand, q, direction, body, touches)
+    placed = place(file.title, hand, synergies, q, body, touches, C_q, C_z)
+    held = Held(hand, synergies, q, C_q, placed.body, tuple(touches), placed.gaps)
     return replace(placed.grasp, held=held)
 
 
@@ -98,14 +98,14 @@ def _state(hand: Hand, table: HandTable, synergies: SynergySet) -> tuple[Array, 
     return q, C_q, C_z
 
 
-def _touch(hand: Hand, contact: ContactSpec, thing: Object) -> Touch:
+def _touch(hand: Hand, contact: ContactSpec, body: Object) -> Touch:
     kind = contact_kind(contact.model)
     stiffness = {"n": contact.stiffness, "m": contact.spin_stiffness}
     each = tuple(stiffness.get(component, contact.tangential_stiffness) for component in kind.components)
     aimed = isinstance(contact.at, str) or contact.at.normal is not None
     return Touch(
         contact.name, _pad(hand, contact), kind, contact.friction, contact.spin_friction,
-        each, contact.normals or ("pad" if thing.shape is None else "object"), contact.key, aimed, _normal_at(contact),
+        each, contact.normals or ("pad" if body.shape is None else "object"), contact.key, aimed, _normal_at(contact),
     )  # fmt: skip
 
 

@@ -49,14 +49,14 @@ class Loads:
     """The same at any time, between the knots too."""
 
 
-def loads(task: TaskTable, folder: Path, mass: float, thing: Object | None = None) -> Loads:
+def loads(task: TaskTable, folder: Path, mass: float, body: Object | None = None) -> Loads:
     """Return what happens in a task.
 
     Args:
         task: the [task] table.
         folder: where its CSV files are looked for.
         mass: of the object [kg].
-        thing: the object where it is, for the load by inertia; without it a point mass at the origin of the palm.
+        body: the object where it is, for the load by inertia; without it a point mass at the origin of the palm.
 
     Raises:
         InputError: a CSV file is broken or does not cover the task; pushes that do not fit into it, or that fall
@@ -69,7 +69,7 @@ def loads(task: TaskTable, folder: Path, mass: float, thing: Object | None = Non
     for key, table in tables.items():
         cover(table, times, f"task.{key}")
     kind, key, wanted = _wanted(task, tables, start, end)
-    profiles = Profiles((*_load(task, tables, start, end, mass, thing), *pushes), wanted)
+    profiles = Profiles((*_load(task, tables, start, end, mass, body), *pushes), wanted)
     wanted_motion = Target(kind, profiles.target_at(times), key)
     return Loads(frozen(times), profiles.load_at(times), wanted_motion, profiles)
 
@@ -106,7 +106,7 @@ def _pushes(task: TaskTable, start: float, end: float) -> list[Push]:
 
 
 def _load(
-    task: TaskTable, tables: dict[str, Table], start: float, end: float, mass: float, thing: Object | None
+    task: TaskTable, tables: dict[str, Table], start: float, end: float, mass: float, body: Object | None
 ) -> list[Profile]:
     """Return the wrenches that act throughout the task: the given one, the weight, the load by inertia."""
     found: list[Profile] = []
@@ -119,7 +119,7 @@ def _load(
         weight = mass * np.array(task.gravity)
         found.append(Weight(frozen(weight), palm) if palm else Constant(frozen([*weight, 0, 0, 0])))
     if palm is not None and task.palm is not None and task.palm.inertia:
-        found.append(inertia(thing, mass, palm))
+        found.append(inertia(body, mass, palm))
     return found
 
 

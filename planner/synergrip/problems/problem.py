@@ -87,8 +87,8 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     file, document = _read(path, overrides)
     issues: list[Issue] = []
     touching = _gather(issues, lambda: _touching(path, file))
-    thing = touching.grasp.held.thing if touching is not None and touching.grasp.held is not None else None
-    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), thing))
+    body = touching.grasp.held.body if touching is not None and touching.grasp.held is not None else None
+    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), body))
     if touching is None or happening is None or issues:
         if touching is not None:
             _gather(issues, lambda: limits_of(file, touching.grasp, touching.limits))

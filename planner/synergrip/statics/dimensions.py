@@ -105,7 +105,7 @@ def _reformed(grasp: Grasp, kind: ContactKind) -> Grasp | None:
         return None
     contacts: tuple[Contact, ...] = tuple(replace(contact, kind=kind) for contact in grasp.contacts)
     motions = held.hand.kinematics.at(held.q, [(touch.pad.link, touch.pad.point) for touch in held.touches])
-    places = [contact.point + held.thing.position for contact in contacts]
+    places = [contact.point + held.body.position for contact in contacts]
     moved = [moved_to(motion, place).jacobian for motion, place in zip(motions, places, strict=True)]
     return _with(grasp, contacts, grasp_matrix(contacts), hand_jacobian(contacts, moved))
 

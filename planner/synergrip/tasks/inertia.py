@@ -40,7 +40,7 @@ class Inertia:
         return marks_of(self.palm)
 
 
-def inertia(thing: Object | None, mass: float, palm: Palm) -> Inertia:
+def inertia(body: Object | None, mass: float, palm: Palm) -> Inertia:
     """Return the inertial load on a placed object; without one, on a point mass at the origin of the palm frame.
 
     Raises:
@@ -52,8 +52,8 @@ def inertia(thing: Object | None, mass: float, palm: Palm) -> Inertia:
     start, end = palm.corners[[0, -1]]
     if end <= start:
         raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {end:g} s")
-    centre = np.zeros(3) if thing is None else thing.position
-    shape = None if thing is None else thing.shape
+    centre = np.zeros(3) if body is None else body.position
+    shape = None if body is None else body.shape
     found = Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
     _judge_size(found)
     return found

@@ -15,13 +15,13 @@ def in_order_document(problem: Problem) -> dict[str, Any]:
     document: dict[str, Any] = {"valid": True, "file": str(problem.path), "title": problem.title}
     held = problem.held
     if held is not None:
-        thing = held.thing
+        body = held.body
         document["posture"] = dict(zip(held.hand.joint_names, held.q.tolist(), strict=True))
-        document["object"] = {"title": thing.title, "mass_kg": thing.mass, "position_m": thing.position.tolist()}
+        document["object"] = {"title": body.title, "mass_kg": body.mass, "position_m": body.position.tolist()}
         document["contacts"] = [
             {
                 "name": contact.name, "link": touch.pad.link, "kind": contact.kind.name,
-                "point_m": (contact.point + thing.position).tolist(), "normal": contact.frame[:, 0].tolist(),
+                "point_m": (contact.point + body.position).tolist(), "normal": contact.frame[:, 0].tolist(),
                 "gap_m": gap, "friction": contact.friction,
             }
             for contact, touch, gap in zip(problem.grasp.contacts, held.touches, held.gaps, strict=True)

@@ -47,8 +47,8 @@ def draw_grasp_synergies(problem: Problem, analysis: Analysis, path: Path) -> No
         raise InputError.at("", message)
     moved = motions(held.hand, held.synergies, held.q, [touch.pad for touch in held.touches], MOST) if held else None
     units = [motion.step.unit for motion in moved.each] if moved else [PLAIN] * min(grasp.n_z, MOST)
-    thing = held.thing if held else Object("object", 0.0, frozen(np.zeros(3)), None)
-    _Picture(problem, analysis, moved, effects(analysis, units), thing).write(path)
+    body = held.body if held else Object("object", 0.0, frozen(np.zeros(3)), None)
+    _Picture(problem, analysis, moved, effects(analysis, units), body).write(path)
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class _Picture:
     analysis: Analysis
     moved: Motions | None
     effects: tuple[Effect, ...]
-    thing: Object
+    body: Object
 
     @property
     def view(self) -> View:
@@ -75,7 +75,7 @@ class _Picture:
         """Return what the panels of the hand show."""
         if self.moved is None:
             return None
-        return window(np.vstack([view.flat(self.moved.points), self._solid(view) + view.flat(self.thing.position)]))
+        return window(np.vstack([view.flat(self.moved.points), self._solid(view) + view.flat(self.body.position)]))
 
     def below(self, view: View) -> Window:
         """Return what the panels of the forces show."""
@@ -85,7 +85,7 @@ class _Picture:
         return window(np.vstack([*(view.flat(points) for points in drawn), self._solid(view)]))
 
     def _solid(self, view: View) -> Array:
-        return outline(self.thing.shape, view) if self.thing.shape else np.zeros((1, 2))
+        return outline(self.body.shape, view) if self.body.shape else np.zeros((1, 2))
 
     def write(self, path: Path) -> None:
         """Lay the panels out, draw them and write the file."""
@@ -98,7 +98,7 @@ class _Picture:
             sheet.write(left + COLUMN / 2, top + 0.2, name, 11, across="center", bold=True)
             if self.moved and above:
                 panel = sheet.panel(left, top + TITLE, COLUMN, above.height, above.middle, above.span)
-                draw_object(panel, view, self.thing, self.thing.position, self.analysis.grasp.contacts)
+                draw_object(panel, view, self.body, self.body.position, self.analysis.grasp.contacts)
                 draw_motion(panel, view, self.moved.rest, self.moved.each[index])
             self._forces(sheet, view, below, index, left, top + upper)
 
@@ -115,6 +115,6 @@ class _Picture:
         sheet.write(left + COLUMN / 2, top + 0.38, second, 9, GREY, across="center")
         panel = sheet.panel(left, top + TITLES, COLUMN, shown.height, shown.middle, shown.span)
         contacts = self.analysis.grasp.contacts
-        draw_object(panel, view, self.thing, np.zeros(3), contacts)
+        draw_object(panel, view, self.body, np.zeros(3), contacts)
         draw_forces(panel, view, contacts, effect.forces, self.normal, ARROW * self.normal)
         draw_numbers(panel, view, contacts, 0.3 * self.normal)

@@ -18,20 +18,20 @@ MOST_TURN = 1.5 * np.pi
 """The arc of the largest spin moment on a panel [rad]."""
 
 
-def draw_object(panel: Panel, view: View, thing: Object, at: Array, contacts: Sequence[Contact]) -> None:
+def draw_object(panel: Panel, view: View, body: Object, at: Array, contacts: Sequence[Contact]) -> None:
     """Draw an object translucent with its lines, its centre at `at` (3,).
 
     A bare mass is a cross in the polygon that its contacts make, taken in the order in which they stand around it.
     """
     near, middle = 5.0 + float(view.depth(at)), view.flat(at)
-    if thing.shape is None:
+    if body.shape is None:
         panel.area(around(view.flat(at + np.array([c.point for c in contacts]))), FAINT, 0.35, near)
         panel.cross(middle, GREY, near)
         return
-    edge = outline(thing.shape, view) + middle
+    edge = outline(body.shape, view) + middle
     panel.area(edge, FAINT, 0.45, near)
     panel.strokes([edge], GREY, 0.9, near)
-    panel.strokes([view.flat(line) + middle for line in lines(thing.shape)], GREY, 0.4, near)
+    panel.strokes([view.flat(line) + middle for line in lines(body.shape)], GREY, 0.4, near)
 
 
 def draw_forces(

@@ -31,14 +31,14 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
     values = [f"{joint.name} {_value(joint.kind, q)}" for joint, q in zip(held.hand.joints, held.q, strict=True)]
     unbroken = " · ".join(value.replace(" ", "\u00a0") for value in values)
     yield from (line.replace("\u00a0", " ") for line in wrapped("posture  ", unbroken))
-    thing = held.thing
-    mass = f", {1e3 * thing.mass:.4g} g" if thing.mass else ""
-    titles = dict.fromkeys([thing.title, *([thing.shape.title] if thing.shape else [])])
-    yield f"object   {', '.join(titles)}{mass}, centre {_triple(1e3 * thing.position, 4)} mm in the palm frame"
+    body = held.body
+    mass = f", {1e3 * body.mass:.4g} g" if body.mass else ""
+    titles = dict.fromkeys([body.title, *([body.shape.title] if body.shape else [])])
+    yield f"object   {', '.join(titles)}{mass}, centre {_triple(1e3 * body.position, 4)} mm in the palm frame"
     yield ""
     rows = [
         (
-            contact.name, touch.pad.link, contact.kind.name, _triple(1e3 * (contact.point + thing.position), 4),
+            contact.name, touch.pad.link, contact.kind.name, _triple(1e3 * (contact.point + body.position), 4),
             _triple(contact.frame[:, 0], 3), "" if gap is None else f"{round(1e3 * gap, 3) + 0.0:.3f}",
             f"{contact.friction:.4g}",
         )

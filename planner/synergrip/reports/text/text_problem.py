@@ -22,8 +22,8 @@ def problem_lines(problem: Problem) -> Iterator[str]:
     contacts = " and ".join(many(n, f"{kind} contact") for kind, n in kinds.items())
     parts = [hand, f"{many(grasp.n_q, 'joint')}, {many(grasp.n_z, 'synergy')}"]
     if held is not None:
-        mass = f", {1e3 * held.thing.mass:.4g} g" if held.thing.mass else ""
-        parts.append((held.thing.shape.title if held.thing.shape else held.thing.title) + mass)
+        mass = f", {1e3 * held.body.mass:.4g} g" if held.body.mass else ""
+        parts.append((held.body.shape.title if held.body.shape else held.body.title) + mass)
     yield "read     " + " · ".join([*parts, contacts])
     yield "task     " + " · ".join(_task(problem))
 
