@@ -63,12 +63,12 @@ def synergy_matrix():
 
 def nearest(body, point):
     """Return the point of the object's surface nearest to a point outside, and the inward normal there."""
-    centre = np.array([metres(text) for text in thing["position"]])
+    centre = np.array([metres(text) for text in body["position"]])
     away = point - centre
-    shape = thing["shape"]
+    shape = body["shape"]
     if "cylinder" in shape:  # the side; its axis is the z axis, turned
-        vector = np.array(thing["orientation"]["axis"])
-        turn = Rotation.from_rotvec(vector / np.linalg.norm(vector) * degrees(thing["orientation"]["angle"]))
+        vector = np.array(body["orientation"]["axis"])
+        turn = Rotation.from_rotvec(vector / np.linalg.norm(vector) * degrees(body["orientation"]["angle"]))
         axis = turn.apply([0.0, 0.0, 1.0])
         along = away @ axis
         assert abs(along) < metres(shape["cylinder"]["height"]) / 2

@@ -268,7 +268,7 @@ def test_a_closing_that_moves_no_pad_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("thing", "keys"),
+    ("body", "keys"),
     [
         (thing_at((0, 0, 0), None), ["object.shape"]),
         (thing_at([math.nan] * 3, Sphere(0.02)), ["object.position"]),

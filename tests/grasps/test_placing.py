@@ -165,7 +165,7 @@ def test_normals_come_from_the_pads_when_asked() -> None:
         assert contact.frame[:, 0] != pytest.approx(toward, abs=0.05)
 
 
-@pytest.mark.parametrize("thing", [None, Object("lump", 0.3, UNKNOWN, None)])
+@pytest.mark.parametrize("body", [None, Object("lump", 0.3, UNKNOWN, None)])
 def test_a_bare_object_sits_in_the_middle_of_its_contacts(body: Object | None) -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04, BELOW)
     touches = [_touch(i, n) for i, n in enumerate(inward)]
