@@ -7,10 +7,12 @@ from elastic_grasp import Course, length_of, normal_forces, slip_margins
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.tasks.task import GoalName, Task
+from synergrip.tasks.timed_task import GoalName, TimedTask
 
 
-def goal_value(name: GoalName, grasp: Grasp, task: Task, found: Course, units: tuple[float, float] = (1, 1)) -> float:
+def goal_value(
+    name: GoalName, grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, float] = (1, 1)
+) -> float:
     """Return what `name` is to make small: forces in N, references in their own units, times in seconds.
 
     `units` of force [N] and of references count in a weighted sum only, where time counts in durations of the task.
@@ -37,7 +39,7 @@ def goal_value(name: GoalName, grasp: Grasp, task: Task, found: Course, units: t
     return _squares(value[name])
 
 
-def _weighted(grasp: Grasp, task: Task, found: Course, units: tuple[float, float]) -> float:
+def _weighted(grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, float]) -> float:
     force, reference = units
     duration, knots = float(task.times[-1] - task.times[0]), len(task.times)
     sizes = {

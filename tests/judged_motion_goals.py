@@ -33,13 +33,13 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import GoalName, Task
+from synergrip.tasks.timed_task import GoalName, TimedTask
 
 GOALS: tuple[GoalName, ...] = ("references", "travel", "smooth")
 SAME = 1e-4
 
 
-def smaller(grasp: Grasp, task: Task, factor: float) -> tuple[Grasp, Task]:
+def smaller(grasp: Grasp, task: TimedTask, factor: float) -> tuple[Grasp, TimedTask]:
     """The same question with references `factor` times as large."""
     changed = replace(grasp, S=frozen(grasp.S / factor), C_z=frozen(grasp.C_z * factor**2))
     return changed, replace(task, limits=tuple(_changed(limit, factor) for limit in task.limits))

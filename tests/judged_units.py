@@ -26,7 +26,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 CAPS = (1.0, 1e3, 1e6, 1e9)
 LOADS = (1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6)
@@ -34,14 +34,14 @@ SAME = 1e-6
 """Of the load, or of the largest contact force."""
 
 
-def capped(task: Task, upper: float) -> Task:
+def capped(task: TimedTask, upper: float) -> TimedTask:
     """The task with another largest normal force [N]."""
     rest = [limit for limit in task.limits if not isinstance(limit, NormalForce)]
     lower = max((limit.lower for limit in task.limits if isinstance(limit, NormalForce)), default=0.0)
     return replace(task, limits=(NormalForce(lower, upper), *rest))
 
 
-def in_units(grasp: Grasp, task: Task, factor: float) -> tuple[Grasp, Task]:
+def in_units(grasp: Grasp, task: TimedTask, factor: float) -> tuple[Grasp, TimedTask]:
     """The same question with every force and every motion multiplied by a factor."""
     lambda_0 = None if grasp.lambda_0 is None else frozen(factor * grasp.lambda_0)
     wanted = replace(task.target, values=frozen(factor * task.target.values))
@@ -60,7 +60,7 @@ def _times(limit: Limit, factor: float) -> Limit:
     return replace(limit, limit=frozen(factor * limit.limit))  # type: ignore[type-var, call-arg, attr-defined]
 
 
-def ways(grasp: Grasp, task: Task, base: Outcome) -> dict[str, tuple[Grasp, Task, float]]:
+def ways(grasp: Grasp, task: TimedTask, base: Outcome) -> dict[str, tuple[Grasp, TimedTask, float]]:
     """The same question asked in other ways, each with its factor of forces."""
     found = {f"loads {factor:g}": (*in_units(grasp, task, factor), factor) for factor in LOADS}
     if isinstance(base, Plan):

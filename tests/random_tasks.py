@@ -22,14 +22,14 @@ from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
-from synergrip.tasks.task import GoalName, Target, Task, still
+from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 RADIUS = 0.02  # [m] of the object
 LEVER = 0.05  # [m] from a joint to its contact
 
 
-def random_task_on_grasp(rng: np.random.Generator) -> tuple[Grasp, Task]:
+def random_task_on_grasp(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     """A grasp that can squeeze and a task on it; a third asks for 0.99 to 1.01 times the largest margin there is."""
     grasp = hand_like_grasp(rng)
     task = _task(rng, grasp)
@@ -113,7 +113,7 @@ def _wrench(rng: np.random.Generator, size: float) -> Array:
     return np.r_[size * force / np.linalg.norm(force), 0.2 * RADIUS * size * rng.normal(size=3)]
 
 
-def _task(rng: np.random.Generator, grasp: Grasp) -> Task:
+def _task(rng: np.random.Generator, grasp: Grasp) -> TimedTask:
     knots = int(rng.choice([1, 2, 3, 5], p=[0.4, 0.3, 0.2, 0.1]))
     times = frozen(np.cumsum(rng.uniform(0.1, 0.4, knots)))
     load = rng.uniform(0.5, 5.0)
@@ -124,7 +124,7 @@ def _task(rng: np.random.Generator, grasp: Grasp) -> Task:
     dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
     if dimension and rng.uniform() < 0.6:
         wanted = Target("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
-    return Task(times, wrench, wanted, 0.1, _limits(rng, grasp, load), (goal,))
+    return TimedTask(times, wrench, wanted, 0.1, _limits(rng, grasp, load), (goal,))
 
 
 def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit, ...]:
@@ -150,7 +150,7 @@ def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit,
     return tuple(limits)
 
 
-def _largest_margin(grasp: Grasp, task: Task) -> float | None:
+def _largest_margin(grasp: Grasp, task: TimedTask) -> float | None:
     """The largest margin [N] of a task, by the direct path; None when the other limits cannot be kept."""
     analysis = analyse(grasp)
     formulation = formulate(
@@ -162,7 +162,7 @@ def _largest_margin(grasp: Grasp, task: Task) -> float | None:
     return float(answered.decision.solution.x[-1]) * unit if answered.decision.optimal else None
 
 
-def moving_random_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
+def moving_random_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     """A random task on a grasp over five uneven knots, its load and its modes changing all the time."""
     grasp, task = random_task_on_grasp(rng)
     times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 5)))

@@ -26,7 +26,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.task import GoalName, Target, Task, still
+from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
 
 ORDERS: tuple[tuple[GoalName, ...], ...] = (
     ("effort",), ("torque",), ("actuator",), ("margin",), ("peak_force",), ("references",), ("travel",), ("smooth",),
@@ -42,7 +42,7 @@ MOTION = 1e-3
 """Size of the wanted motions [m]."""
 
 
-def random_trajectory(seed: int, knots: int) -> tuple[Grasp, Task]:
+def random_trajectory(seed: int, knots: int) -> tuple[Grasp, TimedTask]:
     """A hand-like grasp and a task over `knots` instants; goals take turns with the seed."""
     rng = np.random.default_rng(seed)
     for _ in range(3):  # most are to fail, if at all, by what limits ask for
@@ -53,7 +53,7 @@ def random_trajectory(seed: int, knots: int) -> tuple[Grasp, Task]:
     return grasp, task
 
 
-def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, Task]:
+def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, TimedTask]:
     """A grasp, its load, the motion wanted of it and the goal, with little to limit them."""
     grasp = _grasp(rng)
     duration = rng.uniform(0.5, 4.0)
@@ -66,7 +66,7 @@ def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, Task]
     order = ORDERS[seed % len(ORDERS)]
     start = rng.uniform(-0.5, 0.5, grasp.n_q)
     room = rng.uniform(0.3, 1.5, (2, grasp.n_q))
-    task = Task(
+    task = TimedTask(
         times, frozen(wrench), still(times), float(rng.choice([0.0, 0.05, 0.2])) * load,
         (NormalForce(0.0, 30 * load), JointTorque(frozen(np.full(grasp.n_q, 10 * LEVER * load)))), order,
         weights=WEIGHTS[seed % len(WEIGHTS)] if "weighted" in order else {},
@@ -99,7 +99,7 @@ def _wrench(rng: np.random.Generator, times: Array, load: float) -> Array:
     return np.hstack([force, 0.1 * LEVER * load * smooth(rng, times, 3)])
 
 
-def _tracked(rng: np.random.Generator, analysis: Analysis, task: Task) -> Task:
+def _tracked(rng: np.random.Generator, analysis: Analysis, task: TimedTask) -> TimedTask:
     """The task with a wanted motion: rigid along modes or a motion, on some axes only, or of the whole object."""
     times, basis = task.times, analysis.spaces.Gamma_ucs
     course = smooth(rng, times, basis.shape[1])
@@ -125,7 +125,7 @@ def _tracked(rng: np.random.Generator, analysis: Analysis, task: Task) -> Task:
     )  # fmt: skip
 
 
-def _limits(rng: np.random.Generator, task: Task, easy: Plan) -> tuple[Limit, ...]:
+def _limits(rng: np.random.Generator, task: TimedTask, easy: Plan) -> tuple[Limit, ...]:
     """Some of all limits, each around what the least effort uses of it."""
     grasp = easy.analysis.grasp
     motion, h = easy.motion, np.diff(task.times)[:, None]
@@ -163,7 +163,7 @@ def _around(rng: np.random.Generator, used: Array) -> Array:
     return frozen(bounds)
 
 
-def _range(rng: np.random.Generator, task: Task, dq: Array) -> JointRange:
+def _range(rng: np.random.Generator, task: TimedTask, dq: Array) -> JointRange:
     """The ranges of the hand, drawn close around what the joints do."""
     assert task.ranges is not None
     start, more = task.ranges.start, 1.1 * _more(rng)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from synergrip.statics import subspaces as subspaces
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
-    from synergrip.tasks.task import Task as Task
+    from synergrip.tasks.timed_task import TimedTask as TimedTask
 
 __version__ = "0.1.0"
 
@@ -45,7 +45,7 @@ _HOMES = {
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
     "statics.analysis": ("Analysis", "analyse"),
-    "tasks.task": ("Task",),
+    "tasks.timed_task": ("TimedTask",),
     "problems.problem": ("Problem", "load_problem"),
     "planning.outcome": ("Plan", "Infeasible", "Unknown"),
     "planning.planning": ("plan",),

@@ -33,13 +33,13 @@ from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.pyramids import Comparison, compare, requested
-from synergrip.tasks.task import Task, still
+from synergrip.tasks.timed_task import TimedTask, still
 
 FACETS = (4, 8, 16)
-Maker = Callable[[np.random.Generator], tuple[Grasp, Task]]
+Maker = Callable[[np.random.Generator], tuple[Grasp, TimedTask]]
 
 
-def free_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
+def free_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     """Four contacts anywhere on a sphere, every force controllable, and a load of 1 N."""
     contacts = []
     for i in range(4):
@@ -56,10 +56,10 @@ def free_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
     force = rng.normal(size=3)
     wrench = np.r_[force / np.linalg.norm(force), 0.2 * RADIUS * rng.normal(size=3)][None]
     times = frozen(np.zeros(1))
-    return grasp, Task(times, frozen(wrench), still(times), 0.0, (), ("peak_force",))
+    return grasp, TimedTask(times, frozen(wrench), still(times), 0.0, (), ("peak_force",))
 
 
-def hand_task(rng: np.random.Generator) -> tuple[Grasp, Task]:
+def hand_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     """A task of a hand with few synergies, for the least peak force."""
     grasp, task = random_task_on_grasp(rng)
     return grasp, replace(task, order=("peak_force",))

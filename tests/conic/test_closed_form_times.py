@@ -20,7 +20,7 @@ from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import GoalName, Target, Task, still
+from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
 
 COMPLIANCE = 1e-3  # [m/N] of each contact of the pinch: n = dz_r / COMPLIANCE
 MU, MARGIN = 0.5, 0.3
@@ -54,7 +54,7 @@ def asked(times: Array, weight: Array, goals: tuple[GoalName, ...], *limits: obj
     """Plan a pinch under a weight (T,) over time."""
     wrench = np.zeros((len(times), 6))
     wrench[:, 2] = -weight
-    return plan(pinch(MU), Task(frozen(times), frozen(wrench), still(times), margin, limits, goals))  # type: ignore[arg-type]
+    return plan(pinch(MU), TimedTask(frozen(times), frozen(wrench), still(times), margin, limits, goals))  # type: ignore[arg-type]
 
 
 def squeeze(outcome: Outcome) -> Array:
@@ -178,7 +178,7 @@ def test_an_object_is_carried_by_the_squeeze_that_its_softer_side_gives_way_to()
     times = np.linspace(0, 2, 41)
     wanted = np.zeros((41, 6))
     wanted[:, 0] = 12e-3 * np.sin(np.pi * times / 4) ** 2
-    task = Task(
+    task = TimedTask(
         frozen(times), frozen(np.zeros((41, 6))), Target("motion", frozen(wanted)), MARGIN, (NormalForce(0.0, 50.0),),
         ("effort",), tolerance=tolerance, tracking="compliant", axes=("x",),
     )  # fmt: skip

@@ -17,13 +17,13 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import Task, still
+from synergrip.tasks.timed_task import TimedTask, still
 
 
-def task(wrench: Array, margin: float, goal: str, *limits) -> Task:
+def task(wrench: Array, margin: float, goal: str, *limits) -> TimedTask:
     w = np.atleast_2d(np.asarray(wrench, dtype=float))
     times = np.linspace(0, 1, len(w)) if len(w) > 1 else np.zeros(1)
-    return Task(times, w, still(times), margin, limits, (goal,))
+    return TimedTask(times, w, still(times), margin, limits, (goal,))
 
 
 def planned(*args) -> Plan:

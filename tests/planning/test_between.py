@@ -19,7 +19,7 @@ from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.statics.motion import forward
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.task import Task, still
+from synergrip.tasks.timed_task import TimedTask, still
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Swinging:
         return Marks(curved=((float(self.spline.x[0]), float(self.spline.x[-1])),))
 
 
-def swinging(seed: int, goal: str) -> tuple[Grasp, Task]:
+def swinging(seed: int, goal: str) -> tuple[Grasp, TimedTask]:
     rng = np.random.default_rng(seed)
     grasp, task = random_task_on_grasp(rng)
     times = frozen(np.cumsum(rng.uniform(0.1, 0.4, 6)))

@@ -19,7 +19,7 @@ from synergrip.planning.references import References, read_references
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import plan_csv, write_outcome
-from synergrip.tasks.task import Target
+from synergrip.tasks.timed_task import Target
 
 TRIPOD = (
     "tripod", "goal={minimise='effort'}", "limits={margin='1 N', normal_force='20 N', joint_torque=4}",

@@ -18,7 +18,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 ORDERS = [
     ("margin", "effort", "travel"),
@@ -35,7 +35,7 @@ ORDERS = [
 WEIGHTS = {"effort": 1.0, "torque": 0.3, "smooth": 1e-3}
 
 
-def task_of(seed: int, order: tuple[str, ...]) -> tuple[Grasp, Task]:
+def task_of(seed: int, order: tuple[str, ...]) -> tuple[Grasp, TimedTask]:
     """A random task over five uneven knots, without limits that forbid it."""
     rng = np.random.default_rng(seed)
     grasp, task = moving_random_task(rng)

@@ -20,10 +20,10 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Target, Task
+from synergrip.tasks.timed_task import Target, TimedTask
 
 
-def moving_task(seed: int) -> tuple[Grasp, Task]:
+def moving_task(seed: int) -> tuple[Grasp, TimedTask]:
     """A random task over several knots, with limits on motion and, for two seeds in three, other tracking."""
     rng = np.random.default_rng(seed)
     grasp, task = moving_random_task(rng)

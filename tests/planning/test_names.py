@@ -27,7 +27,7 @@ from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.plan_files import plan_csv
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Task, still
+from synergrip.tasks.timed_task import TimedTask, still
 
 TIMES = np.array([0.0, 0.1, 0.2])
 WEIGHT = np.array([0, 0, -1.0, 0, 0, 0])
@@ -58,7 +58,7 @@ def named(names: list[str]) -> Grasp:
 
 def asked(grasp: Grasp, margin: float, *limits: Limit, solver: str = "clarabel") -> Outcome:
     wrench = WEIGHT * np.array([0.0, 1.0, 0.5])[:, None]
-    task = Task(TIMES, wrench, still(TIMES), margin, limits, ("effort",))
+    task = TimedTask(TIMES, wrench, still(TIMES), margin, limits, ("effort",))
     return plan(grasp, task, SOLVERS[solver])
 
 
@@ -106,7 +106,7 @@ def test_a_contact_named_object_is_no_drift_of_the_object() -> None:
     grasp = named(["object", "b", "c"])
     drift = ObjectError(1e-3, ("x", "y"))
     analysis = analyse(grasp, np.zeros((3, 6)))
-    task = Task(TIMES, np.zeros((3, 6)), still(TIMES), 0.0, (drift,), ("effort",))
+    task = TimedTask(TIMES, np.zeros((3, 6)), still(TIMES), 0.0, (drift,), ("effort",))
     formulation = formulated(analysis, task, redundancy=True)
     (rows,) = drift.rows(formulation)
     assert rows.dim == 3

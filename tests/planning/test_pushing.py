@@ -20,7 +20,7 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import GoalName, Task, still
+from synergrip.tasks.timed_task import GoalName, TimedTask, still
 
 
 def slippery(rng: np.random.Generator, grasp: Grasp) -> Grasp:
@@ -88,7 +88,7 @@ def test_little_friction_takes_a_hard_squeeze_and_no_more(mu: float, goal: GoalN
     """Without a limit on forces, a weight W and a margin m take n = (W / 2 + m) / mu of each of two fingers."""
     fingers = [touch(name, "soft", [x, 0, 0], [-x, 0, 0], mu) for name, x in (("left", -0.02), ("right", 0.02))]
     times = frozen([0.0])
-    task = Task(times, frozen([[0, 0, -2.943, 0, 0, 0]]), still(times), 0.5, (), (goal,))
+    task = TimedTask(times, frozen([[0, 0, -2.943, 0, 0, 0]]), still(times), 0.5, (), (goal,))
     outcome = plan(driven(fingers), task)
     assert isinstance(outcome, Plan)
     assert outcome.motion.forces[:, [0, 4]] == pytest.approx((2.943 / 2 + 0.5) / mu, rel=1e-5)

@@ -22,7 +22,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.pyramids import Comparison, Request, compare, requested
 from synergrip.problems.problem import load_problem
-from synergrip.tasks.task import GoalName
+from synergrip.tasks.timed_task import GoalName
 
 
 def planned(seeds: range, goal: GoalName, kinds: tuple[str, ...] = ("hard", "soft")) -> Iterator[Plan]:

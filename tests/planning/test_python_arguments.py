@@ -16,18 +16,18 @@ from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.task import Target, Task, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 
 TIMES = np.linspace(0.0, 1.0, 3)
 WEIGHT = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
 
 
-def task(**changes: Any) -> Task:
+def task(**changes: Any) -> TimedTask:
     given: dict[str, Any] = {
         "times": TIMES, "wrench": np.tile(WEIGHT, (3, 1)), "target": still(TIMES), "margin": 0.1,
         "limits": (NormalForce(0.0, 50.0),), "order": ("effort",),
     }  # fmt: skip
-    return Task(**(given | changes))
+    return TimedTask(**(given | changes))
 
 
 def refusal(call: Any, **changes: Any) -> tuple[str, str]:

@@ -34,7 +34,7 @@ from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 COUNT, CHUNK = 40, 8
 ONE_FOR_ALL: dict[str, Callable[[Grasp, float], Limit]] = {
@@ -102,7 +102,7 @@ def test_least_references_leave_nothing_open_to_any_other_goal() -> None:
     assert [decision.goal for decision in outcome.decisions] == ["least motion"]
 
 
-def _coupled(task: Task) -> bool:
+def _coupled(task: TimedTask) -> bool:
     """Whether one knot of the program speaks of another."""
     keys, goals = {limit.key for limit in task.limits}, {task.goal, *task.weights}
     return bool(keys & {"limits.synergy_rate", "limits.synergy_acceleration"} or goals & {"travel", "smooth"})

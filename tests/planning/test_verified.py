@@ -15,7 +15,7 @@ from synergrip.planning.planning import plan
 from synergrip.planning.stages import Stage
 from synergrip.planning.verified import identities, verified_plan
 from synergrip.problems.problem import load_problem
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 
 def tripod() -> Plan:
@@ -45,7 +45,7 @@ def test_a_broken_motion_fails(name: str, size: float, broken: set[str]) -> None
 
 def test_a_plan_that_breaks_a_limit_never_gets_out() -> None:
     outcome = tripod()
-    task: Task = replace(outcome.task, margin=outcome.margins.min() + 0.1)
+    task: TimedTask = replace(outcome.task, margin=outcome.margins.min() + 0.1)
     with pytest.raises(SelfCheckError, match="slip margin"):
         verified_plan(task, outcome.analysis, Stage(outcome.formulation, (), LeastEffort(), outcome.decisions), None)
 

@@ -34,14 +34,14 @@ from synergrip.planning.stages import LOOSE
 from synergrip.referee.judge import referee, solve
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
-from synergrip.tasks.task import Task, still
+from synergrip.tasks.timed_task import TimedTask, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 REDUNDANT = (89, 130, 146, 213, 296)
 """Seeds whose reference limits force the plan to use its redundancy."""
 
 
-def _task(seed: int) -> tuple[Formulation, Task]:
+def _task(seed: int) -> tuple[Formulation, TimedTask]:
     grasp, task = random_task_on_grasp(np.random.default_rng(seed))
     analysis = analyse(grasp)
     return formulate(
@@ -152,7 +152,7 @@ def test_frictionless_contacts_are_known() -> None:
     grasp = random_grasp(np.random.default_rng(3), kinds=["hard", "soft", "frictionless", "hard"], n_q=8, n_z=5)
     times = frozen([0.5])
     limits = (NormalForce(-20.0, 20.0), JointTorque(frozen(np.full(8, 2.0))))
-    task = Task(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, ("margin",))
+    task = TimedTask(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, ("margin",))
     outcome, second = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
     assert outcome.verdict == second.verdict == referee(analyse(grasp), task).verdict
 
@@ -197,7 +197,7 @@ def test_a_program_of_another_question_is_refused() -> None:
 def test_an_unbounded_margin_is_claimed_as_such() -> None:
     grasp = hand_like_grasp(np.random.default_rng(0))
     times = frozen([0.5])
-    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), ("margin",))
+    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), ("margin",))
     analysis = analyse(grasp)
     formulation = formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=task.wrench,

@@ -16,7 +16,7 @@ from synergrip.linalg import frozen
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.task import Target, Task, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 
 
 def test_the_referee_judges_wanted_motions() -> None:
@@ -53,7 +53,7 @@ def test_the_referee_equals_a_closed_form() -> None:
     )  # fmt: skip
     times = frozen([1.0])
     torque = JointTorque(frozen([0.2, 0.3, 0.4]))
-    task = Task(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), ("margin",))
+    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), ("margin",))
     answer = referee(analyse(grasp), task)
     assert answer.verdict == "feasible"
     assert answer.largest_margin == pytest.approx(0.5 * 0.2 / 0.05, rel=1e-8)

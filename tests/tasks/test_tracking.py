@@ -17,7 +17,7 @@ from synergrip.planning.planning import plan
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.task import Target, Task, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 LENGTH = 0.04
@@ -30,7 +30,7 @@ def _tripod() -> tuple[Problem, Analysis]:
     return problem, analyse(problem.grasp)
 
 
-def _task(values: object, kind: str = "motion", tolerance: float = 0.0) -> Task:
+def _task(values: object, kind: str = "motion", tolerance: float = 0.0) -> TimedTask:
     """A task whose knots are the rows of `values`, under no load."""
     wanted = frozen(values)
     count = len(wanted)

@@ -23,13 +23,13 @@ from synergrip.planning.references import References
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.text.text_plan import verdict_lines
-from synergrip.tasks.task import GoalName, Task, still
+from synergrip.tasks.timed_task import GoalName, TimedTask, still
 
 
-def asked(goal: GoalName, *limits: Limit, load: float = 1.0, margin: float = 0.0) -> Task:
+def asked(goal: GoalName, *limits: Limit, load: float = 1.0, margin: float = 0.0) -> TimedTask:
     """Hold a weight [N] at one instant."""
     times = frozen([0.0])
-    return Task(times, frozen([[0, 0, -load, 0, 0, 0]]), still(times), margin, limits, (goal,))
+    return TimedTask(times, frozen([[0, 0, -load, 0, 0, 0]]), still(times), margin, limits, (goal,))
 
 
 def tripod() -> Grasp:

@@ -12,7 +12,7 @@ from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""
@@ -52,7 +52,7 @@ class Between:
         return max(usage.violation for usage in self.usages)
 
 
-def between(task: Task, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:
+def between(task: TimedTask, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:
     """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
     intersample = formulation.intersample or intersample_of(task, analysis)
     if intersample is None:

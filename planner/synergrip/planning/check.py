@@ -22,7 +22,7 @@ from synergrip.planning.verified import between_checks, identities, limit_checks
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.marks import SAME_TIME, distinct
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 
 TRACKED = 1e-6
@@ -33,7 +33,7 @@ TRACKED = 1e-6
 class Judgement:
     """What becomes of given references in a task."""
 
-    task: Task
+    task: TimedTask
     """At the knots of both."""
     analysis: Analysis
     formulation: Formulation
@@ -57,7 +57,7 @@ class Judgement:
         return 0 if self.verdict == "feasible" else 1
 
 
-def judge_references(grasp: Grasp, task: Task, references: References) -> Judgement:
+def judge_references(grasp: Grasp, task: TimedTask, references: References) -> Judgement:
     """Judge references against a task at the knots of both, linear in between, where the load is as it is.
 
     Between the knots of both what happens is looked at as in a plan; limits there count when the task holds them.
@@ -74,7 +74,7 @@ def judge_references(grasp: Grasp, task: Task, references: References) -> Judgem
     return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
 
 
-def _claims(judged: Judgement, task: Task, references: References) -> Claims:
+def _claims(judged: Judgement, task: TimedTask, references: References) -> Claims:
     """Return what becomes of the claims of a file, at its own knots."""
     if not references.claimed:
         return Claims()
@@ -89,7 +89,7 @@ def _claims(judged: Judgement, task: Task, references: References) -> Claims:
     return compared(references.inside(chosen), expected, sizes, references.unchanged)
 
 
-def _judged(analysis: Analysis, task: Task, references: References, times: Array) -> Judgement:
+def _judged(analysis: Analysis, task: TimedTask, references: References, times: Array) -> Judgement:
     """Judge references at some knots and between them; what the file claims is another matter."""
     there = _at(task, times)
     formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
@@ -103,7 +103,7 @@ def _judged(analysis: Analysis, task: Task, references: References, times: Array
     return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
 
 
-def _tracking(task: Task, times: Array, reached: Array, formulation: Formulation) -> Check:
+def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Check:
     """Judge the rigid motion as far as the wanted motion fixes it.
 
     At the knots of the task it is as wanted. Between them it may go as straight as a plan does, or follow.
@@ -115,7 +115,7 @@ def _tracking(task: Task, times: Array, reached: Array, formulation: Formulation
     return Check("rigid motion [m]", max(float(off.max(initial=0.0)), 0.0), max(task.tolerance, TRACKED))
 
 
-def _common_times(task: Task, references: References) -> Array:
+def _common_times(task: TimedTask, references: References) -> Array:
     first, last = float(references.times[0]), float(references.times[-1])
     start, end = float(task.times[0]), float(task.times[-1])
     slack = SAME_TIME * max(end, 1.0)
@@ -125,13 +125,13 @@ def _common_times(task: Task, references: References) -> Array:
     return frozen(distinct(np.concatenate([task.times, inside])))
 
 
-def _inside(times: Array, task: Task) -> Array:
+def _inside(times: Array, task: TimedTask) -> Array:
     """Return which times (T,) of a plan lie in the task."""
     slack = SAME_TIME * max(float(task.times[-1]), 1.0)
     return np.asarray((times >= task.times[0] - slack) & (times <= task.times[-1] + slack))
 
 
-def _at(task: Task, times: Array) -> Task:
+def _at(task: TimedTask, times: Array) -> TimedTask:
     """Return the task at other knots: loads and wishes as they are there."""
     values, wrench = (interpolated(times, task.times, values) for values in (task.target.values, task.wrench))
     if task.course is not None and not np.array_equal(times, task.times):
@@ -140,7 +140,7 @@ def _at(task: Task, times: Array) -> Task:
     return replace(task, times=times, wrench=frozen(wrench), target=replace(task.target, values=frozen(values)))
 
 
-def _within_reach(analysis: Analysis, task: Task) -> Task:
+def _within_reach(analysis: Analysis, task: TimedTask) -> TimedTask:
     """Return the task with a tolerance that refuses no wish: between its own knots it may be whatever it is."""
     if task.tracking == "compliant":
         return task

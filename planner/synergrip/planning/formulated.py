@@ -5,11 +5,11 @@ from __future__ import annotations
 from synergrip.conic.formulation import Formulation, formulate
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.scaling import expected_units, units_of
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import followed
 
 
-def formulated(analysis: Analysis, task: Task, *, redundancy: bool) -> Formulation:
+def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Formulation:
     """Return what the program's unknowns mean in a task, at its knots.
 
     Args:

@@ -11,7 +11,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS, Answerer
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class FrontPoint:
     plan: Plan
 
 
-def largest(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
+def largest(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
     """Return the plan with the largest margin that the limits of a task allow, or why there is none.
 
     Raises:

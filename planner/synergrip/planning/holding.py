@@ -9,10 +9,12 @@ from synergrip.conic.formulation import Formulation
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.statics.analysis import Analysis
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 
-def held(task: Task, analysis: Analysis, formulation: Formulation, answer: Callable[[Formulation], Outcome]) -> Outcome:
+def held(
+    task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Callable[[Formulation], Outcome]
+) -> Outcome:
     """Return the answer to a task, whose limits are also kept between the knots when it says so.
 
     At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at

@@ -9,14 +9,14 @@ from synergrip.conic.intersample import Intersample, Looks, samples_for, shares
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.marks import SAME_TIME, Jump, Marks
-from synergrip.tasks.task import Course, Task
+from synergrip.tasks.timed_task import Course, TimedTask
 from synergrip.tasks.tracking import target_displacement
 
 SAME = 1e-12
 """Relative size of what is no difference between two loads or wishes."""
 
 
-def intersample_of(task: Task, analysis: Analysis) -> Intersample | None:
+def intersample_of(task: TimedTask, analysis: Analysis) -> Intersample | None:
     """Return what load and wish do between the knots; None when there is nothing between them, or no more is known."""
     if task.course is None or len(task.times) < 2:
         return None
@@ -35,14 +35,14 @@ def intersample_of(task: Task, analysis: Analysis) -> Intersample | None:
     return Intersample(grid, corner, pieces, samples, _looked_at(task, task.course, inner, analysis))
 
 
-def _looked_at(task: Task, course: Course, times: Array, analysis: Analysis) -> Looks:
+def _looked_at(task: TimedTask, course: Course, times: Array, analysis: Analysis) -> Looks:
     """Return load and wish at any instants."""
     load = course.load_at(times)
     wrench = interpolated(times, task.times, task.wrench) if load is None else load
     return Looks(frozen(times), frozen(wrench), target_displacement(analysis, task, course.target_at(times)))
 
 
-def _corners(task: Task, course: Course, marks: Marks, analysis: Analysis) -> tuple[Looks, NDArray[np.intp]]:
+def _corners(task: TimedTask, course: Course, marks: Marks, analysis: Analysis) -> tuple[Looks, NDArray[np.intp]]:
     """Return the corners within the task, and whether each is just before an instant (-1), at it (0), or after (1)."""
     first, last = float(task.times[0]), float(task.times[-1])
     inside = np.unique(marks.corners[(marks.corners > first) & (marks.corners < last)])

@@ -15,7 +15,7 @@ from synergrip.linalg import Array
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Check:
 class Plan:
     """A verified answer: references to send, and all that follows from them."""
 
-    task: Task
+    task: TimedTask
     analysis: Analysis
     formulation: Formulation
     motion: Motion
@@ -73,7 +73,7 @@ class Plan:
 class Infeasible:
     """A proof that no plan exists."""
 
-    task: Task
+    task: TimedTask
     analysis: Analysis | None
     """None when the grasp does not restrain the object."""
     stage: str
@@ -100,7 +100,7 @@ class Infeasible:
 class Unknown:
     """Nothing could be verified either way."""
 
-    task: Task
+    task: TimedTask
     analysis: Analysis
     why: str
     decisions: tuple[Decision, ...]

@@ -30,13 +30,13 @@ from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.goals import goals_of, unasked_goals
 from synergrip.tasks.scaling import caps, grips
-from synergrip.tasks.task import Task, unbounded
+from synergrip.tasks.timed_task import TimedTask, unbounded
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""
 
 
-def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
+def plan(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
     """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 
     Raises:
@@ -65,7 +65,7 @@ def plan(grasp: Grasp, task: Task, solver: Answerer = SOLVERS["clarabel"]) -> Ou
         return Unknown(task, analysis, str(doubt), decisions)
 
 
-def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
+def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
     certificate = refusal_certificate(grasp, task, analysis, refusal)
     if not certificate.verified:
         raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
@@ -75,7 +75,7 @@ def _refused(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refus
 class _Planner:
     """The first goal, which says whether there is a plan at all, and why not; the others follow by `stages`."""
 
-    def __init__(self, task: Task, analysis: Analysis, formulation: Formulation, solver: Answerer) -> None:
+    def __init__(self, task: TimedTask, analysis: Analysis, formulation: Formulation, solver: Answerer) -> None:
         self.task, self.analysis, self.formulation, self.solver = task, analysis, formulation, solver
         self.decisions: list[Decision] = []
 

@@ -36,7 +36,7 @@ from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.planning.stages import Stage, through
 from synergrip.planning.verified import verified_plan
 from synergrip.tasks.goals import goals_of, unasked_goals
-from synergrip.tasks.task import EFFORTS
+from synergrip.tasks.timed_task import EFFORTS
 
 MOST = 64
 """Facets: a pyramid of 64 is 0.12 % narrower than its cone, at most, and 64 rows for each contact and knot."""

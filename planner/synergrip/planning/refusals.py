@@ -11,11 +11,11 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.statics.analysis import Analysis
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import RIGID_TOLERANCE, apart_by
 
 
-def refusal_certificate(grasp: Grasp, task: Task, analysis: Analysis | None, refusal: Refusal) -> Certificate:
+def refusal_certificate(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: Refusal) -> Certificate:
     """Return the verified proof behind a refusal; not verified when the numbers do not bear it out."""
     scale = scale_of(grasp)
     if isinstance(refusal, NotRestrainedError):
@@ -40,7 +40,7 @@ def _free(grasp: Grasp, scale: Scale, twists: Array) -> Certificate:
     return Certificate("infeasible", bool(leak <= 10 * RANK_TOLERANCE and np.all(lengths > 0.5)), leak, 0.0, -1.0)
 
 
-def _outside(task: Task, analysis: Analysis, scale: Scale, refusal: MotionDirectionError) -> Certificate:
+def _outside(task: TimedTask, analysis: Analysis, scale: Scale, refusal: MotionDirectionError) -> Certificate:
     """Verify that a direction is orthogonal to what the synergies can move rigidly, and that the wish has a part in it.
 
     Every rigid motion u of the object that the synergies follow has ``G'u`` in the range of J S. The direction

@@ -14,14 +14,14 @@ from synergrip.grasps.facing import away
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 EVERY_SET = 5
 """Up to so many stated normals every set of them is tried; of more, each by itself, all of them, and those that point
 away from the middle of the contacts."""
 
 
-def with_hint(outcome: Outcome, plan_again: Callable[[Grasp, Task], Outcome]) -> Outcome:
+def with_hint(outcome: Outcome, plan_again: Callable[[Grasp, TimedTask], Outcome]) -> Outcome:
     """Return the outcome; a no that reversed normals would turn into a yes says which, and where they are stated.
 
     Only normals that a user states are reversed: those that follow from a surface cannot be wrong. The yes is that of
@@ -70,14 +70,14 @@ def _choices(contacts: Sequence[Contact]) -> list[tuple[int, ...]]:
     return sorted(sets, key=lambda chosen: (sum(outward != np.isin(range(len(contacts)), chosen)), len(chosen), chosen))
 
 
-def _holds(grasp: Grasp, task: Task, plan_again: Callable[[Grasp, Task], Outcome]) -> bool:
+def _holds(grasp: Grasp, task: TimedTask, plan_again: Callable[[Grasp, TimedTask], Outcome]) -> bool:
     try:
         return isinstance(plan_again(grasp, task), Plan)
     except SynergripError:  # what is only tried must not spoil the answer
         return False
 
 
-def _at_its_largest_load(task: Task) -> Task:
+def _at_its_largest_load(task: TimedTask) -> TimedTask:
     """Return the task at the knot of its largest load alone, which is soon judged and part of the whole."""
     at = [int(np.argmax(np.abs(task.wrench).sum(axis=1)))]
     wanted = replace(task.target, values=frozen(task.target.values[at]))

@@ -17,7 +17,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
 from synergrip.planning.solvers import Answerer, ask
-from synergrip.tasks.task import unbounded
+from synergrip.tasks.timed_task import unbounded
 
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:

@@ -18,7 +18,7 @@ from synergrip.planning.outcome import Check, Plan
 from synergrip.planning.stages import Stage
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start, forward, largest_term
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 EXACT = 1e-8
 """Relative tolerance of the identities: equilibrium, internal force, forward maps."""
@@ -34,7 +34,7 @@ LIMIT = 1e-6
 """Relative tolerance of the limits, against the load or the limit itself."""
 
 
-def verified_plan(task: Task, analysis: Analysis, stage: Stage, largest: float | None) -> Plan:
+def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: float | None) -> Plan:
     """Return the plan that the goals have led to.
 
     Raises:
@@ -81,7 +81,7 @@ def _judge(checks: Sequence[Check], exact: Sequence[Check], usages: Sequence[Usa
     raise SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
 
 
-def _ranges_left(task: Task, formulation: Formulation, motion: Motion) -> Iterator[str]:
+def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> Iterator[str]:
     """Yield a note when a joint leaves the range that the hand states and no limit says that it may not."""
     if task.ranges is None or any(isinstance(limit, JointRange) for limit in task.limits):
         return
@@ -116,7 +116,7 @@ def _missed(between: Between | None) -> Iterator[str]:
         )
 
 
-def limit_usages(task: Task, formulation: Formulation, motion: Motion) -> tuple[Usage, ...]:
+def limit_usages(task: TimedTask, formulation: Formulation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
     return tuple(limit.usage(formulation, motion) for limit in task.all_limits)
 
@@ -126,7 +126,7 @@ def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
     return tuple(Check(u.title, max(u.violation, 0.0), LIMIT) for u in usages)
 
 
-def between_checks(task: Task, between: Between | None) -> tuple[Check, ...]:
+def between_checks(task: TimedTask, between: Between | None) -> tuple[Check, ...]:
     """Return the check of the limits between the knots, when a task holds them there."""
     if between is None or task.between != "hold":
         return ()

@@ -28,7 +28,7 @@ from synergrip.documents.fields import (
 )
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.tasks.task import EFFORTS, FORCE_GOALS, GoalName
+from synergrip.tasks.timed_task import EFFORTS, FORCE_GOALS, GoalName
 
 _force = with_unit("force", at_least=0)
 _written_effort = either("torque", "force", above=0)

@@ -24,7 +24,7 @@ from synergrip.tasks.palm_motion import Palm, PalmMotion, Weight
 from synergrip.tasks.palm_path import palm_path, rotations_of
 from synergrip.tasks.profiles import SHORTEST, Constant, Profile, Profiles, Rise, Tabled, WaypointProfile
 from synergrip.tasks.pushes import Push
-from synergrip.tasks.task import Target
+from synergrip.tasks.timed_task import Target
 from synergrip.tasks.waypoints import Waypoints
 
 Kind = Literal["hold", "motion", "modes", "mode moves"]

@@ -19,7 +19,7 @@ from synergrip.linalg import frozen
 from synergrip.problems.limits_table import HandLimits, limits_of
 from synergrip.problems.loads import Loads, loads
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
-from synergrip.tasks.task import MAXIMISED, Task
+from synergrip.tasks.timed_task import MAXIMISED, TimedTask
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
@@ -36,7 +36,7 @@ class Problem:
     file: ProblemFile
     document: Document
     grasp: Grasp
-    task: Task
+    task: TimedTask
     notes: tuple[str, ...] = ()
     """What is doubtful about the grasp, though it is no error."""
 
@@ -167,12 +167,12 @@ def _mass(file: ProblemFile) -> float:
     return (file.object.mass or 0.0) if file.object else 0.0
 
 
-def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> Task:
+def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> TimedTask:
     times, wrench = happening.times, happening.wrench
     if wrench is None:
         wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
     limits = limits_of(file, touching.grasp, touching.limits)
-    return Task(
+    return TimedTask(
         times, wrench, happening.target, file.limits.margin, limits, file.goal.names,
         file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, file.goal.weights,
         happening.profiles,

@@ -28,7 +28,7 @@ from synergrip.referee.targets import followed
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
 from synergrip.tasks.goals import goals_of
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 CLAIMS = {
     "optimal": Claim.OPTIMAL,
@@ -63,7 +63,7 @@ class RefereeAnswer:
     """Margin [N], peak force [N], or sum over knots of squares [N^2], moments and torques over the length."""
 
 
-def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> RefereeAnswer:
+def referee(analysis: Analysis, task: TimedTask, cvxpy_solver: str = "CLARABEL") -> RefereeAnswer:
     """Judge a task from the grasp's response and the task alone.
 
     Args:
@@ -100,7 +100,7 @@ def referee(analysis: Analysis, task: Task, cvxpy_solver: str = "CLARABEL") -> R
     return RefereeAnswer(verdict, status, largest, frozen(model.dz_r.value), _physical(task, best.value, unit))
 
 
-def _force_unit(analysis: Analysis, task: Task) -> float:
+def _force_unit(analysis: Analysis, task: TimedTask) -> float:
     """Return the largest contact force that the load causes by itself, or the margin, or 1 N."""
     response = analysis.response
     passive = forces_at_start(response) + (task.wrench - analysis.grasp.w_0) @ response.dlambda_dw.T
@@ -116,7 +116,7 @@ def _verdict(status: str, relaxed: float) -> str:
     return "unknown"
 
 
-def _physical(task: Task, value: float, unit: float) -> float:
+def _physical(task: TimedTask, value: float, unit: float) -> float:
     if task.goal not in ("margin", "peak_force"):
         return 2 * value * unit**2
     return value * unit if task.goal == "peak_force" else -value * unit

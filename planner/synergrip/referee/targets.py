@@ -7,13 +7,13 @@ from scipy.linalg import null_space
 
 from synergrip.linalg import Array
 from synergrip.statics.analysis import Analysis
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 OUTSIDE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs."""
 
 
-def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array]:
+def followed(analysis: Analysis, task: TimedTask) -> tuple[Array | None, Array, Array]:
     """Return beta (T, dim Gamma_ucs) as far as it is fixed (None when it cannot be), where it is free, the motion."""
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
     dimension = basis.shape[1]
@@ -35,7 +35,7 @@ def followed(analysis: Analysis, task: Task) -> tuple[Array | None, Array, Array
     return np.asarray(beta), free, wanted
 
 
-def _wanted(analysis: Analysis, task: Task) -> Array | None:
+def _wanted(analysis: Analysis, task: TimedTask) -> Array | None:
     """Return beta (T, dim Gamma_ucs), or None when the wanted motion is no motion of Gamma_ucs."""
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
     if task.target.kind != "motion":  # beta itself; columns that are not there stand for zero

@@ -13,7 +13,7 @@ from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.errors import InputError
-from synergrip.tasks.task import EFFORTS, GoalName, Task
+from synergrip.tasks.timed_task import EFFORTS, GoalName, TimedTask
 
 SIMPLE: dict[GoalName, Goal] = {
     "margin": LargestMargin(),
@@ -27,7 +27,7 @@ SIMPLE: dict[GoalName, Goal] = {
 }
 
 
-def goals_of(task: Task) -> tuple[Goal, ...]:
+def goals_of(task: TimedTask) -> tuple[Goal, ...]:
     """Return the goals of a task in their order.
 
     Raises:
@@ -36,13 +36,13 @@ def goals_of(task: Task) -> tuple[Goal, ...]:
     return tuple(_goal(name, task) for name in task.order)
 
 
-def unasked_goals(task: Task) -> tuple[Goal, ...]:
+def unasked_goals(task: TimedTask) -> tuple[Goal, ...]:
     """Return the goals that settle what those of a task leave open: forces, then redundancy and rigid motion."""
     effort = () if EFFORTS & {*task.order, *task.weights} else (LeastEffort(),)
     return (*effort, LeastReconfiguration())
 
 
-def _goal(name: GoalName, task: Task) -> Goal:
+def _goal(name: GoalName, task: TimedTask) -> Goal:
     if name == "weighted":
         return WeightedSum(tuple((_exact(_goal(each, task)), weight) for each, weight in task.weights.items()))
     if name != "centred":

@@ -18,10 +18,10 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array, split
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 
-def units_of(analysis: Analysis, task: Task) -> Units:
+def units_of(analysis: Analysis, task: TimedTask) -> Units:
     """Return the units in which the weights of a task are stated: of force, references and motion."""
     force = max(_load(analysis, task), task.margin)
     reference = 1.0
@@ -31,7 +31,7 @@ def units_of(analysis: Analysis, task: Task) -> Units:
     return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def expected_units(analysis: Analysis, task: Task, beta: Array, target: Array) -> Units:
+def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Array) -> Units:
     """Return the sizes near which the unknowns of a task are expected.
 
     Args:
@@ -54,12 +54,12 @@ def expected_units(analysis: Analysis, task: Task, beta: Array, target: Array) -
     return Units(force, reference if reference > 0 else 1.0, _motion(task))
 
 
-def smallest_cap(analysis: Analysis, task: Task) -> float:
+def smallest_cap(analysis: Analysis, task: TimedTask) -> float:
     """Return the smallest force that a limit of a task allows at most [N]; 1 N when none allows less."""
     return min([1.0, *_caps(analysis, task)])
 
 
-def caps(analysis: Analysis, task: Task) -> tuple[float, ...]:
+def caps(analysis: Analysis, task: TimedTask) -> tuple[float, ...]:
     """Return the forces [N] that the limits of a task allow at most, the smallest first."""
     return tuple(sorted(set(_caps(analysis, task))))
 
@@ -70,7 +70,7 @@ def grips(formulation: Formulation) -> tuple[float, ...]:
     return (formulation.load_size / least,) if least < 1.0 else ()
 
 
-def _caps(analysis: Analysis, task: Task) -> list[float]:
+def _caps(analysis: Analysis, task: TimedTask) -> list[float]:
     length, response = analysis.response.scale.length, analysis.response
     found: list[float] = []
     for limit in task.limits:
@@ -84,14 +84,14 @@ def _caps(analysis: Analysis, task: Task) -> list[float]:
     return [size for size in found if 0 < size < np.inf]
 
 
-def _load(analysis: Analysis, task: Task) -> float:
+def _load(analysis: Analysis, task: TimedTask) -> float:
     """Return the largest contact force that the load causes by itself [N], moments over the length."""
     response = analysis.response
     change = (task.wrench - analysis.grasp.w_0) @ response.right_inverse.T
     return response.scale.largest_force(forces_at_start(response) - change)
 
 
-def _of_motion(analysis: Analysis, task: Task, target: Array) -> float:
+def _of_motion(analysis: Analysis, task: TimedTask, target: Array) -> float:
     """Return the largest contact force [N] that compliant tracking takes because the motion leaves Gamma_ucs."""
     response, spaces, scale = analysis.response, analysis.spaces, analysis.response.scale
     n_alpha = spaces.E_s.shape[1]
@@ -113,6 +113,6 @@ def _of_motion(analysis: Analysis, task: Task, target: Array) -> float:
     return min(scale.largest_force(alpha @ spaces.E_s.T), stiffest * float(np.abs(missing).max()))
 
 
-def _motion(task: Task) -> float:
+def _motion(task: TimedTask) -> float:
     # objects are moved by millimetres; in metres, tight tolerances drown the free part of the rigid motion
     return task.tolerance if task.tolerance > 0 else 1e-3

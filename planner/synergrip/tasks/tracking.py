@@ -12,7 +12,7 @@ from synergrip.linalg import RANK_TOLERANCE, Array, frozen, split
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.statics.twists import describe_displacement
-from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
@@ -28,7 +28,7 @@ class Followed:
     target: Array  # (T, 6) wanted displacement of the object about B [m, rad]
 
 
-def followed(analysis: Analysis, task: Task) -> Followed:
+def followed(analysis: Analysis, task: TimedTask) -> Followed:
     """Return what the wanted motion fixes: all of beta, the part that the asked axes see, or nothing.
 
     Rigid tracking asks Gamma_ucs beta to be the wanted motion on the asked axes; compliant tracking leaves beta to
@@ -50,7 +50,7 @@ def followed(analysis: Analysis, task: Task) -> Followed:
     return _on_axes(analysis, task, wanted)
 
 
-def target_displacement(analysis: Analysis, task: Task, values: Array) -> Array:
+def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> Array:
     """Return the displacement (K, 6) that a wish asks for: where the object stays on the axes that are not asked for.
 
     Args:
@@ -65,7 +65,7 @@ def target_displacement(analysis: Analysis, task: Task, values: Array) -> Array:
     return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
 
 
-def _on_axes(analysis: Analysis, task: Task, target: Array) -> Followed:
+def _on_axes(analysis: Analysis, task: TimedTask, target: Array) -> Followed:
     """Fix beta as far as the asked axes see it."""
     scale = analysis.response.scale
     weights = axis_weights(task.axes, scale.length)
@@ -97,7 +97,7 @@ def _twist(weights: Array, values: Array) -> Array:
     return np.asarray(np.linalg.lstsq(weights, values, rcond=None)[0])
 
 
-def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
+def rigid_coordinates(analysis: Analysis, task: TimedTask) -> Array:
     """Return beta (T, dim Gamma_ucs) [m] for the wanted motion.
 
     Raises:
@@ -121,7 +121,7 @@ def rigid_coordinates(analysis: Analysis, task: Task) -> Array:
     return frozen(beta)
 
 
-def _beta_of_modes(analysis: Analysis, task: Task) -> Array:
+def _beta_of_modes(analysis: Analysis, task: TimedTask) -> Array:
     dimension, asked = analysis.spaces.Gamma_ucs.shape[1], task.target.values.shape[1]
     if asked > dimension or (task.target.kind == "modes" and asked < dimension):
         what = f"mode {asked} is asked for" if task.target.kind == "mode moves" else f"{asked} columns of beta given"
@@ -169,7 +169,7 @@ def _spread(wish: Array, count: int) -> list[int]:
     return chosen
 
 
-def _direction(analysis: Analysis, task: Task, outside: Array, sizes: Array) -> MotionDirectionError:
+def _direction(analysis: Analysis, task: TimedTask, outside: Array, sizes: Array) -> MotionDirectionError:
     scale, values = analysis.response.scale, task.target.values
     k = int(np.argmax(sizes))
     share = float(sizes[k] / np.linalg.norm(scale.twist(values[k])))

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.problems.problem import Problem
 from synergrip.tasks.goals import SIMPLE
-from synergrip.tasks.task import GoalName, Task
+from synergrip.tasks.timed_task import GoalName, TimedTask
 
 
 def problem_lines(problem: Problem) -> Iterator[str]:
@@ -39,7 +39,7 @@ def _task(problem: Problem) -> Iterator[str]:
     yield ", then ".join(_goal(name, task) for name in task.order)
 
 
-def _load(task: Task) -> float:
+def _load(task: TimedTask) -> float:
     """Return the largest force on the object at the knots and at the corners between them [N]."""
     wrench = task.wrench
     if task.course is not None:
@@ -50,7 +50,7 @@ def _load(task: Task) -> float:
     return float(np.linalg.norm(wrench[:, :3], axis=1).max(initial=0.0))
 
 
-def _wanted(task: Task) -> str:
+def _wanted(task: TimedTask) -> str:
     """Return what is wanted of the object, with its size: numbers in the wrong unit are seen there first."""
     values = task.target.values
     if task.target.kind == "hold":
@@ -62,7 +62,7 @@ def _wanted(task: Task) -> str:
     return "move the object" + f" by up to {' and '.join(sizes)}" * bool(sizes)
 
 
-def _goal(name: GoalName, task: Task) -> str:
+def _goal(name: GoalName, task: TimedTask) -> str:
     if name == "weighted":
         return " + ".join(f"{weight:g} {_goal(each, task)}" for each, weight in task.weights.items())
     return CentredJoints.name if name == "centred" else SIMPLE[name].name

@@ -64,7 +64,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class Task:
+class TimedTask:
     """A task at T knots."""
 
     times: Array  # (T,) [s]
