@@ -177,7 +177,7 @@ def test_what_has_no_formula_is_refused_by_name() -> None:
     for question in (Question(formulation, (_Strange(),), LargestMargin()), Question(formulation, (), _Strange())):
         with pytest.raises(SynergripError, match="_Strange") as refused:
             solve(question, program, Settings())
-        assert isinstance(refused.value, TypeError)
+        assert isinstance(refused.value, InputError)
 
 
 def test_a_contact_kind_without_formula_is_refused_by_name() -> None:
