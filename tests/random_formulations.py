@@ -24,6 +24,9 @@ KNOTS = 4
 LIMITS = {
     "friction": lambda g: SlipMargin(0.7),
     "friction reserve": lambda g: FrictionReserve(ratios=frozen(np.linspace(0.5, 0.9, g.n_c))),
+    "friction angle": lambda g: FrictionReserve(angle=0.05),
+    "friction factor": lambda g: FrictionReserve(factor=1.3),
+    "friction factor, less a share": lambda g: FrictionReserve(factor=1.3).loosened(0.1),
     "normal": lambda g: NormalForce(0.5, 3.0),
     "normal, no upper": lambda g: NormalForce(0.5, np.inf),
     "torque": lambda g: JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),

@@ -138,6 +138,16 @@ def test_what_a_hand_states_is_filled_in_as_by_a_file() -> None:
     assert np.all(np.isfinite(limits["limits.joint_torque"].limit))  # type: ignore[attr-defined]
 
 
+def test_a_friction_reserve_goes_by_the_friction_of_the_grasp_that_it_is_for() -> None:
+    for mu in (0.3, 0.5, 0.9):
+        angle, factor = FrictionReserve(angle=0.1).on(pinch(mu)), FrictionReserve(factor=1.25).on(pinch(mu))
+        narrow = np.tan(np.arctan(mu) - 0.1) / mu
+        assert angle.on(pinch(0.7)).on(pinch(mu)).used(pinch(mu)) == pytest.approx([narrow] * 2)
+        assert factor.used(pinch(mu)) == pytest.approx([0.8] * 2)
+        assert angle.loosened(0.5).loosened(0.5).used(pinch(mu)) == pytest.approx([1 - (1 - narrow) / 4] * 2)
+    assert FrictionReserve(ratios=[0.5, 1.0]).on(pinch()).used(pinch()).tolist() == [0.5, 1.0]
+
+
 @pytest.mark.parametrize("name", LIMITS)
 def test_limits_compare_by_content_hash_and_pickle(name: str) -> None:
     _, formulation = random_formulation(0)

@@ -26,7 +26,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
-from synergrip.errors import InputError, SynergripError
+from synergrip.errors import InputError, SelfCheckError, SynergripError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan

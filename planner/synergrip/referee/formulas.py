@@ -97,6 +97,18 @@ def friction(
     return tuple(cones)
 
 
+def _friction_reserve(model: Model, limit: FrictionReserve) -> tuple[Cone, ...]:
+    """Write the friction cones down with the friction that is left."""
+    friction_of = np.array([contact.friction for contact in model.response.grasp.contacts])
+    if limit.angle is not None:
+        slippery = friction_of > 0
+        narrowed = np.tan(np.arctan(friction_of) - limit.angle)
+        left = np.where(slippery, narrowed / np.where(slippery, friction_of, 1.0), 1.0)
+    else:
+        left = np.broadcast_to(limit.ratios if limit.factor is None else 1 / limit.factor, friction_of.shape)
+    return friction(model, 0.0, limit.key, 1 - (1 - limit.given_up) * (1 - left))
+
+
 def _normals(model: Model) -> Expression:
     return model.force[:, [rows.start for rows in model.response.grasp.rows]] / model.force_unit
 
@@ -185,7 +197,7 @@ def _weighted_sum(model: Model, goal: WeightedSum) -> Written:
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     SlipMargin: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
     FrictionCone: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
-    FrictionReserve: lambda model, limit: friction(model, 0.0, limit.key, limit.ratios),
+    FrictionReserve: _friction_reserve,
     NormalForce: _normal_force,
     JointTorque: _joint_torque,
     ActuatorEffort: _actuator_effort,

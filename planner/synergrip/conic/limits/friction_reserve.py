@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
@@ -46,10 +46,13 @@ class FrictionReserve(Limit):
     angle: float | None = None
     ratios: OneOrEach = None
 
+    given_up: float = field(default=0.0, repr=False)
+    """Share of the reserve that is given up, for rounding."""
+
     def __post_init__(self) -> None:
         """Judge what is given."""
         given = [name for name in ("factor", "angle", "ratios") if getattr(self, name) is not None]
-        if not given or {"factor", "angle"} <= {*given}:
+        if len(given) != 1:
             got = " and ".join(given) or "none of them"
             raise InputError.at("FrictionReserve", f"expected one of factor, angle and ratios, got {got}")
         if self.factor is not None:
@@ -79,18 +82,27 @@ class FrictionReserve(Limit):
         return "slip margin with reserve" if self.angle is None else "slip margin with angle"
 
     def on(self, grasp: Grasp) -> Self:
-        """Return it with the ratio of each contact.
+        """Return it with one ratio for each contact, where ratios are given.
 
         Raises:
             InputError: a friction cone that is narrower than the angle, or ratios for other contacts.
         """
-        names = [contact.name for contact in grasp.contacts]
-        if self.ratios is not None:
-            return replace(self, ratios=one_each("FrictionReserve.ratios", self.ratios, names, "contact"))
+        used = self.used(grasp)
+        return self if self.ratios is None or self.given_up else replace(self, ratios=used)
+
+    def used(self, grasp: Grasp) -> Array:
+        """Return the share (n_c,) of its friction that each contact of a grasp may use.
+
+        Raises:
+            InputError: a friction cone that is narrower than the angle, or ratios for other contacts.
+        """
         if self.angle is not None:
-            return replace(self, ratios=_ratios(grasp, self.angle))
-        assert self.factor is not None
-        return replace(self, ratios=frozen(np.full(grasp.n_c, 1 / self.factor)))
+            ratios = _ratios(grasp, self.angle)
+        else:
+            given = self.ratios if self.factor is None else 1 / self.factor
+            names = [contact.name for contact in grasp.contacts]
+            ratios = one_each("FrictionReserve.ratios", np.asarray(given), names, "contact")
+        return frozen(ratios + self.given_up * (1 - ratios))
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones of contacts with less friction."""
@@ -100,8 +112,8 @@ class FrictionReserve(Limit):
         """Return nothing: a cone alone bounds no force."""
 
     def loosened(self, share: float) -> Self:
-        """Return it with `share` of the reserve given up, once it has its ratios."""
-        return replace(self, ratios=frozen(self.ratios + share * (1 - self.ratios)))
+        """Return it with `share` of what is left of the reserve given up."""
+        return replace(self, given_up=self.given_up + share * (1 - self.given_up))
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the slip margins that contacts with less friction would have; no less than 0 is asked of them."""
@@ -110,10 +122,9 @@ class FrictionReserve(Limit):
 
     def _narrowed(self, formulation: Formulation) -> Formulation:
         grasp = formulation.response.grasp
-        ratios = np.asarray(self.on(grasp).ratios)
         contacts = tuple(
             replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
-            for contact, ratio in zip(grasp.contacts, ratios, strict=True)
+            for contact, ratio in zip(grasp.contacts, self.used(grasp), strict=True)
         )
         return replace(formulation, response=replace(formulation.response, grasp=replace(grasp, contacts=contacts)))
 
