@@ -10,6 +10,7 @@ import pytest
 
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
+from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 
 FEW = ("task.knots=11", "task.between=report")
@@ -73,3 +74,12 @@ def test_joint_ranges_turn_the_answer_and_the_joint_is_named() -> None:
     items = next(conflict.items for conflict in outcome.conflicts if conflict.key == "limits.joint_range")
     assert f"'{items[0]}'" in note
     assert isinstance(outcome_of("dlr-ball-move", "task.knots=11", move.replace("12", "2"), ranges), Plan)
+
+
+@pytest.mark.parametrize("limit", ["margin", "margin_angle", "safety_factor", "normal_force"])
+def test_the_second_formulation_turns_at_the_same_value(limit: str) -> None:
+    name, overrides, text, turns, tighter = BITES[limit]
+    tight, loose = (1.01, 0.99) if tighter == "higher" else (0.99, 1.01)
+    for factor, verdict in ((tight, "infeasible"), (loose, "feasible")):
+        problem = load_problem(name, [*overrides, text.format(factor * turns)])
+        assert plan(problem.grasp, problem.task, SOLVERS["cvxpy"]).verdict == verdict
