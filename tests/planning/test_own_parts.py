@@ -17,6 +17,7 @@ from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.rows import Item, Kind, Rows, nonnegative, norm_within
 from synergrip.errors import InputError, SelfCheckError
 from synergrip.linalg import frozen
@@ -220,6 +221,35 @@ def _row(matrix: Any, constant: Any, epigraph: Any = (0.0,)) -> Rows:
 def test_rows_and_usages_that_do_not_fit_are_refused_by_name(given: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         plan(tripod(), asked(Broken(given)))
+
+
+def test_rows_that_couple_knots_are_no_rows_of_a_limit_that_says_it_couples_none() -> None:
+    """Between the knots they would be asked for as if they spoke of an instant."""
+    coupled = SynergyRate(1.0)
+    with pytest.raises(InputError, match=r"Broken\.rows: .* write couples_knots = True in the class"):
+        plan(tripod(), asked(Broken(coupled.rows)))
+
+    class Coupled(Broken):
+        couples_knots = True
+
+        def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+            return coupled.usage(formulation, motion)
+
+    one, other = (planned(plan(tripod(), asked(limit))) for limit in (coupled, Coupled(coupled.rows)))
+    assert other.motion.dz_r == pytest.approx(one.motion.dz_r, rel=1e-6)
+
+
+def test_a_class_without_a_method_says_which() -> None:
+    class NoUsage(Limit):
+        def rows(self, formulation: Formulation) -> Sequence[Rows]:
+            return []
+
+    class Nothing(Goal):
+        pass
+
+    for kind, method in ((NoUsage, "usage"), (Nothing, "objective")):
+        with pytest.raises(InputError, match=f"{kind.__name__}: has no method '{method}'; write it"):
+            kind()
 
 
 class NoObjective(Goal):

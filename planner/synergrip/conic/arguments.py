@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -110,6 +110,21 @@ class ByContent:
     def __hash__(self) -> int:
         """Return what equal values share."""
         return hash((type(self), _content(self))) if is_dataclass(self) else object.__hash__(self)
+
+
+class Complete:
+    """Classes that say at once, and by name, which of their methods are still to be written."""
+
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """Refuse a class that leaves a method out.
+
+        Raises:
+            InputError: with the methods.
+        """
+        missing = sorted(getattr(cls, "__abstractmethods__", ()))
+        if missing:
+            raise InputError.at(cls.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
+        return super().__new__(cls)
 
 
 def _content(value: Any) -> tuple[Any, ...]:

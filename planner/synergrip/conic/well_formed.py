@@ -26,7 +26,11 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
         InputError: the first one, with the method that returned it.
     """
     for limit in limits:
-        _judge_rows(f"{type(limit).__name__}.rows", limit.rows(formulation), formulation)
+        name, rows = type(limit).__name__, limit.rows(formulation)
+        _judge_rows(f"{name}.rows", rows, formulation)
+        if not limit.couples_knots and any(part.earlier for part in rows):
+            wanted = "rows that speak of one knot, since the limit says that it couples none"
+            raise InputError.at(f"{name}.rows", f"expected {wanted}; write couples_knots = True in the class")
     for goal in goals:
         name = type(goal).__name__
         cost = goal.objective(formulation)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.conic.arguments import ByContent
+from synergrip.conic.arguments import ByContent, Complete
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
@@ -57,7 +57,7 @@ class Objective:
         return not self.squares and self.epigraph is None
 
 
-class Goal(ByContent, ABC):
+class Goal(Complete, ByContent, ABC):
     """What is best among the plans that hold. A goal of one's own is `objective`, and `rows` when it has a scalar.
 
     Example:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from synergrip.conic.arguments import ByContent
+from synergrip.conic.arguments import ByContent, Complete
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Rows, with_room
 from synergrip.errors import InputError
@@ -81,7 +81,7 @@ def first_largest(values: Array, tie: float = 1e-6) -> tuple[int, int]:
     return flat // values.shape[1], flat % values.shape[1]
 
 
-class Limit(ByContent, ABC):
+class Limit(Complete, ByContent, ABC):
     """Something that must hold at every knot. A limit of one's own is `rows` and `usage`.
 
     Example:
