@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 from elastic_grasp import Course, length_of, normal_forces, slip_margins
+from named_goals import ranges_of, weights_of
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.tasks.timed_task import GoalName, TimedTask
+from synergrip.tasks.timed_task import TimedTask
 
 
-def goal_value(
-    name: GoalName, grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, float] = (1, 1)
-) -> float:
+def goal_value(name: str, grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, float] = (1, 1)) -> float:
     """Return what `name` is to make small: forces in N, references in their own units, times in seconds.
 
     `units` of force [N] and of references count in a weighted sum only, where time counts in durations of the task.
@@ -28,9 +27,9 @@ def goal_value(
     if name == "weighted":
         return _weighted(grasp, task, found, units)
     if name == "centred":
-        assert task.ranges is not None
-        middle, half = (task.ranges.lower + task.ranges.upper) / 2, (task.ranges.upper - task.ranges.lower) / 2
-        return _squares((task.ranges.start + found.dq - middle) / half)
+        ranges = ranges_of(task.goals)
+        middle, half = (ranges.lower + ranges.upper) / 2, (ranges.upper - ranges.lower) / 2
+        return _squares((ranges.start + found.dq - middle) / half)
     spins = np.array([1 / length if component == "m" else 1.0 for _, component in grasp.components])
     value = {
         "effort": found.forces * spins, "torque": found.torques / length, "actuator": found.efforts / length,
@@ -48,7 +47,7 @@ def _weighted(grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, 
     }  # fmt: skip
     parts = [
         weight * sizes.get(name, force**-2) * goal_value(name, grasp, task, found)
-        for name, weight in task.weights.items()
+        for name, weight in weights_of(task.goals).items()
     ]
     return sum(parts)
 

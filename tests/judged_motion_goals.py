@@ -20,6 +20,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from elastic_grasp import course
 from goal_values import goal_value
+from named_goals import goals, name_of
 from random_trajectories import random_trajectory
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -33,9 +34,9 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.referee.judge import referee
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.timed_task import GoalName, TimedTask
+from synergrip.tasks.timed_task import TimedTask
 
-GOALS: tuple[GoalName, ...] = ("references", "travel", "smooth")
+GOALS = ("references", "travel", "smooth")
 SAME = 1e-4
 
 
@@ -57,7 +58,7 @@ def judged(seed: int) -> str:
     """What becomes of the task of one seed: "same", "better", "not verified", or what is wrong."""
     rng = np.random.default_rng(10_000 + seed)
     grasp, task = random_trajectory(seed, int(rng.integers(4, 12)))
-    task = replace(task, order=(GOALS[seed % len(GOALS)],), weights={})
+    task = replace(task, goals=goals(GOALS[seed % len(GOALS)]))
     factor = float(10 ** rng.uniform(-9, 3))
     answer = referee(analyse(grasp), task)
     outcome = plan(*smaller(grasp, task, factor))
@@ -67,7 +68,7 @@ def judged(seed: int) -> str:
         )  # fmt: skip
     if not isinstance(outcome, Plan):
         return f"seed {seed}: feasible became {outcome.verdict} at {factor:.0e}"
-    goal = task.goal
+    goal = name_of(task.goal)
     found, best = (
         goal_value(goal, grasp, task, course(grasp, task.times, dz_r, task.wrench))
         for dz_r in (outcome.motion.dz_r / factor, answer.dz_r)

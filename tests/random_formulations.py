@@ -23,7 +23,7 @@ from synergrip.statics.analysis import analyse
 KNOTS = 4
 LIMITS = {
     "friction": lambda g: FrictionCone(0.7),
-    "friction reserve": lambda g: FrictionReserve(frozen(np.linspace(0.5, 0.9, g.n_c))),
+    "friction reserve": lambda g: FrictionReserve(ratios=frozen(np.linspace(0.5, 0.9, g.n_c))),
     "normal": lambda g: NormalForce(0.5, 3.0),
     "normal, no upper": lambda g: NormalForce(0.5, np.inf),
     "torque": lambda g: JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),

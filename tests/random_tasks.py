@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from named_goals import goals
 
 from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -22,7 +23,7 @@ from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.scaling import units_of
-from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 from synergrip.tasks.tracking import rigid_coordinates
 
 RADIUS = 0.02  # [m] of the object
@@ -118,13 +119,12 @@ def _task(rng: np.random.Generator, grasp: Grasp) -> TimedTask:
     times = frozen(np.cumsum(rng.uniform(0.1, 0.4, knots)))
     load = rng.uniform(0.5, 5.0)
     wrench = frozen(grasp.w_0 + _wrench(rng, load) + np.array([_wrench(rng, 0.3 * load) for _ in times]))
-    goals: list[GoalName] = ["margin", "effort", "torque", "peak_force"]
-    goal = goals[int(rng.integers(4))]
+    goal = ("margin", "effort", "torque", "peak_force")[int(rng.integers(4))]
     wanted = still(times)
     dimension = analyse(grasp).spaces.Gamma_ucs.shape[1]
     if dimension and rng.uniform() < 0.6:
         wanted = Target("modes", frozen(0.002 * np.cumsum(rng.normal(size=(knots, dimension)), axis=0)))
-    return TimedTask(times, wrench, wanted, 0.1, _limits(rng, grasp, load), (goal,))
+    return TimedTask(times, wrench, wanted, 0.1, _limits(rng, grasp, load), goals(goal))
 
 
 def _limits(rng: np.random.Generator, grasp: Grasp, load: float) -> tuple[Limit, ...]:

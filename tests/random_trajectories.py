@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from named_goals import goals, names_of
 from random_tasks import LEVER, hand_like_grasp
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -26,14 +27,14 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 
-ORDERS: tuple[tuple[GoalName, ...], ...] = (
+ORDERS: tuple[tuple[str, ...], ...] = (
     ("effort",), ("torque",), ("actuator",), ("margin",), ("peak_force",), ("references",), ("travel",), ("smooth",),
     ("centred",), ("weighted",), ("margin", "effort", "smooth"), ("effort", "travel"), ("travel", "effort"),
     ("peak_force", "torque", "references"), ("smooth", "actuator"), ("weighted", "centred"),
 )  # fmt: skip
-WEIGHTS: tuple[dict[GoalName, float], ...] = (
+WEIGHTS: tuple[dict[str, float], ...] = (
     {"effort": 1.0, "travel": 0.1},
     {"torque": 1.0, "smooth": 1e-3},
     {"actuator": 1.0, "references": 0.3, "centred": 0.1},
@@ -46,15 +47,15 @@ def random_trajectory(seed: int, knots: int) -> tuple[Grasp, TimedTask]:
     """A hand-like grasp and a task over `knots` instants; goals take turns with the seed."""
     rng = np.random.default_rng(seed)
     for _ in range(3):  # most are to fail, if at all, by what limits ask for
-        grasp, task = _wish(rng, seed, knots)
-        easy = plan(grasp, replace(task, order=("effort",)))
+        grasp, task, ranges = _wish(rng, seed, knots)
+        easy = plan(grasp, replace(task, goals=goals("effort")))
         if isinstance(easy, Plan):
-            return grasp, replace(task, limits=_limits(rng, task, easy))
+            return grasp, replace(task, limits=_limits(rng, task, easy, ranges))
     return grasp, task
 
 
-def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, TimedTask]:
-    """A grasp, its load, the motion wanted of it and the goal, with little to limit them."""
+def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, TimedTask, JointRange]:
+    """A grasp, its load, the motion wanted of it and the goal, with little to limit them, and ranges of its joints."""
     grasp = _grasp(rng)
     duration = rng.uniform(0.5, 4.0)
     steps = rng.uniform(0.6, 1.4, knots - 1) if seed % 2 else np.ones(knots - 1)
@@ -66,13 +67,13 @@ def _wish(rng: np.random.Generator, seed: int, knots: int) -> tuple[Grasp, Timed
     order = ORDERS[seed % len(ORDERS)]
     start = rng.uniform(-0.5, 0.5, grasp.n_q)
     room = rng.uniform(0.3, 1.5, (2, grasp.n_q))
+    ranges = JointRange(frozen(start), frozen(start - room[0]), frozen(start + room[1]))
     task = TimedTask(
         times, frozen(wrench), still(times), float(rng.choice([0.0, 0.05, 0.2])) * load,
-        (NormalForce(0.0, 30 * load), JointTorque(frozen(np.full(grasp.n_q, 10 * LEVER * load)))), order,
-        weights=WEIGHTS[seed % len(WEIGHTS)] if "weighted" in order else {},
-        ranges=JointRange(frozen(start), frozen(start - room[0]), frozen(start + room[1])),
+        (NormalForce(0.0, 30 * load), JointTorque(frozen(np.full(grasp.n_q, 10 * LEVER * load)))),
+        goals(*order, weights=WEIGHTS[seed % len(WEIGHTS)], ranges=ranges),
     )  # fmt: skip
-    return grasp, _tracked(rng, analyse(grasp), task)
+    return grasp, _tracked(rng, analyse(grasp), task), ranges
 
 
 def _grasp(rng: np.random.Generator) -> Grasp:
@@ -125,7 +126,7 @@ def _tracked(rng: np.random.Generator, analysis: Analysis, task: TimedTask) -> T
     )  # fmt: skip
 
 
-def _limits(rng: np.random.Generator, task: TimedTask, easy: Plan) -> tuple[Limit, ...]:
+def _limits(rng: np.random.Generator, task: TimedTask, easy: Plan, ranges: JointRange) -> tuple[Limit, ...]:
     """Some of all limits, each around what the least effort uses of it."""
     grasp = easy.analysis.grasp
     motion, h = easy.motion, np.diff(task.times)[:, None]
@@ -142,12 +143,12 @@ def _limits(rng: np.random.Generator, task: TimedTask, easy: Plan) -> tuple[Limi
         SynergyReference(_around(rng, motion.dz_r)),
         SynergyRate(_around(rng, rates)),
         SynergyAcceleration(_around(rng, bends)),
-        _range(rng, task, motion.dq),
+        _range(rng, ranges, motion.dq),
         ElasticMotion(max(elastic, 1e-5) * _more(rng)),
         ObjectError(max(error, 1e-5) * _more(rng)),
-        FrictionReserve(frozen(rng.uniform(0.75, 1.0, grasp.n_c))),
+        FrictionReserve(ratios=frozen(rng.uniform(0.75, 1.0, grasp.n_c))),
     ]
-    needed = 1 if "margin" in task.order else 0  # something must bound a largest margin
+    needed = 1 if "margin" in names_of(task.goals) else 0  # something must bound a largest margin
     return tuple(limit for k, limit in enumerate(limits) if k < needed or rng.uniform() < 0.35)
 
 
@@ -163,9 +164,8 @@ def _around(rng: np.random.Generator, used: Array) -> Array:
     return frozen(bounds)
 
 
-def _range(rng: np.random.Generator, task: TimedTask, dq: Array) -> JointRange:
+def _range(rng: np.random.Generator, ranges: JointRange, dq: Array) -> JointRange:
     """The ranges of the hand, drawn close around what the joints do."""
-    assert task.ranges is not None
-    start, more = task.ranges.start, 1.1 * _more(rng)
+    start, more = ranges.start, 1.1 * _more(rng)
     low, high = (np.maximum(sign * dq, 0.02).max(axis=0) * more for sign in (-1, 1))
-    return replace(task.ranges, lower=frozen(start - low), upper=frozen(start + high))
+    return replace(ranges, lower=frozen(start - low), upper=frozen(start + high))

@@ -24,6 +24,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
+from named_goals import goals
 from random_tasks import RADIUS, random_task_on_grasp
 
 from synergrip.grasps.contacts.contact import Contact, contact_frame
@@ -56,13 +57,13 @@ def free_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     force = rng.normal(size=3)
     wrench = np.r_[force / np.linalg.norm(force), 0.2 * RADIUS * rng.normal(size=3)][None]
     times = frozen(np.zeros(1))
-    return grasp, TimedTask(times, frozen(wrench), still(times), 0.0, (), ("peak_force",))
+    return grasp, TimedTask(times, frozen(wrench), still(times), 0.0, (), goals("peak_force"))
 
 
 def hand_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     """A task of a hand with few synergies, for the least peak force."""
     grasp, task = random_task_on_grasp(rng)
-    return grasp, replace(task, order=("peak_force",))
+    return grasp, replace(task, goals=goals("peak_force"))
 
 
 def plans(make: Maker, count: int) -> Iterator[Plan]:

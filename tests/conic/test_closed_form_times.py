@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 import pytest
+from named_goals import goals
 from scipy.interpolate import CubicSpline
 from small_grasps import pinch
 
@@ -20,7 +21,7 @@ from synergrip.conic.rows import Rows, within
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
-from synergrip.tasks.timed_task import GoalName, Target, TimedTask, still
+from synergrip.tasks.timed_task import Target, TimedTask, still
 
 COMPLIANCE = 1e-3  # [m/N] of each contact of the pinch: n = dz_r / COMPLIANCE
 MU, MARGIN = 0.5, 0.3
@@ -50,11 +51,11 @@ def pinned(count: int, known: dict[int, float]) -> Pinned:
     return Pinned(frozen([1000 * COMPLIANCE]), values=frozen(values))
 
 
-def asked(times: Array, weight: Array, goals: tuple[GoalName, ...], *limits: object, margin: float = MARGIN) -> Outcome:
+def asked(times: Array, weight: Array, names: tuple[str, ...], *limits: object, margin: float = MARGIN) -> Outcome:
     """Plan a pinch under a weight (T,) over time."""
     wrench = np.zeros((len(times), 6))
     wrench[:, 2] = -weight
-    return plan(pinch(MU), TimedTask(frozen(times), frozen(wrench), still(times), margin, limits, goals))  # type: ignore[arg-type]
+    return plan(pinch(MU), TimedTask(frozen(times), frozen(wrench), still(times), margin, limits, goals(*names)))  # type: ignore[arg-type]
 
 
 def squeeze(outcome: Outcome) -> Array:
@@ -180,7 +181,7 @@ def test_an_object_is_carried_by_the_squeeze_that_its_softer_side_gives_way_to()
     wanted[:, 0] = 12e-3 * np.sin(np.pi * times / 4) ** 2
     task = TimedTask(
         frozen(times), frozen(np.zeros((41, 6))), Target("motion", frozen(wanted)), MARGIN, (NormalForce(0.0, 50.0),),
-        ("effort",), tolerance=tolerance, tracking="compliant", axes=("x",),
+        goals("effort"), tolerance=tolerance, tracking="compliant", axes=("x",),
     )  # fmt: skip
     outcome = plan(pinch(MU, compliance=(1e-3, 5e-3)), task)
     force = squeeze(outcome)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from named_goals import goals
 from small_grasps import pinch, tripod
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
@@ -23,7 +24,7 @@ from synergrip.tasks.timed_task import TimedTask, still
 def task(wrench: Array, margin: float, goal: str, *limits) -> TimedTask:
     w = np.atleast_2d(np.asarray(wrench, dtype=float))
     times = np.linspace(0, 1, len(w)) if len(w) > 1 else np.zeros(1)
-    return TimedTask(times, w, still(times), margin, limits, (goal,))
+    return TimedTask(times, w, still(times), margin, limits, goals(goal))
 
 
 def planned(*args) -> Plan:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from named_goals import goals
 from random_tasks import random_task_on_grasp
 from scipy.interpolate import CubicSpline
 
@@ -48,7 +49,7 @@ def swinging(seed: int, goal: str) -> tuple[Grasp, TimedTask]:
     course = Swinging(CubicSpline(times, values))
     return grasp, replace(
         task, times=times, wrench=frozen(values), target=still(times), limits=limits, course=course,
-        order=(goal,), margin=0.02,
+        goals=goals(goal), margin=0.02,
     )  # type: ignore[arg-type]  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from named_goals import goals
 from typer.testing import CliRunner
 
 from synergrip.cli.app import app
@@ -32,7 +33,7 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert np.all(np.diff(peaks) > -1e-6 * peaks.max())
     assert np.all(np.diff(peaks, 2) > -1e-5 * peaks.max())  # the trade is convex
     assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.formulation.force_unit)
-    least = plan(problem.grasp, replace(problem.task, order=("peak_force", "effort")))
+    least = plan(problem.grasp, replace(problem.task, goals=goals("peak_force", "effort")))
     assert isinstance(least, Plan)
     assert peaks[0] == pytest.approx(least.motion.forces[:, problem.grasp.normal_rows].max(), rel=1e-6)
     middle = points[2]

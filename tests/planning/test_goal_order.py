@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from named_goals import goals, names_of, ranges_of
 from random_tasks import moving_random_task
 
+from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
@@ -42,20 +44,17 @@ def task_of(seed: int, order: tuple[str, ...]) -> tuple[Grasp, TimedTask]:
     start = rng.uniform(-0.5, 0.5, grasp.n_q)
     ranges = JointRange(frozen(start), frozen(start - rng.uniform(0.5, 1, grasp.n_q)), frozen(start + 0.7))
     return grasp, replace(
-        task, order=order, ranges=ranges, margin=0.0,
-        weights=WEIGHTS if "weighted" in order else {},
-    )  # type: ignore[arg-type]  # fmt: skip
+        task, goals=goals(*order, weights=WEIGHTS, ranges=ranges), margin=0.0,
+    )  # fmt: skip
 
 
 def values(outcome: Plan) -> dict[str, float]:
     """Return what each goal measures of a plan, by formulas of its own."""
-    motion, scale, ranges = outcome.motion, outcome.analysis.response.scale, outcome.task.ranges
-    assert ranges is not None
+    motion, scale = outcome.motion, outcome.analysis.response.scale
     h = np.diff(motion.times)[:, None]
     rates = np.diff(motion.dz_r, axis=0) / h
     span = (h[1:] + h[:-1]) / 2
     bends = np.diff(rates, axis=0) / span
-    middle, half = (ranges.lower + ranges.upper) / 2, (ranges.upper - ranges.lower) / 2
 
     def squares(array: Array) -> float:
         return float((array**2).sum())
@@ -74,8 +73,14 @@ def values(outcome: Plan) -> dict[str, float]:
         "travel": squares(rates * np.sqrt(h)),
         "smooth": smooth,
         "weighted": weighted,
-        "centred": squares((ranges.start + motion.dq - middle) / half),
+        **({"centred": _off_centre(outcome)} if "centred" in names_of(outcome.task.goals) else {}),
     }
+
+
+def _off_centre(outcome: Plan) -> float:
+    ranges = ranges_of(outcome.task.goals)
+    middle, half = (ranges.lower + ranges.upper) / 2, (ranges.upper - ranges.lower) / 2
+    return float((((ranges.start + outcome.motion.dq - middle) / half) ** 2).sum())
 
 
 @pytest.mark.parametrize("order", ORDERS, ids="-".join)
@@ -91,7 +96,7 @@ def test_each_goal_is_best_among_those_before_it(order: tuple[str, ...]) -> None
         assert not [note for note in outcome.notes if "not verified" in note], (seed, outcome.notes)
         reached = values(outcome)
         for k, name in enumerate(order):
-            best = plan(grasp, replace(task, order=order[: k + 1]))  # nobody comes after this goal
+            best = plan(grasp, replace(task, goals=task.goals[: k + 1]))  # nobody comes after this goal
             assert isinstance(best, Plan)
             size = max(abs(values(best)[name]), 1e-3)
             assert reached[name] <= values(best)[name] + 2e-5 * size, (seed, name)
@@ -130,9 +135,9 @@ def test_the_least_motion_of_a_redundant_hand_beats_any_other_choice() -> None:
 
 
 def test_centring_joints_needs_their_ranges() -> None:
-    grasp, task = task_of(200, ("effort", "centred"))
-    with pytest.raises(InputError, match="joint ranges"):
-        plan(grasp, replace(task, ranges=None))
+    grasp, task = task_of(200, ("effort",))
+    with pytest.raises(InputError, match=r"CentredJoints\.start: needs a hand with joint ranges"):
+        plan(grasp, replace(task, goals=(*task.goals, CentredJoints())))
 
 
 def test_an_interrupt_keeps_what_the_goals_before_have_led_to() -> None:

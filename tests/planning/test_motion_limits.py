@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from named_goals import name_of
 from random_tasks import moving_random_task
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
@@ -48,7 +49,7 @@ def _motion_limits(rng: np.random.Generator, grasp: Grasp) -> tuple[Limit, ...]:
     chosen: list[Limit] = [
         JointRange(frozen(start), frozen(start - room[0]), frozen(start + room[1])),
         SynergyAcceleration(frozen(10 ** rng.uniform(0, 1.5, grasp.n_z))),
-        FrictionReserve(frozen(rng.uniform(0.5, 1.0, grasp.n_c))),
+        FrictionReserve(ratios=frozen(rng.uniform(0.5, 1.0, grasp.n_c))),
         ElasticMotion(float(10 ** rng.uniform(-3.5, -2))),
         ObjectError(float(10 ** rng.uniform(-2.5, -1.5))),
     ]
@@ -80,10 +81,11 @@ def _judge(outcome: Plan, objective: float) -> None:
     """Compare the plan with what was asked, by formulas of its own."""
     task, scale, spaces = outcome.task, outcome.analysis.response.scale, outcome.analysis.spaces
     size = max(abs(objective), 1e-3)
-    if task.goal in ("effort", "torque"):
-        scaled = outcome.motion.forces * scale.force if task.goal == "effort" else outcome.motion.torques / scale.length
+    goal = name_of(task.goal)
+    if goal in ("effort", "torque"):
+        scaled = outcome.motion.forces * scale.force if goal == "effort" else outcome.motion.torques / scale.length
         assert (scaled**2).sum() == pytest.approx(objective, rel=1e-5, abs=1e-6 * size)
-    elif task.goal == "margin":
+    elif goal == "margin":
         assert outcome.margins.min() == pytest.approx(objective, abs=1e-6 * max(size, np.abs(outcome.alpha).max()))
     rigid = outcome.beta @ spaces.Gamma_ucs.T
     reached = outcome.motion.du if task.tracking == "compliant" else rigid

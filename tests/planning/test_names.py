@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from named_goals import goals
 from small_grasps import tripod
 
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -58,7 +59,7 @@ def named(names: list[str]) -> Grasp:
 
 def asked(grasp: Grasp, margin: float, *limits: Limit, solver: str = "clarabel") -> Outcome:
     wrench = WEIGHT * np.array([0.0, 1.0, 0.5])[:, None]
-    task = TimedTask(TIMES, wrench, still(TIMES), margin, limits, ("effort",))
+    task = TimedTask(TIMES, wrench, still(TIMES), margin, limits, goals("effort"))
     return plan(grasp, task, SOLVERS[solver])
 
 
@@ -106,7 +107,7 @@ def test_a_contact_named_object_is_no_drift_of_the_object() -> None:
     grasp = named(["object", "b", "c"])
     drift = ObjectError(1e-3, ("x", "y"))
     analysis = analyse(grasp, np.zeros((3, 6)))
-    task = TimedTask(TIMES, np.zeros((3, 6)), still(TIMES), 0.0, (drift,), ("effort",))
+    task = TimedTask(TIMES, np.zeros((3, 6)), still(TIMES), 0.0, (drift,), goals("effort"))
     formulation = formulated(analysis, task, redundancy=True)
     (rows,) = drift.rows(formulation)
     assert rows.dim == 3

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from driven_grasp import driven, touch
+from named_goals import goals
 from random_tasks import random_task_on_grasp
 
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -20,7 +21,7 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
-from synergrip.tasks.timed_task import GoalName, TimedTask, still
+from synergrip.tasks.timed_task import TimedTask, still
 
 
 def slippery(rng: np.random.Generator, grasp: Grasp) -> Grasp:
@@ -67,7 +68,7 @@ def test_a_contact_that_would_have_to_pull_holds_nothing(mu: float) -> None:
         asked = replace(
             task, times=frozen([0.0]), wrench=frozen([[0, 0, weight, 0, 0, 0]]), margin=0.0,
             limits=(NormalForce(0.0, 100.0),),
-            order=("effort",), target=replace(task.target, kind="hold", values=frozen(np.zeros((1, 0)))),
+            goals=goals("effort"), target=replace(task.target, kind="hold", values=frozen(np.zeros((1, 0)))),
         )  # fmt: skip
         outcome = plan(grasp, asked)
         assert outcome.verdict == verdict or (outcome.verdict == "unknown" and mu < 1e-8)
@@ -84,11 +85,11 @@ def test_a_pull_is_a_margin_that_is_missed_by_as_much() -> None:
 
 @pytest.mark.parametrize("mu", [1e-9, 1e-7, 1.3e-6, 1e-4, 0.03])
 @pytest.mark.parametrize("goal", ["effort", "peak_force", "torque"])
-def test_little_friction_takes_a_hard_squeeze_and_no_more(mu: float, goal: GoalName) -> None:
+def test_little_friction_takes_a_hard_squeeze_and_no_more(mu: float, goal: str) -> None:
     """Without a limit on forces, a weight W and a margin m take n = (W / 2 + m) / mu of each of two fingers."""
     fingers = [touch(name, "soft", [x, 0, 0], [-x, 0, 0], mu) for name, x in (("left", -0.02), ("right", 0.02))]
     times = frozen([0.0])
-    task = TimedTask(times, frozen([[0, 0, -2.943, 0, 0, 0]]), still(times), 0.5, (), (goal,))
+    task = TimedTask(times, frozen([[0, 0, -2.943, 0, 0, 0]]), still(times), 0.5, (), goals(goal))
     outcome = plan(driven(fingers), task)
     assert isinstance(outcome, Plan)
     assert outcome.motion.forces[:, [0, 4]] == pytest.approx((2.943 / 2 + 0.5) / mu, rel=1e-5)

@@ -10,7 +10,7 @@ import pytest
 from random_tasks import hand_like_grasp
 from small_grasps import pinch, tripod
 
-from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
@@ -25,7 +25,7 @@ WEIGHT = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
 def task(**changes: Any) -> TimedTask:
     given: dict[str, Any] = {
         "times": TIMES, "wrench": np.tile(WEIGHT, (3, 1)), "target": still(TIMES), "margin": 0.1,
-        "limits": (NormalForce(0.0, 50.0),), "order": ("effort",),
+        "limits": (NormalForce(upper=50.0),), "goals": (LeastEffort(),),
     }  # fmt: skip
     return TimedTask(**(given | changes))
 
@@ -129,16 +129,13 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
         ({"times": "0 s"}, "times", "got '0 s'"),
         ({"times": np.linspace(0, 1, 4), "wrench": WEIGHT}, "target", "expected a row at each of 4 knots, got (3, 0)"),
         ({"target": Target("motion", np.zeros(3))}, "target", "got (3,)"),
-        ({"order": ("weighted",)}, "weights", "'weighted' in the order needs weights"),
-        ({"order": ("efort",)}, "order[0]", "did you mean 'effort'?"),
-        ({"order": ("margin", "smoooth")}, "order[1]", "did you mean 'smooth'?"),
-        ({"order": ("effort", "effort")}, "order[1]", "'effort' is listed twice"),
-        ({"order": "effort"}, "order", "expected one or more goals, got 'effort'; write for example (\"effort\",)"),
-        ({"order": ()}, "order", "expected one or more goals, got none"),
-        ({"order": None}, "order", "expected one or more goals, got null"),
-        ({"order": ("weighted",), "weights": {"margin": 1.0}}, "weights['margin']", "only sums of squares"),
-        ({"order": ("weighted",), "weights": {"effort": -1.0}}, "weights['effort']", "greater than 0, got -1"),
-        ({"order": ("weighted",), "weights": {"effort": np.float64(0)}}, "weights['effort']", "greater than 0, got 0"),
+        ({"goals": ()}, "goals", "expected one or more goals, got none; write for example goals=(LeastEffort(),)"),
+        ({"goals": None}, "goals", "expected one or more goals, got null"),
+        ({"goals": "effort"}, "goals", "expected one or more goals, got 'effort'"),
+        ({"goals": LeastEffort()}, "goals", "expected one or more goals, got LeastEffort(of='contact')"),
+        ({"goals": ("effort",)}, "goals[0]", "expected a goal, got 'effort'; write for example"),
+        ({"goals": (LeastEffort,)}, "goals[0]", "expected a goal, got <class"),
+        ({"goals": (LeastEffort(), LeastEffort())}, "goals[1]", "'least contact effort' is listed twice"),
         ({"margin": -1}, "margin", "expected a slip margin in newtons of at least 0"),
         ({"margin": -1e-12}, "margin", "got -1e-12"),
         ({"margin": float("nan")}, "margin", "got nan"),
@@ -151,11 +148,9 @@ def test_one_wrench_is_the_same_at_all_knots() -> None:
         ({"drift": 0.0}, "drift", "greater than 0, or None"),
         ({"axes": ("x", "w")}, "axes", "'w' is not one of 'x', 'y', 'z', 'rx', 'ry' or 'rz'"),
         ({"between": "hodl"}, "between", "did you mean 'hold'?"),
-        ({"limits": (5,)}, "limits[0]", "expected a limit such as NormalForce(0.0, 20.0), got 5"),
-        ({"limits": (NormalForce(0.0, float("nan")),)}, "limits[0].upper", "got nan; infinity stands for no bound"),
-        ({"limits": (NormalForce(5.0, 1.0),)}, "limits[0]", "the lower bound 5 is above the upper bound 1"),
-        ({"limits": (JointTorque(-np.ones(3)),)}, "limits[0].limit", "expected sizes of at least 0, got -1"),
-        ({"limits": (JointTorque(np.array([1.0, np.nan])),)}, "limits[0].limit", "got nan"),
+        ({"limits": (5,)}, "limits[0]", "expected a limit, got 5; write for example limits=(SlipMargin(0.5), Normal"),
+        ({"limits": NormalForce(upper=2.0)}, "limits", "expected limits, got NormalForce(lower=0.0, upper=2.0)"),
+        ({"limits": None}, "limits", "expected limits, got null"),
     ],
 )
 def test_tasks_that_are_none_are_refused_by_name(changes: dict[str, Any], key: str, fragment: str) -> None:
@@ -166,5 +161,5 @@ def test_tasks_that_are_none_are_refused_by_name(changes: dict[str, Any], key: s
 
 def test_everything_that_is_wrong_is_told_at_once() -> None:
     with pytest.raises(InputError) as caught:
-        task(margin=-1, order=("efort",), tracking="rigd")
-    assert {issue.key for issue in caught.value.issues} == {"Task.margin", "Task.order[0]", "Task.tracking"}
+        task(margin=-1, goals=("efort",), tracking="rigd")
+    assert {issue.key for issue in caught.value.issues} == {"Task.margin", "Task.goals[0]", "Task.tracking"}

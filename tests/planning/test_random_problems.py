@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from named_goals import name_of
 from random_tasks import random_task_on_grasp
 
 from synergrip.errors import SelfCheckError
@@ -22,11 +23,11 @@ HARD = (1075, 1539)
 def _value(outcome: Plan) -> float:
     """What the plan's own forces make of its goal, in the referee's units."""
     scale = outcome.analysis.response.scale
-    if outcome.task.goal == "effort":
+    if name_of(outcome.task.goal) == "effort":
         return float(np.sum((outcome.motion.forces * scale.force) ** 2))
-    if outcome.task.goal == "torque":
+    if name_of(outcome.task.goal) == "torque":
         return float(np.sum((outcome.motion.torques / scale.length) ** 2))
-    if outcome.task.goal == "peak_force":
+    if name_of(outcome.task.goal) == "peak_force":
         return float(outcome.motion.forces[:, [rows.start for rows in outcome.analysis.grasp.rows]].max())
     return float(outcome.margins.min())
 
@@ -39,7 +40,7 @@ def _same(found: float | None, expected: float | None, tolerance: float, more: f
 
 def _differences(outcome: Plan | Infeasible, answer: RefereeAnswer) -> list[str]:
     wrong = []
-    if outcome.task.goal == "margin" and not _same(outcome.largest_margin, answer.largest_margin, 1e-6):
+    if name_of(outcome.task.goal) == "margin" and not _same(outcome.largest_margin, answer.largest_margin, 1e-6):
         wrong.append(f"largest margin {outcome.largest_margin} against {answer.largest_margin}")
     if isinstance(outcome, Infeasible):
         if outcome.stage != "magnitude" or outcome.certificate is None or not outcome.certificate.verified:
@@ -49,7 +50,7 @@ def _differences(outcome: Plan | Infeasible, answer: RefereeAnswer) -> list[str]
     wrong += [f"certificate {d.certificate}" for d in outcome.decisions[-1:] if not d.optimal]
     given_up = 2 * max(SLACKS) * outcome.formulation.force_unit  # to the effort, in "margin" and "peak_force"
     if not _same(_value(outcome), answer.objective, 2e-6, given_up):
-        wrong.append(f"{outcome.task.goal} {_value(outcome)} against {answer.objective}")
+        wrong.append(f"{outcome.task.goal.name} {_value(outcome)} against {answer.objective}")
     return wrong
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from decimal_response import decimal_maps
 from elastic_grasp import slip_margins
+from named_goals import goals
 from random_trajectories import random_trajectory
 
 from synergrip.errors import RigidContactError
@@ -22,7 +23,7 @@ def test_forces_and_margins_of_a_plan_are_what_its_references_cause() -> None:
         grasp, task = random_trajectory(seed, 4)
         stiff = np.diag(10.0 ** np.random.default_rng(seed).uniform(-9, 0, grasp.n_l))
         grasp = replace(grasp, C_s=frozen(stiff), lambda_0=None, w_0=frozen(np.zeros(6)))
-        task = replace(task, margin=0.0, limits=(), order=("effort",), between="report", tolerance=1.0)
+        task = replace(task, margin=0.0, limits=(), goals=goals("effort"), between="report", tolerance=1.0)
         outcome = plan(grasp, task)
         if not isinstance(outcome, Plan):
             assert isinstance(outcome, Infeasible), seed

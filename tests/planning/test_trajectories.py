@@ -14,6 +14,7 @@ import pytest
 from elastic_grasp import course
 from goal_values import goal_value
 from judged_trajectories import Judged, excesses, judged
+from named_goals import name_of, names_of, weights_of
 from random_trajectories import ORDERS, random_trajectory
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -70,7 +71,7 @@ def test_the_trajectories_ask_for_everything_there_is() -> None:
     tasks = [random_trajectory(seed, 12)[1] for seed in range(COUNT)]
     keys = [{limit.key for limit in task.limits} for task in tasks]
     assert all(sum(name in each for each in keys) >= 3 for name in ONE_FOR_ALL)
-    assert {task.order for task in tasks} == set(ORDERS)
+    assert {names_of(task.goals) for task in tasks} == set(ORDERS)
     kinds = [(task.tracking, len(task.axes) < 6, task.target.kind) for task in tasks]
     for kind in (("rigid", False, "hold"), ("rigid", False, "modes"), ("rigid", False, "motion"),
                  ("rigid", True, "motion"), ("compliant", False, "motion"), ("compliant", True, "motion")):  # fmt: skip
@@ -104,7 +105,7 @@ def test_least_references_leave_nothing_open_to_any_other_goal() -> None:
 
 def _coupled(task: TimedTask) -> bool:
     """Whether one knot of the program speaks of another."""
-    keys, goals = {limit.key for limit in task.limits}, {task.goal, *task.weights}
+    keys, goals = {limit.key for limit in task.limits}, {name_of(task.goal), *weights_of(task.goals)}
     return bool(keys & {"limits.synergy_rate", "limits.synergy_acceleration"} or goals & {"travel", "smooth"})
 
 
@@ -123,7 +124,7 @@ def _compared(seed: int) -> bool:
     units = one.formulation.stated
     first, second = (
         goal_value(
-            task.goal, grasp, task, course(grasp, task.times, each.motion.dz_r, task.wrench),
+            name_of(task.goal), grasp, task, course(grasp, task.times, each.motion.dz_r, task.wrench),
             (units.force, units.reference),
         )
         for each in (one, two)

@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.documents.quantities import EXAMPLES, UNITS, quantity
 from synergrip.errors import InputError, Issue
 from synergrip.problems.problem import Problem, load_problem
@@ -214,7 +215,7 @@ def test_a_goal_set_over_the_files_own_says_how_to_replace_it() -> None:
     issue = refused(HOLD, "goal.maximise=margin")
     assert "drop 'minimise' to keep maximise = \"margin\"" in issue.message
     assert "--set goal={...} replaces the whole table" in issue.message
-    assert load_problem(HOLD, ['goal={maximise="margin"}']).task.order == ("margin",)
+    assert load_problem(HOLD, ['goal={maximise="margin"}']).task.goals == (LargestMargin(),)
 
 
 # gravity and wrench with units

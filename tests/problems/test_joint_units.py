@@ -81,7 +81,7 @@ def test_each_joint_has_its_own_units(place: Path) -> None:
     np.testing.assert_array_equal(problem.held.q, [0.005, 0.0])
     np.testing.assert_allclose(np.diag(problem.grasp.C_q), [1e-4, 0.02])
     np.testing.assert_array_equal(torque(problem).limit, [3, 2])
-    assert torque(problem).unit == ""
+    assert torque(problem).unit(problem.grasp) == ""
     (effort,) = (limit for limit in problem.task.limits if isinstance(limit, ActuatorEffort))
     np.testing.assert_array_equal(effort.limit, [4, 5])
 
@@ -91,8 +91,8 @@ def test_slides_have_lengths_and_forces(place: Path) -> None:
     problem = load_problem(place, ["hand.compliance.joint=0.1 mm/N", "limits.joint_torque=3 N"])
     np.testing.assert_allclose(np.diag(problem.grasp.C_q), [1e-4, 1e-4])
     np.testing.assert_array_equal(torque(problem).limit, [3, 3])
-    assert torque(problem).unit == "N"
-    assert [limit.unit for limit in problem.task.limits if isinstance(limit, JointRange)] == ["m"]
+    assert torque(problem).unit(problem.grasp) == "N"
+    assert [limit.unit(problem.grasp) for limit in problem.task.limits if isinstance(limit, JointRange)] == ["m"]
 
 
 @pytest.mark.parametrize(
@@ -124,4 +124,5 @@ def test_plain_numbers_stay_si(place: Path) -> None:
 
 
 def test_joints_that_turn_keep_newton_metres() -> None:
-    assert torque(load_problem("barrett-ball-hold", ["limits.joint_torque=3 N m"])).unit == "N m"
+    problem = load_problem("barrett-ball-hold", ["limits.joint_torque=3 N m"])
+    assert torque(problem).unit(problem.grasp) == "N m"

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named_goals import goals, names_of, ranges_of, weights_of
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.joint_range import JointRange
@@ -55,7 +56,7 @@ def test_nothing_of_it_is_asked_unless_stated() -> None:
         ("limits.drift=2 mm", "limits.drift", 0.002),
         ("goal={maximise='margin'}", "goal.names", ("margin",)),
         *((f"goal.minimise={name}", "goal.names", (name,)) for name in (*SQUARES, "peak_force")),
-        ("goal={minimise={travel=0.1}}", "goal.names", ("weighted",)),
+        ("goal={minimise={travel=0.1}}", "goal.names", ("travel",)),
         (f"goal={{minimise={ALL_SQUARES}}}", "goal.weights", SQUARES),
         ("goal={order=['smooth']}", "goal.names", ("smooth",)),
         ("goal={order=['margin', 'effort', 'travel']}", "goal.names", ("margin", "effort", "travel")),
@@ -152,14 +153,13 @@ def test_limits_on_motion_reach_the_task_with_the_ranges_of_the_hand() -> None:
     assert isinstance(acceleration, SynergyAcceleration)
     assert acceleration.limit.tolist() == [1, 2, 3, 4]
     assert isinstance(ranges, JointRange)
-    assert task.ranges is not None
-    assert ranges.start.tolist() == task.ranges.start.tolist()
+    assert ranges.start.tolist() == ranges_of(task.goals).start.tolist()
     assert ranges.start[1] == pytest.approx(np.radians(61) / 3)  # finger1_outer follows its inner joint by 1/3
     assert ranges.lower[0] == 0
     assert ranges.upper[0] == pytest.approx(np.radians(140))
     assert found["limits.elastic_motion"] == ElasticMotion(1e-3)
     assert found["limits.drift"] == ObjectError(2e-3)
-    assert task.order == ("effort", "centred")
+    assert names_of(task.goals) == ("effort", "centred")
 
 
 def test_tracking_reaches_the_task_and_adds_its_own_limits() -> None:
@@ -169,7 +169,7 @@ def test_tracking_reaches_the_task_and_adds_its_own_limits() -> None:
          "goal={minimise={effort=1, travel=0.1}}"],
     ).task  # fmt: skip
     assert (task.tracking, task.tolerance, task.axes, task.drift) == ("compliant", 4e-4, ("rx",), 3e-3)
-    assert (task.order, dict(task.weights)) == (("weighted",), {"effort": 1.0, "travel": 0.1})
+    assert (names_of(task.goals), weights_of(task.goals)) == (("weighted",), {"effort": 1.0, "travel": 0.1})
     added = {limit.key: limit for limit in task.kept if limit not in task.limits}
     assert added["task.tolerance"] == ObjectError(4e-4, ("rx",), "whole", "task.tolerance", "tracking error")
     rest = ("x", "y", "z", "ry", "rz")
@@ -207,7 +207,7 @@ def refused_goal(*overrides: str) -> str:
 
 def test_a_margin_in_an_order_needs_something_that_bounds_it() -> None:
     bounded = ["limits={joint_torque=3}", "goal={order=['margin', 'smooth']}"]
-    assert load_problem("pinch-soft", bounded).task.order == ("margin", "smooth")
+    assert load_problem("pinch-soft", bounded).task.goals == goals("margin", "smooth")
     assert refused_goal("limits={synergy_rate=3}", "goal={order=['margin', 'smooth']}") == "goal.order[0]"
     assert refused_goal("limits={}", "goal={maximise='margin'}") == "goal.maximise"
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from named_goals import goals
 from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
@@ -151,8 +152,8 @@ def test_two_limits_under_one_key_keep_their_multipliers_apart() -> None:
 def test_frictionless_contacts_are_known() -> None:
     grasp = random_grasp(np.random.default_rng(3), kinds=["hard", "soft", "frictionless", "hard"], n_q=8, n_z=5)
     times = frozen([0.5])
-    limits = (NormalForce(-20.0, 20.0), JointTorque(frozen(np.full(8, 2.0))))
-    task = TimedTask(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, ("margin",))
+    limits = (NormalForce(upper=20.0), JointTorque(frozen(np.full(8, 2.0))))
+    task = TimedTask(times, frozen([[0, 0, -1.0, 0, 0, 0]]), still(times), 0.0, limits, goals("margin"))
     outcome, second = plan(grasp, task), plan(grasp, task, SOLVERS["cvxpy"])
     assert outcome.verdict == second.verdict == referee(analyse(grasp), task).verdict
 
@@ -197,7 +198,7 @@ def test_a_program_of_another_question_is_refused() -> None:
 def test_an_unbounded_margin_is_claimed_as_such() -> None:
     grasp = hand_like_grasp(np.random.default_rng(0))
     times = frozen([0.5])
-    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), ("margin",))
+    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (), goals("margin"))
     analysis = analyse(grasp)
     formulation = formulate(
         analysis.response, analysis.spaces, analysis.coordinates, times=times, wrench=task.wrench,

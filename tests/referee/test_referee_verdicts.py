@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from named_goals import goals
 from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -53,7 +54,7 @@ def test_the_referee_equals_a_closed_form() -> None:
     )  # fmt: skip
     times = frozen([1.0])
     torque = JointTorque(frozen([0.2, 0.3, 0.4]))
-    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), ("margin",))
+    task = TimedTask(times, frozen(np.zeros((1, 6))), still(times), 0.0, (torque,), goals("margin"))
     answer = referee(analyse(grasp), task)
     assert answer.verdict == "feasible"
     assert answer.largest_margin == pytest.approx(0.5 * 0.2 / 0.05, rel=1e-8)

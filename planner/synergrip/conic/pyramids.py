@@ -115,7 +115,7 @@ class LargestMarginInPyramids(LargestMargin):
 
 
 @dataclass(frozen=True)
-class _OtherInPyramids:
+class _OtherInPyramids(Limit):
     """Any other limit, with pyramids in the place of the contacts' cones that it has."""
 
     limit: Limit
@@ -155,4 +155,4 @@ def limit_in_pyramids(limit: Limit, facets: int) -> Limit:
 
 def goal_in_pyramids(goal: Goal, facets: int) -> Goal:
     """Return the goal with pyramids in the place of friction cones; the same goal when it has none."""
-    return LargestMarginInPyramids(goal.name, facets) if isinstance(goal, LargestMargin) else goal
+    return LargestMarginInPyramids(facets) if isinstance(goal, LargestMargin) else goal

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -96,6 +96,15 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
     constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
     zero = frozen(np.zeros(len(matrix)))
     return Rows(limit, Kind.SECOND_ORDER, len(matrix), (Item(item, "norm"),), frozen(matrix), frozen(constant), zero)
+
+
+def with_room(rows: Rows, room: float) -> Rows:
+    """Return rows whose cones are all kept but for `room`; equations stay."""
+    if rows.kind is Kind.ZERO:
+        return rows
+    heads = np.zeros(len(rows.matrix))
+    heads[:: rows.dim] = room
+    return replace(rows, constant=frozen(rows.constant + heads))
 
 
 def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, upper: Array, unit: Array) -> list[Rows]:

@@ -66,6 +66,7 @@ def judge_references(grasp: Grasp, task: TimedTask, references: References) -> J
         InputError: the references do not cover the task.
         Refusal: the grasp does not restrain the object, or the task is impossible by count or direction.
     """
+    task = task.on(grasp)
     times = _common_times(task, references)
     analysis = analyse(grasp, task.wrench)
     formulated(analysis, task, redundancy=True)  # refuses a task that no references can do

@@ -7,6 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.planning import plan
@@ -32,7 +35,7 @@ def largest(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"
     Raises:
         InputError: nothing bounds the largest margin.
     """
-    return plan(grasp, replace(task, order=("margin", "effort")), solver)
+    return plan(grasp, replace(task, goals=(LargestMargin(), LeastEffort())), solver)
 
 
 def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Iterator[FrontPoint]:
@@ -52,7 +55,7 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
     grasp, task, most = best.analysis.grasp, best.task, best.largest_margin or 0.0
     top = most - ROOM * max(most, best.formulation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
-        point = plan(grasp, replace(task, margin=float(margin), order=("peak_force", "effort")), solver)
+        point = plan(grasp, replace(task, margin=float(margin), goals=(LeastPeak(), LeastEffort())), solver)
         if isinstance(point, Plan) and point.interrupted:  # half of its goals make no point
             raise KeyboardInterrupt
         if isinstance(point, Plan):

@@ -11,8 +11,8 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proof
 from synergrip.documents.quantities import apart
@@ -28,7 +28,7 @@ from synergrip.planning.solvers import SOLVERS, Answered, Answerer, ask
 from synergrip.planning.stages import Stage, not_the_best, through
 from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.goals import goals_of, unasked_goals
+from synergrip.tasks.goals import unasked_goals
 from synergrip.tasks.scaling import caps, grips
 from synergrip.tasks.timed_task import TimedTask, unbounded
 
@@ -40,9 +40,10 @@ def plan(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) 
     """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 
     Raises:
-        InputError: the grasp is rigid in some contact direction, or the modes do not fit it.
+        InputError: the grasp is rigid in some contact direction, or modes, limits or goals do not fit it.
         SelfCheckError: the answer failed the physical check (a defect of synergrip).
     """
+    task = task.on(grasp)
     try:
         analysis = analyse(grasp, task.wrench)
     except NotRestrainedError as refusal:
@@ -80,7 +81,7 @@ class _Planner:
         self.decisions: list[Decision] = []
 
     def outcome(self) -> Outcome:
-        first, *others = goals_of(self.task)
+        first, *others = self.task.goals
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
         if not best.decision.acceptable:
@@ -102,9 +103,9 @@ class _Planner:
 
     def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
         """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
+        if goal.has_scalar and decision.unbounded:
+            raise unbounded(goal)
         if isinstance(goal, LargestMargin):
-            if decision.unbounded:
-                raise unbounded()
             return self._no_optimum(decision)
         first = self._ask(self.task.kept, LargestMargin())
         widest = Stage(first.question.formulation, self.task.kept, LargestMargin(), (first.decision,))
@@ -134,7 +135,7 @@ class _Planner:
 
     def _short_of_margin(self, widest: Answered, largest: float) -> Outcome:
         """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
-        limits = (*self.task.kept, FrictionCone(self.task.margin))
+        limits = (*self.task.kept, SlipMargin(self.task.margin))
         program = Question(widest.question.formulation, limits, LeastEffort()).program()
         certificate = proof(program, (widest.decision.solution.z,))
         if certificate.verified:
@@ -170,7 +171,7 @@ class _Planner:
 
     def _without_limits(self) -> str:
         """Tell limits from geometry: would the cones alone allow it?"""
-        alone = Question(self.formulation, (FrictionCone(self.task.margin),), LeastEffort())
+        alone = Question(self.formulation, (SlipMargin(self.task.margin),), LeastEffort())
         free = ask(alone, self.solver, grips(self.formulation))
         if free.decision.infeasible:
             return "no squeeze however hard would do: friction, contact places, load or synergies must change"

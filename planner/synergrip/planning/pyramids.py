@@ -8,15 +8,17 @@ and the references it returns are judged like anybody's, as physics, with the tr
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.decide import Decision
+from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_effort import Effort, LeastEffort
+from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.pyramids import (
     FEWEST,
@@ -35,12 +37,10 @@ from synergrip.planning.references import References
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.planning.stages import Stage, through
 from synergrip.planning.verified import verified_plan
-from synergrip.tasks.goals import goals_of, unasked_goals
-from synergrip.tasks.timed_task import EFFORTS
+from synergrip.tasks.goals import unasked_goals
 
 MOST = 64
 """Facets: a pyramid of 64 is 0.12 % narrower than its cone, at most, and 64 rows for each contact and knot."""
-Effort = Literal["contact", "torque", "actuator"]
 
 
 @dataclass(frozen=True)
@@ -88,9 +88,7 @@ class Comparison:
     @property
     def effort(self) -> Effort:
         """The kind of effort that is compared: the first that the goals speak of, contact effort if none does."""
-        kinds: dict[str, Effort] = {"torque": "torque", "actuator": "actuator"}
-        named = [name for name in (*self.cones.task.order, *self.cones.task.weights) if name in EFFORTS]
-        return kinds.get(named[0], "contact") if named else "contact"
+        return next((goal.of for goal in _single(self.cones.task.goals) if isinstance(goal, LeastEffort)), "contact")
 
     @property
     def effort_ratio(self) -> float | None:
@@ -146,7 +144,7 @@ def compare(cones: Plan, request: Request) -> Comparison:
 
 def _question(cones: Plan, facets: int) -> Question:
     """Return the first goal's question, with pyramids."""
-    task, goal = cones.task, goal_in_pyramids(goals_of(cones.task)[0], facets)
+    task, goal = cones.task, goal_in_pyramids(cones.task.goal, facets)
     kept = _kept(cones, facets)
     limits = kept if isinstance(goal, LargestMargin) else (FrictionPyramid(task.margin, facets=facets), *kept)
     return Question(cones.formulation, limits, goal)
@@ -164,7 +162,7 @@ def _best(cones: Plan, question: Question, first: Decision, facets: int) -> Plan
     stage = Stage(question.formulation, question.limits, question.goal, (first,))
     if stage.falls_short_of(task.margin):
         return None
-    goals = [goal_in_pyramids(goal, facets) for goal in goals_of(task)[1:]]
+    goals = [goal_in_pyramids(goal, facets) for goal in task.goals[1:]]
     last = through(stage, goals, unasked_goals(task), clarabel)
     if last.interrupted:  # half of the goals would compare nothing
         raise KeyboardInterrupt
@@ -203,6 +201,12 @@ def _answer(cones: Plan, question: Question, best: Decision, backend: str) -> An
                 reached, least = program.objective(found.x), program.objective(best.solution.x)
                 gap = abs(reached - least) / max(1.0, abs(reached), abs(least))
     return Answer(found.solver, found.status, found.seconds, checks, gap)
+
+
+def _single(goals: Iterable[Goal]) -> Iterator[Goal]:
+    """Yield goals, those of a weighted sum one by one."""
+    for goal in goals:
+        yield from (_single(each for each, _ in goal.goals) if isinstance(goal, WeightedSum) else (goal,))
 
 
 def _effort(plan: Plan, kind: Effort) -> float:

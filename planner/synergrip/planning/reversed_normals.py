@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.errors import SynergripError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.facing import away
@@ -34,7 +35,7 @@ def with_hint(outcome: Outcome, plan_again: Callable[[Grasp, TimedTask], Outcome
     """
     if not isinstance(outcome, Infeasible) or outcome.analysis is None or outcome.stage != "magnitude":
         return outcome
-    grasp, task = outcome.analysis.grasp, replace(outcome.task, order=("effort",), weights={})
+    grasp, task = outcome.analysis.grasp, replace(outcome.task, goals=(LeastEffort(),))
     for chosen in _choices(grasp.contacts):
         other = reversed_normals(grasp, chosen)
         if all(_holds(other, each, plan_again) for each in (_at_its_largest_load(task), task)):

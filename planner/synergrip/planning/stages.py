@@ -11,8 +11,8 @@ from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Squares
+from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
@@ -108,7 +108,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
         decision = answered.decision
         if decision.unbounded:
-            raise unbounded()
+            raise unbounded(goal)
         best = replace(
             stage, formulation=answered.question.formulation, limits=limits, goal=goal,
             decisions=(*stage.decisions, decision),
@@ -139,7 +139,7 @@ def _reduced(stage: Stage) -> Formulation:
     The best by a sum of squares agree in everything that is squared, and so differ only in what it does not see.
     """
     formulation, goal = stage.formulation, stage.goal
-    if isinstance(goal, LargestMargin | LeastPeak):
+    if goal.has_scalar:
         if formulation.unreduced is not None:
             return formulation
         return formulation.in_units(replace(formulation.units, force=_carried(stage)))
@@ -170,18 +170,28 @@ def _common(time_basis: Sequence[Array]) -> Array | None:
 
 def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
-    if isinstance(stage.goal, LargestMargin | LeastPeak):
+    if stage.goal.has_scalar:
         unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.formulation.force_unit
         for slack in dict.fromkeys(min(slack * unit, MOST * stage.formulation.load_size) for slack in SLACKS):
-            yield (stage.goal.keeps(stage.scalar, slack), *stage.limits)
+            yield (_kept(stage, slack), *stage.limits)
         return
     fixed = not formulation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
 
 
+def _kept(stage: Stage, slack: float) -> Limit:
+    """Return the limit that keeps the scalar of the last goal but for a slack [N]."""
+    goal, unit = stage.goal, stage.formulation.force_unit
+    kept = goal.keeps(stage.scalar, slack)
+    if kept is not None:
+        return kept
+    direction = np.sign(goal.objective(stage.formulation).epigraph or 0.0)
+    return KeptScalar(goal, stage.scalar / unit + float(direction) * slack / unit, stage.formulation.units)
+
+
 def _violation(stage: Stage) -> float:
     """Return the violation worth another attempt: less than what the next goal may give up of a margin or a peak."""
-    return SLACKS[0] if isinstance(stage.goal, LargestMargin | LeastPeak) else TIGHT
+    return SLACKS[0] if stage.goal.has_scalar else TIGHT
 
 
 def _carried(stage: Stage) -> float:

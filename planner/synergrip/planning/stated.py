@@ -48,7 +48,7 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
         "contacts": names, "joints": list(grasp.joints), "synergies": list(grasp.synergies),
         "time_s": knots if len(knots) == len(motion.times) else motion.times,
         "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
-        "largest_margin_N": _largest_margin(judged) if task.goal == "margin" else None,
+        "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
         "force_unit_N": units_of(analysis, task).force,
         "limits": [usage_document(usage) for usage in judged.usages],
         "checks": _checks(judged, claimed.get("checks")),

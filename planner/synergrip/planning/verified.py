@@ -83,9 +83,9 @@ def _judge(checks: Sequence[Check], exact: Sequence[Check], usages: Sequence[Usa
 
 def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> Iterator[str]:
     """Yield a note when a joint leaves the range that the hand states and no limit says that it may not."""
-    if task.ranges is None or any(isinstance(limit, JointRange) for limit in task.limits):
+    if formulation.response.grasp.held is None or any(isinstance(limit, JointRange) for limit in task.limits):
         return
-    usage = task.ranges.usage(formulation, motion)
+    usage = JointRange().usage(formulation, motion)
     if usage.excess.max(initial=-np.inf) > LIMIT:
         k, i = usage.worst()
         factor, unit = SHOWN_IN.get(usage.unit, (1.0, "(rad or m)"))

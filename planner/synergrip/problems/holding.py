@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.conic.limits.joint_range import JointRange
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.closing import close, unknown_surface
 from synergrip.grasps.closing_direction import closing_direction
@@ -23,11 +22,10 @@ from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.synergies.matrix import posture, stands_still
 from synergrip.hands.synergies.select import select
 from synergrip.hands.undriven import judge_undriven, with_springs
-from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds, unit_of
+from synergrip.hands.units import joint_kinds, list_misfits
 from synergrip.linalg import Array, frozen
 from synergrip.problems.contact_list import ContactSpec
 from synergrip.problems.hand_table import HandTable
-from synergrip.problems.limits_table import HandLimits
 from synergrip.problems.object_table import ObjectTable, ShapeTable
 from synergrip.problems.problem_file import ProblemFile
 
@@ -156,14 +154,3 @@ def _diagonal(value: float | tuple[float, ...], names: tuple[str, ...], key: str
     if np.max(value) > LARGEST_COMPLIANCE:
         raise InputError.at(key, f"a compliance of {np.max(value):g} is too large")
     return frozen(np.diag(np.broadcast_to(np.asarray(value, dtype=float), (len(names),))))
-
-
-def hand_limits(held: Held) -> HandLimits:
-    """Return what the hand itself allows."""
-    torque = frozen([joint.torque_limit for joint in held.hand.joints])
-    kinds = joint_kinds(held.hand.joints)
-    unit = unit_of(kinds.values(), "rad", "m")
-    lower, upper = (frozen([getattr(joint, end) for joint in held.hand.joints]) for end in ("lower", "upper"))
-    ranges = JointRange(held.q, lower, upper, unit)
-    moved = synergy_kinds(held.synergies, kinds.values())
-    return HandLimits(torque, held.synergies.effort_limits, ranges, kinds, moved)

@@ -3,136 +3,52 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Annotated, Any, Literal, cast
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, create_model
 
-from synergrip.documents.fields import (
-    POSITIVE,
-    Force,
-    Number,
-    Positive,
-    Schema,
-    Size,
-    Table,
-    Whole,
-    Written,
-    array_of,
-    either,
-    listed,
-    named,
-    number,
-    unit_schema,
-    with_unit,
-)
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.registry import GOALS
+from synergrip.conic.goals.weighted_sum import WeightedSum
+from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.registry import LIMITS
+from synergrip.documents.fields import POSITIVE, Number, Positive, Table, Whole, Written, named, number
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.tasks.timed_task import EFFORTS, FORCE_GOALS, GoalName
-
-_force = with_unit("force", at_least=0)
-_written_effort = either("torque", "force", above=0)
 
 
-def _force_range(value: object) -> tuple[float, float]:
-    low, high = listed(_force, value, 2, "forces") if isinstance(value, list) else (0.0, _force(value))
-    if low > high:
-        raise InputError.at("", f"the least force {low:g} N exceeds the largest, {high:g} N")
-    if high == 0:
-        raise InputError.at("", "the largest normal force must be greater than 0 N")
-    return low, high
+def _field(key: FileKey) -> tuple[Any, Any]:
+    """Return type and description of a key under [limits]."""
+    if key.default is None:
+        return key.type | None, Field(default=None, description=key.description)
+    return key.type, Field(default=key.default, validate_default=True, description=key.description)
 
 
-def _effort(value: object) -> float:
-    return _written_effort(value) if isinstance(value, str) else number(value, above=0)
+if TYPE_CHECKING:
 
+    class LimitsTable(Table):
+        """A key for each limit of the registry."""
 
-def _positive(value: object) -> float:
-    return number(value, above=0)
+        def __getattr__(self, name: str) -> Any:
+            """Return the value of a key."""
 
-
-def _each(read: Callable[[Any], float], word: str = "") -> Callable[[Any], Any]:
-    """Return the function that reads one bound for all, a list of them, or the `word`."""
-
-    def bounds(value: object) -> float | str | tuple[float, ...]:
-        if isinstance(value, list):
-            return listed(read, value)
-        if word and value == word:
-            return word
-        if word and isinstance(value, str) and value.strip().isalpha():
-            raise InputError.at(
-                "", f"expected '{word}', a number, a torque such as \"1.5 N m\" or a list, got {value!r}"
-            )
-        return read(value)
-
-    return bounds
-
-
-def _each_schema(one: list[Schema], word: str = "") -> Schema:
-    words: list[Schema] = [{"const": word}] if word else []
-    return {"anyOf": [*words, *one, array_of({"anyOf": one})]}
-
-
-ReserveAngle = Annotated[float, Written(with_unit("angle", above=0), unit_schema("angle"))]
-SafetyFactor = Annotated[float, Written(lambda value: number(value, at_least=1), {"type": "number", "minimum": 1})]
-Efforts = Annotated[
-    float | tuple[float, ...] | Literal["hand"],
-    Written(_each(_effort, "hand"), _each_schema([POSITIVE, unit_schema("torque", "force")], "hand")),
-]
-References = Annotated[float | tuple[float, ...], Written(_each(_positive), _each_schema([POSITIVE]))]
-ForceRange = Annotated[
-    tuple[float, float],
-    Written(_force_range, {"anyOf": [unit_schema("force"), array_of(unit_schema("force"), 2)]}),
-]
-
-
-class LimitsTable(Table):
-    """What every instant of the plan must keep."""
-
-    margin: Force = Field(
-        default="0 N", validate_default=True, description="distance of every contact force to its friction cone"
+    Ordered: TypeAlias = str
+    Largest: TypeAlias = str
+else:
+    LimitsTable = create_model(
+        "LimitsTable",
+        __base__=Table,
+        __doc__="What every instant of the plan must keep.",
+        **{key.name: _field(key) for key in LIMITS},
     )
-    margin_angle: ReserveAngle | None = Field(
-        default=None, description="angle that every contact force keeps to its friction cone"
-    )
-    safety_factor: SafetyFactor | None = Field(
-        default=None, description="factor by which friction may be smaller than stated before a contact slips"
-    )
-    normal_force: ForceRange | None = Field(
-        default=None, description="largest normal force of a contact, or [least, largest]"
-    )
-    joint_torque: Efforts | None = Field(
-        default=None,
-        description="largest torque of a joint in N m, force of a slide in N, one or one per joint; "
-        '"hand": as the hand says',
-    )
-    actuator_effort: Efforts | None = Field(
-        default=None, description='largest effort of a synergy, one or one per synergy; "hand": as the hand says'
-    )
-    synergy_reference: References | None = Field(
-        default=None, description="largest change of a synergy reference, one or one per synergy"
-    )
-    synergy_rate: References | None = Field(
-        default=None, description="largest change of a synergy reference per second, one or one per synergy"
-    )
-    synergy_acceleration: References | None = Field(
-        default=None, description="largest acceleration of a synergy reference, per s^2, one or one per synergy"
-    )
-    joint_range: Literal["hand"] | None = Field(
-        default=None, description='"hand": every joint stays within the range that the hand states'
-    )
-    elastic_motion: Size | None = Field(
-        default=None, description="how far the grip may push the object beyond its rigid motion, sag excluded"
-    )
-    drift: Size | None = Field(
-        default=None, description="how far the object may be from where it is wanted, sag under load included"
-    )
+    Ordered = Literal[tuple(GOALS)]
+    Largest = Literal[tuple(name for name, goal in GOALS.items() if goal.maximises)]
 
-
-SQUARES = ("effort", "torque", "actuator", "references", "travel", "smooth", "centred")
+SQUARES: tuple[str, ...] = tuple(name for name, goal in GOALS.items() if not goal.has_scalar)
 """Goals that are sums of squares, and so can be weighted."""
-SMALL = (*SQUARES, "peak_force")
-Ordered = Literal["margin", "peak_force", "effort", "torque", "actuator", "references", "travel", "smooth", "centred"]
+SMALL = (*SQUARES, *(name for name, goal in GOALS.items() if goal.has_scalar and not goal.maximises))
+"""Goals that are to be small."""
 
 
 def _minimised(value: object) -> str | dict[str, float]:
@@ -144,18 +60,18 @@ def _minimised(value: object) -> str | dict[str, float]:
         for name in value:
             if name not in SQUARES:
                 raise InputError.at(name, f"{one_of(name, SQUARES)}; only sums of squares have weights", on_key=True)
-        return named(_positive, value)
+        return named(lambda each: number(each, above=0), value)
     raise InputError.at("", f"expected a goal or weights such as {{ effort = 1, travel = 0.1 }}, got {shown(value)}")
 
 
 _WEIGHTS = {"type": "object", "propertyNames": {"enum": list(SQUARES)}, "additionalProperties": POSITIVE}
-Minimised = Annotated[str | dict[GoalName, float], Written(_minimised, {"anyOf": [{"enum": list(SMALL)}, _WEIGHTS]})]
+Minimised = Annotated[str | dict[str, float], Written(_minimised, {"anyOf": [{"enum": list(SMALL)}, _WEIGHTS]})]
 
 
 class GoalTable(Table):
     """Which of the plans within the limits is chosen; the one of least effort when nothing is said."""
 
-    maximise: Literal["margin"] | None = Field(default=None, description="what is to be as large as possible")
+    maximise: Largest | None = Field(default=None, description="what is to be as large as possible")
     minimise: Minimised | None = Field(
         default=None, description="what is to be as small as possible: a goal, or a weight for each of several"
     )
@@ -166,18 +82,25 @@ class GoalTable(Table):
     )
 
     @property
-    def names(self) -> tuple[GoalName, ...]:
-        """The goals in their order; those that are not stated are for the planner."""
+    def names(self) -> tuple[str, ...]:
+        """The goals in their order, or those of a weighted sum; what is not stated is for the planner."""
         if self.order:
             return self.order
-        return (self.maximise or ("weighted" if self.weights else cast(GoalName, self.minimise or "effort")),)
+        return tuple(self.weights) or (self.maximise or str(self.minimise or "effort"),)
 
     @property
-    def weights(self) -> Mapping[GoalName, float]:
+    def goals(self) -> tuple[Goal, ...]:
+        """The goals in their order."""
+        if self.weights:
+            return (WeightedSum(tuple((GOALS[name], weight) for name, weight in self.weights.items())),)
+        return tuple(GOALS[name] for name in self.names)
+
+    @property
+    def weights(self) -> Mapping[str, float]:
         """The weights of a sum of goals; empty for a single goal."""
         return self.minimise if isinstance(self.minimise, dict) else {}
 
-    def key_of(self, name: GoalName) -> str:
+    def key_of(self, name: str) -> str:
         """Return the key under which a goal is stated."""
         if self.order:
             return f"order[{self.order.index(name)}]"
@@ -216,9 +139,9 @@ def _order_issues(order: Sequence[str]) -> Iterator[Issue]:
     for index, name in enumerate(order):
         if index in twice:
             yield Issue(f"'{name}' is listed twice", key=f"order[{index}]")
-        elif settled and name in FORCE_GOALS:
+        elif settled and GOALS[name].watches == "forces":
             yield Issue(f"'{settled}' before it leaves no force open; put '{name}' first", key=f"order[{index}]")
-        settled = settled or (name if name in EFFORTS else "")
+        settled = settled or (name if GOALS[name].settles_forces else "")
 
 
 def _toml(names: Sequence[str]) -> str:

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
-from synergrip.problems.limits_table import HandLimits, limits_of
+from synergrip.problems.limits_table import limits_of
 from synergrip.problems.loads import Loads, loads
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
 from synergrip.tasks.timed_task import MAXIMISED, TimedTask
@@ -91,7 +92,7 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
     happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), body))
     if touching is None or happening is None or issues:
         if touching is not None:
-            _gather(issues, lambda: limits_of(file, touching.grasp, touching.limits))
+            _gather(issues, lambda: limits_of(file, touching.grasp))
         raise InputError([document.locate(issue) for issue in issues])
     try:
         task = _task(file, touching, happening)
@@ -105,18 +106,10 @@ def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Pro
 
 @dataclass(frozen=True)
 class _Touching:
-    """What touches what, and what the hand says of its limits."""
+    """What touches what."""
 
     grasp: Grasp
     notes: tuple[str, ...]
-
-    @property
-    def limits(self) -> HandLimits:
-        if self.grasp.held is None:
-            return HandLimits()
-        from synergrip.problems.holding import hand_limits
-
-        return hand_limits(self.grasp.held)
 
 
 def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
@@ -171,13 +164,12 @@ def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> TimedTask
     times, wrench = happening.times, happening.wrench
     if wrench is None:
         wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
-    limits = limits_of(file, touching.grasp, touching.limits)
+    limits, goals = limits_of(file, touching.grasp), file.goal.goals
     return TimedTask(
-        times, wrench, happening.target, file.limits.margin, limits, file.goal.names,
-        file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, file.goal.weights,
-        happening.profiles,
-        file.task.between, touching.limits.ranges,
-    )  # fmt: skip
+        times, wrench, happening.target, 0.0, limits, goals,
+        file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, happening.profiles,
+        file.task.between,
+    ).on(touching.grasp)  # fmt: skip
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:
@@ -187,7 +179,8 @@ def located(problem: Problem, error: SynergripError) -> SynergripError:
     if isinstance(error, RigidContactError):
         return _rigid_located(problem, error)
     goal = problem.file.goal
-    asked = {MAXIMISED: f"goal.{goal.key_of('margin')}" if "margin" in goal.names else MAXIMISED}
+    largest = next((name for name in goal.names if GOALS[name].maximises), None)
+    asked = {MAXIMISED: f"goal.{goal.key_of(largest)}" if largest else MAXIMISED}
 
     def place(issue: Issue) -> Issue:
         return (

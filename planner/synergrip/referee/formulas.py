@@ -25,6 +25,7 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce, bound_unit
 from synergrip.conic.limits.object_error import ObjectError
+from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -174,6 +175,7 @@ def _weighted_sum(model: Model, goal: WeightedSum) -> Written:
 
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
+    SlipMargin: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
     FrictionCone: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
     FrictionReserve: lambda model, limit: friction(model, 0.0, limit.key, limit.ratios),
     NormalForce: _normal_force,

@@ -14,6 +14,7 @@ from functools import partial
 import numpy as np
 
 from synergrip.conic.formulation import Formulation, Units
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.intersample import Looks
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
@@ -27,7 +28,6 @@ from synergrip.referee.reserve import cones_of
 from synergrip.referee.targets import followed
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
-from synergrip.tasks.goals import goals_of
 from synergrip.tasks.timed_task import TimedTask
 
 CLAIMS = {
@@ -74,6 +74,7 @@ def referee(analysis: Analysis, task: TimedTask, cvxpy_solver: str = "CLARABEL")
     Raises:
         NotWrittenError: the task has a limit of a type that has no formula.
     """
+    task = task.on(analysis.grasp)
     beta, basis, wanted = followed(analysis, task)
     if beta is None:
         return RefereeAnswer("infeasible", "the wanted motion leaves Gamma_ucs")
@@ -85,10 +86,10 @@ def referee(analysis: Analysis, task: TimedTask, cvxpy_solver: str = "CLARABEL")
     )  # fmt: skip
     limits = [cone for limit in task.kept for cone in write_limit(model, limit)]
     asked = [*limits, *friction(model, task.margin / unit)]
-    relaxed, objective, largest = pose_relaxed(model, asked), write_goal(model, goals_of(task)[0]), None
+    relaxed, objective, largest = pose_relaxed(model, asked), write_goal(model, task.goal), None
     relaxed.run(cvxpy_solver, options)
     relaxation = relaxed.value if relaxed.solved else np.nan
-    if task.goal == "margin":
+    if isinstance(task.goal, LargestMargin):
         free = pose(model, objective.cost, [*limits, *objective.cones])
         free.run(cvxpy_solver, options)
         largest = -free.value * unit if free.solved else None
@@ -117,9 +118,9 @@ def _verdict(status: str, relaxed: float) -> str:
 
 
 def _physical(task: TimedTask, value: float, unit: float) -> float:
-    if task.goal not in ("margin", "peak_force"):
+    if not task.goal.has_scalar:
         return 2 * value * unit**2
-    return value * unit if task.goal == "peak_force" else -value * unit
+    return -value * unit if isinstance(task.goal, LargestMargin) else value * unit
 
 
 def solve(question: Question, program: Program, settings: Settings) -> Solution:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from synergrip.conic.arguments import is_number, told
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.slip_margin import MARGIN
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, frozen
 
-BOUNDS = ("limit", "lower", "upper", "margin", "ratios")
-"""The fields of limits that are numbers and no names."""
-ORDER = 'write for example ("effort",) or ("margin", "effort")'
+GOALS = "write for example goals=(LeastEffort(),) or (LargestMargin(), LeastEffort())"
+LIMITS = "write for example limits=(SlipMargin(0.5), NormalForce(upper=20.0))"
 
 
 def times_of(judge: Judge, times: Any) -> Array:
@@ -43,64 +45,39 @@ def wrench_of(judge: Judge, wrench: Any, count: int) -> Array:
     )
 
 
-def order_issues(order: Any, weights: Mapping[Any, Any], names: Sequence[str], sums: Sequence[str]) -> Iterator[Issue]:
-    """Yield what is wrong with goals and weights.
-
-    Args:
-        order: of the goals.
-        weights: of those in "weighted".
-        names: of all goals.
-        sums: of those that can be weighted.
-    """
-    if isinstance(order, str) or not isinstance(order, Iterable) or not list(order):
-        got = "none" if order == () else shown(order)
-        yield Issue(f"expected one or more goals, got {got}; {ORDER}", "Task.order")
+def goal_issues(goals: Any) -> Iterator[Issue]:
+    """Yield what is wrong with goals: none, no goals, one of them twice."""
+    if isinstance(goals, str | Goal) or not isinstance(goals, Iterable) or not list(goals):
+        got = "none" if goals == () else shown(goals)
+        yield Issue(f"expected one or more goals, got {got}; {GOALS}", "Task.goals")
         return
-    given = list(order)
-    for index, name in enumerate(given):
-        if name not in names:
-            yield Issue(one_of(name, names), f"Task.order[{index}]")
-        elif name in given[:index]:
-            yield Issue(f"'{name}' is listed twice", f"Task.order[{index}]")
-    for name, weight in weights.items():
-        if name not in sums:
-            yield Issue(f"{one_of(name, sums)}; only sums of squares have weights", f"Task.weights[{name!r}]")
-        elif not _is_number(weight) or weight <= 0:
-            yield Issue(f"expected a number greater than 0, got {_shown(weight)}", f"Task.weights[{name!r}]")
-    if "weighted" in given and not weights:
-        message = "'weighted' in the order needs weights, for example {'effort': 1.0, 'smooth': 0.1}"
-        yield Issue(f"{message}; got none, with which nothing is minimised", "Task.weights")
+    given = list(goals)
+    for index, goal in enumerate(given):
+        if not isinstance(goal, Goal):
+            yield Issue(f"expected a goal, got {shown(goal)}; {GOALS}", f"Task.goals[{index}]")
+        elif goal in given[:index]:
+            yield Issue(f"'{goal.name}' is listed twice", f"Task.goals[{index}]")
 
 
 def size_issues(margin: Any, tolerance: Any, drift: Any, compliant: bool) -> Iterator[Issue]:
     """Yield what is wrong with sizes: a margin [N], a tolerance [m], which compliant tracking needs, a drift [m]."""
-    if not _is_number(margin) or margin < 0:
-        wanted = "a slip margin in newtons of at least 0; 0 asks only that nothing slips"
-        yield Issue(f"expected {wanted}, got {_shown(margin)}", "Task.margin")
-    if not _is_number(tolerance) or tolerance < 0 or (compliant and tolerance == 0):
+    if not _is_size(margin) or margin < 0:
+        yield Issue(f"expected {MARGIN}, got {told(margin)}", "Task.margin")
+    if not _is_size(tolerance) or tolerance < 0 or (compliant and tolerance == 0):
         bound = "greater than 0, as compliant tracking needs it" if compliant else "of at least 0"
-        yield Issue(f"expected a length in metres {bound}, got {_shown(tolerance)}", "Task.tolerance")
-    if drift is not None and (not _is_number(drift) or drift <= 0):
-        yield Issue(f"expected a length in metres greater than 0, or None, got {_shown(drift)}", "Task.drift")
+        yield Issue(f"expected a length in metres {bound}, got {told(tolerance)}", "Task.tolerance")
+    if drift is not None and (not _is_size(drift) or drift <= 0):
+        yield Issue(f"expected a length in metres greater than 0, or None, got {told(drift)}", "Task.drift")
 
 
 def limit_issues(limits: Any) -> Iterator[Issue]:
-    """Yield what is wrong with limits: no limit at all, bounds that are no numbers, crossed or negative ones."""
+    """Yield what is no limit at all."""
+    if isinstance(limits, str | Limit) or not isinstance(limits, Iterable):
+        yield Issue(f"expected limits, got {shown(limits)}; {LIMITS}", "Task.limits")
+        return
     for index, limit in enumerate(limits):
-        key = f"Task.limits[{index}]"
-        if not is_dataclass(limit) or not hasattr(limit, "usage"):
-            yield Issue(f"expected a limit such as NormalForce(0.0, 20.0), got {shown(limit)}", key)
-            continue
-        values = {each.name: getattr(limit, each.name) for each in fields(limit) if each.name in BOUNDS}
-        numbers = {name: value for name, value in values.items() if isinstance(value, int | float | np.ndarray)}
-        for name, value in numbers.items():
-            if np.any(np.isnan(value)):
-                yield Issue("expected numbers, got nan; infinity stands for no bound", f"{key}.{name}")
-            elif name in ("limit", "margin", "ratios") and np.any(np.asarray(value) < 0):
-                yield Issue(f"expected sizes of at least 0, got {float(np.min(value)):g}", f"{key}.{name}")
-        low, high = numbers.get("lower", -np.inf), numbers.get("upper", np.inf)
-        if np.shape(low) == np.shape(high) and np.any(np.asarray(low) > high):
-            yield Issue(f"the lower bound {np.max(low):g} is above the upper bound {np.min(high):g}; swap them", key)
+        if not isinstance(limit, Limit):
+            yield Issue(f"expected a limit, got {shown(limit)}; {LIMITS}", f"Task.limits[{index}]")
 
 
 def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
@@ -110,9 +87,5 @@ def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
             yield Issue(one_of(word, valid), f"Task.{name}")
 
 
-def _shown(value: Any) -> str:
-    return f"{float(value):g}" if isinstance(value, np.number) else shown(value)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and math.isfinite(value)
+def _is_size(value: Any) -> bool:
+    return is_number(value) and math.isfinite(value)

@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal, Protocol, get_args
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
-from synergrip.conic.limits.friction_cone import FrictionCone
-from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
+from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.task_judging import limit_issues, order_issues, size_issues, times_of, word_issues, wrench_of
+from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues, times_of, word_issues, wrench_of
 
-GoalName = Literal[
-    "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
-]
-"""Maximise the worst margin, or minimise: contact effort, torque effort, actuator effort, the peak normal force, the
-synergy references, their rates, their accelerations, the joints' distances from the middle of their ranges; or a
-weighted sum of those that are sums of squares."""
-FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", "torque", "actuator"})
-"""Those that speak of forces only."""
-SUMS = tuple(name for name in get_args(GoalName) if name not in ("margin", "peak_force", "weighted"))
-"""Those that are sums of squares, and so can be weighted."""
-EFFORTS: frozenset[GoalName] = frozenset({"effort", "torque", "actuator"})
-"""Those that leave no force open."""
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
 """Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
@@ -71,11 +61,11 @@ class TimedTask:
     wrench: Array  # (T, 6), or (6,) for one that stays, external wrench on the object about B, axes of N
     target: Target
     margin: float
-    """Slip margin that every contact keeps [N]."""
+    """Slip margin that every contact keeps [N]; at least that of a `SlipMargin` among the limits."""
     limits: tuple[Limit, ...]
-    """All limits but the friction cones."""
-    order: tuple[GoalName, ...]
-    """The goals, the first one first; each chooses among the plans that are best by those before it."""
+    """All limits but the friction cones; a `SlipMargin` that is given among them is kept as `margin`."""
+    goals: tuple[Goal, ...]
+    """The first one first; each chooses among the plans that are best by those before it."""
     tolerance: float = 0.0
     """Rigid tracking: how far the wanted motion may leave Gamma_ucs before it is refused; compliant tracking: how
     far the object may be from where it is wanted [m, rotations times length]."""
@@ -85,15 +75,10 @@ class TimedTask:
     """On which of the six axes about B the wanted motion is asked for."""
     drift: float | None = None
     """How far the object may move on the other axes [m, rotations times length]; None when as far as it likes."""
-
-    weights: Mapping[GoalName, float] = field(default_factory=dict)
-    """The goals in "weighted", each with its weight."""
     course: Course | None = None
     """Load and wish at any time; straight lines between the knots when None."""
     between: Literal["report", "hold"] = "report"
     """Whether what happens between the knots is reported, or also kept within all limits."""
-    ranges: JointRange | None = None
-    """Joint ranges of the hand and its posture; None when not known."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a problem file; a wrench of 6 numbers is the same at all knots.
@@ -111,29 +96,41 @@ class TimedTask:
         raise_issues([
             *judge.issues,
             *size_issues(self.margin, self.tolerance, self.drift, compliant=self.tracking == "compliant"),
-            *order_issues(self.order, self.weights, get_args(GoalName), SUMS),
+            *goal_issues(self.goals),
             *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
             *limit_issues(self.limits),
         ])  # fmt: skip
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "wrench", wrench)
+        margins = [limit.margin for limit in self.limits if isinstance(limit, SlipMargin)]
+        object.__setattr__(self, "margin", max([float(self.margin), *margins]))
+        object.__setattr__(self, "limits", tuple(each for each in self.limits if not isinstance(each, SlipMargin)))
+        object.__setattr__(self, "goals", tuple(self.goals))
 
     @property
-    def goal(self) -> GoalName:
+    def goal(self) -> Goal:
         """The first goal."""
-        return self.order[0]
+        return self.goals[0]
+
+    def on(self, grasp: Grasp) -> TimedTask:
+        """Return the task for one grasp: limits and goals with one number for each joint, synergy or contact.
+
+        Raises:
+            InputError: a limit or goal does not fit the grasp, or needs what its hand does not state.
+        """
+        limits, goals = tuple(limit.on(grasp) for limit in self.limits), tuple(goal.on(grasp) for goal in self.goals)
+        return replace(self, limits=limits, goals=goals)
 
     @property
     def watches_references(self) -> bool:
         """True when some limit looks at more than the forces, so that redundancy matters."""
-        goals = {*self.order, *self.weights} - {"weighted"}
-        return any(limit.watches == "references" for limit in self.limits) or not goals <= FORCE_GOALS
+        return "references" in {*(limit.watches for limit in self.limits), *(goal.watches for goal in self.goals)}
 
     @property
     def all_limits(self) -> tuple[Limit, ...]:
         """All limits, friction cones first."""
-        return (FrictionCone(self.margin), *self.kept)
+        return (SlipMargin(self.margin), *self.kept)
 
     @property
     def kept(self) -> tuple[Limit, ...]:
@@ -153,8 +150,10 @@ def still(times: Array) -> Target:
     return Target("hold", np.zeros((len(times), 0)))
 
 
-def unbounded() -> InputError:
-    """Return the error of a largest margin that nothing bounds."""
+def unbounded(goal: Goal) -> InputError:
+    """Return the error of a goal that nothing bounds."""
+    if not isinstance(goal, LargestMargin):
+        return InputError.at("Task.goals", f"nothing bounds '{goal.name}': give a limit that does")
     listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
     message = (
         f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"

@@ -2,37 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.conic.arguments import OneOrEach
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Objective, squares_of
-from synergrip.conic.rows import Rows
-from synergrip.linalg import Array
+from synergrip.conic.goals.goal import Goal, Objective, squares_of
+from synergrip.conic.limits.joint_range import JointRange
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
 
 
-@dataclass(frozen=True)
-class CentredJoints:
+@dataclass(frozen=True, eq=False)
+class CentredJoints(Goal):
     """Minimise the sum of squared distances of the joints from the middle of their ranges, in half ranges.
 
-    Joints without two ends are left out.
+    Joints without two ends are left out. What is not given is what the hand of the grasp says.
+
+    Args:
+        start: joint values (n_q,) at the start [rad or m], or one for all.
+        lower: ends of their ranges (n_q,), or one for all.
+        upper: the same.
+
+    Raises:
+        InputError: no numbers, or a lower end above an upper one.
+
+    Example:
+        ``CentredJoints()`` on a hand; ``CentredJoints(start=0.2, lower=-1.0, upper=1.0)`` on matrices
     """
 
-    start: Array  # (n_q,) joint values at the start [rad or m]
-    lower: Array  # (n_q,)
-    upper: Array  # (n_q,)
-    name: str = "centred joints"
+    start: OneOrEach = None
+    lower: OneOrEach = None
+    upper: OneOrEach = None
+    name = "centred joints"
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return none."""
-        return ()
+    def __post_init__(self) -> None:
+        """Judge the ranges as those of the limit."""
+        judged = JointRange(self.start, self.lower, self.upper, of="CentredJoints")
+        for end in ("start", "lower", "upper"):
+            object.__setattr__(self, end, getattr(judged, end))
+
+    def on(self, grasp: Grasp) -> CentredJoints:
+        """Return it with ranges and posture of the hand where none are given."""
+        found = JointRange(self.start, self.lower, self.upper, of="CentredJoints").on(grasp)
+        return CentredJoints(found.start, found.lower, found.upper)
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return the squares."""
-        half = (self.upper - self.lower) / 2
+        own = self.on(formulation.response.grasp)
+        half = (own.upper - own.lower) / 2
         ends = np.isfinite(half) & (half > 0)
-        middle = np.where(ends, (self.lower + self.upper) / 2, 0.0)
+        middle = np.where(ends, (own.lower + own.upper) / 2, 0.0)
         weights = np.where(ends, 1 / np.where(ends, half, 1.0), 0.0)
-        return Objective((squares_of(formulation.joint.plus(self.start - middle), weights),))
+        return Objective((squares_of(formulation.joint.plus(own.start - middle), weights),))
+
+
+IN_FILE = {"centred": CentredJoints()}

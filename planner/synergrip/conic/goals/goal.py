@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.conic.arguments import ByContent
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
+
+if TYPE_CHECKING:
+    from synergrip.conic.limits.limit import Limit, Watches
+    from synergrip.grasps.grasp import Grasp
 
 
 @dataclass(frozen=True)
@@ -51,18 +57,72 @@ class Objective:
         return not self.squares and self.epigraph is None
 
 
-class Goal(Protocol):
-    """What is best among the plans that hold."""
+class Goal(ByContent, ABC):
+    """What is best among the plans that hold. A goal of one's own is `objective`, and `rows` when it has a scalar.
+
+    Example:
+        A goal that squeezes evenly::
+
+            class EvenSqueeze(Goal):
+                def objective(self, formulation):
+                    normal = np.eye(formulation.response.grasp.n_l)[formulation.response.grasp.normal_rows]
+                    apart = normal - normal.mean(axis=0)
+                    return Objective((squares_of(formulation.force.after(apart), 1 / formulation.force_unit),))
+    """
 
     @property
     def name(self) -> str:
-        """Name in messages."""
+        """Name in messages: that of the class in words, unless it says another."""
+        return in_words(type(self).__name__)
+
+    @property
+    def watches(self) -> Watches:
+        """What it depends on; of all the references unless it says less, so that redundancy is free for it."""
+        return "references"
+
+    @property
+    def has_scalar(self) -> bool:
+        """Whether it minimises (or maximises) a scalar that its rows tie to the plan; else it is a sum of squares."""
+        return False
+
+    @property
+    def maximises(self) -> bool:
+        """Whether a problem file asks for it under `maximise`, and not under `minimise`."""
+        return False
+
+    @property
+    def settles_forces(self) -> bool:
+        """Whether the best plans by it all have the same forces."""
+        return False
+
+    @abstractmethod
+    def objective(self, formulation: Formulation) -> Objective:
+        """Return what is minimised: squares, or the factor before its scalar."""
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows that tie the scalar to the plan; none for a goal without one."""
+        return ()
 
-    def objective(self, formulation: Formulation) -> Objective:
-        """Return what is minimised."""
+    def on(self, grasp: Grasp) -> Goal:
+        """Return the goal for one grasp: numbers one for each, and what its hand states filled in.
+
+        Raises:
+            InputError: the grasp has not what the goal needs.
+        """
+        return self
+
+    def weighed(self) -> Goal:
+        """Return the goal as a sum with weights needs it: with the factor that its definition gives it."""
+        return self
+
+    def keeps(self, best: float, slack: float) -> Limit | None:
+        """Return the limit that keeps a scalar of `best` but for `slack` [N]; None to keep it by its own rows."""
+        return None
+
+
+def in_words(name: str) -> str:
+    """Return the name of a class as words: "EvenSqueeze" is "even squeeze"."""
+    return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()
 
 
 def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:

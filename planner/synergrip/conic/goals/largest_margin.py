@@ -6,16 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Objective
+from synergrip.conic.goals.goal import Goal, Objective
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
 
 
 @dataclass(frozen=True)
-class LargestMargin:
+class LargestMargin(Goal):
     """Maximise s with ``slip margin >= s`` everywhere. It stands in the place of the friction-cone limit."""
 
-    name: str = "largest margin"
+    name = "largest margin"
+    watches = "forces"
+    has_scalar = True
+    maximises = True
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones with s in the margin's place."""
@@ -28,3 +31,6 @@ class LargestMargin:
     def keeps(self, best: float, slack: float) -> FrictionCone:
         """Return the limit that keeps a margin of `best` less `slack` [N]."""
         return FrictionCone(best - slack)
+
+
+IN_FILE = {"margin": LargestMargin()}

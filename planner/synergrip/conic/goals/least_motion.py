@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Literal, Self
+from dataclasses import dataclass, field, replace
+from typing import Literal, Self, get_args
 
 import numpy as np
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Objective, Squares, squares_of
-from synergrip.conic.rows import Earlier, Rows
+from synergrip.conic.goals.goal import Goal, Objective, Squares, squares_of
+from synergrip.conic.rows import Earlier
+from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array, frozen
 
 STIFFEST, RESCALED = 1e6, 1e4
@@ -19,8 +19,11 @@ A factor before a goal changes no plan, only how closely the solver looks at it:
 second, which is for programs that do not verify with the first."""
 
 
+Motion = Literal["references", "rates", "accelerations"]
+
+
 @dataclass(frozen=True)
-class LeastMotion:
+class LeastMotion(Goal):
     """Minimise the sum of squares of the synergy references, of their rates, or of their accelerations.
 
     "references": ``||dz_r||^2`` at every knot, so that the hand stays near the posture in which it starts. "rates":
@@ -28,13 +31,27 @@ class LeastMotion:
     second differences, averaged over time: smooth references. Time counts in durations of the task, and averages
     times the number of knots, so that weights mean the same for any number. Rates and accelerations say nothing
     about where the references are, or how fast they go; what they leave open is for the next goal.
+
+    Args:
+        of: "references", "rates" or "accelerations".
+
+    Raises:
+        InputError: `of` is none of these.
+
+    Example:
+        ``LeastMotion(of="rates")``
     """
 
-    of: Literal["references", "rates", "accelerations"] = "references"
-    exact: bool = False
+    of: Motion = "references"
+    exact: bool = field(default=False, repr=False)
     """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
-    stiffest: float = STIFFEST
+    stiffest: float = field(default=STIFFEST, repr=False)
     """What that factor makes of the largest entry of the Hessian, at most."""
+
+    def __post_init__(self) -> None:
+        """Judge the kind of motion."""
+        if self.of not in get_args(Motion):
+            raise InputError.at("LeastMotion.of", one_of(self.of, get_args(Motion)))
 
     @property
     def name(self) -> str:
@@ -48,9 +65,9 @@ class LeastMotion:
             return None
         return replace(self, stiffest=RESCALED)
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return none."""
-        return ()
+    def weighed(self) -> Self:
+        """Return it with the factor of its definition, which counts beside other goals."""
+        return replace(self, exact=True)
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return the squares, in reference units over the duration of the task."""
@@ -92,3 +109,10 @@ def _weights(times: Array, order: int) -> Array:
     span = (before + after) / 2
     root = np.sqrt(span)
     return np.column_stack([root / (span * after), -root * (1 / after + 1 / before) / span, root / (span * before)])
+
+
+IN_FILE = {
+    "references": LeastMotion(),
+    "travel": LeastMotion("rates"),
+    "smooth": LeastMotion("accelerations"),
+}

@@ -8,17 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Objective
+from synergrip.conic.goals.goal import Goal, Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
 from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.linalg import frozen
 
 
 @dataclass(frozen=True)
-class LeastPeak:
+class LeastPeak(Goal):
     """Minimise s with ``normal force <= s`` at all contacts and knots."""
 
-    name: str = "least peak normal force"
+    name = "least peak normal force"
+    watches = "forces"
+    has_scalar = True
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return ``s - n >= 0`` for every contact."""
@@ -34,4 +36,7 @@ class LeastPeak:
 
     def keeps(self, best: float, slack: float) -> NormalForce:
         """Return the limit that keeps a peak of `best` plus `slack` [N]."""
-        return NormalForce(-np.inf, best + slack, "goal.minimise")
+        return NormalForce(-np.inf, max(best + slack, 0.0), "goal.minimise")
+
+
+IN_FILE = {"peak_force": LeastPeak()}

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Objective, squares_of
-from synergrip.conic.rows import Rows
+from synergrip.conic.goals.goal import Goal, Objective, squares_of
 
 
 @dataclass(frozen=True)
-class LeastReconfiguration:
+class LeastReconfiguration(Goal):
     """Minimise ``sum ||gamma||^2 + ||beta - what is given||^2`` over what the goals before it left open.
 
     Both count in the units in which weights are stated.
     """
 
-    name: str = "least reconfiguration"
-
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return none."""
-        return ()
+    name = "least reconfiguration"
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return the squares of the unknowns but for the forces."""

@@ -2,40 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
-from synergrip.conic.rows import Rows
-from synergrip.linalg import Array, frozen
+from synergrip.conic.limits.file_key import Efforts, FileKey, judge_units, needs_hand
+from synergrip.conic.limits.limit import Symmetric
+from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.grasps.held import Held
 
-@dataclass(frozen=True)
-class ActuatorEffort:
-    """One bound for each of them; infinity for none."""
 
-    limit: Array
-    key: str = "limits.actuator_effort"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+@dataclass(frozen=True, eq=False)
+class ActuatorEffort(Symmetric):
+    """``|sigma| <= limit`` for each synergy.
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each, in units of the limit."""
-        return symmetric_rows(self.key, formulation.response.grasp.synergies, formulation.effort, self.limit)
+    Args:
+        limit: effort for all synergies, or one for each; infinity for none; "hand" for what the hand states.
 
-    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
-        """Return them and their limits."""
-        return formulation.effort, self.limit
+    Raises:
+        InputError: no numbers greater than 0.
 
-    def loosened(self, share: float) -> Self:
-        """Return it with every bound larger by `share`."""
-        return replace(self, limit=frozen(self.limit * (1 + share)))
+    Example:
+        ``ActuatorEffort(2.0)``
+    """
 
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the values that the motion reaches."""
-        items = formulation.response.grasp.synergies
-        return symmetric_usage("actuator effort", "synergy units", items, motion.efforts, self.limit, motion.times)
+    key = "limits.actuator_effort"
+    watches = "forces"
+    title = "actuator effort"
+    hand_states = True
+
+    def value(self, formulation: Formulation) -> Affine:
+        """Return the efforts."""
+        return formulation.effort
+
+    def reached(self, motion: Motion) -> Array:
+        """Return the efforts (T, n_z)."""
+        return motion.efforts
+
+    def of_hand(self, held: Held) -> Array:
+        """Return the effort limits of the hand's synergies."""
+        return held.synergies.effort_limits
+
+
+def _made(value: Any, grasp: Grasp) -> ActuatorEffort:
+    needs_hand(value, grasp)
+    made = ActuatorEffort(value).on(grasp)
+    judge_units(IN_FILE.key, value, grasp, "synergy")
+    return made
+
+
+IN_FILE = FileKey(
+    "actuator_effort", Efforts, 'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made
+)

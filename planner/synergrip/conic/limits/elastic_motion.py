@@ -4,29 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 
+from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import norm_usage
+from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
+from synergrip.documents.fields import Size
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 
 @dataclass(frozen=True)
-class ElasticMotion:
+class ElasticMotion(Limit):
     """``||U dz_r - Gamma_ucs beta|| <= limit``: contacts' deformation under the squeeze, sag under load excluded.
 
     Rotations count with the grasp's characteristic length, about the contacts' centroid.
+
+    Args:
+        limit: largest elastic motion [m].
+
+    Raises:
+        InputError: no length greater than 0.
+
+    Example:
+        ``ElasticMotion(limit=1e-3)``
     """
 
-    limit: float  # [m]
-    key: str = "limits.elastic_motion"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+    limit: float
+    key = "limits.elastic_motion"
+    watches = "forces"
+
+    def __post_init__(self) -> None:
+        """Judge the length."""
+        found = size("ElasticMotion.limit", self.limit, "a length in metres greater than 0", above=0.0)
+        object.__setattr__(self, "limit", found)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""
@@ -50,3 +65,9 @@ class ElasticMotion:
 
     def _scaled(self, formulation: Formulation) -> Affine:
         return formulation.elastic.after(formulation.response.scale.motion)
+
+
+IN_FILE = FileKey(
+    "elastic_motion", Size, "how far the grip may push the object beyond its rigid motion, sag excluded",
+    lambda value, grasp: ElasticMotion(value),
+)  # fmt: skip

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion, largest_term
@@ -21,13 +21,15 @@ SLIPPERY = 0.1
 
 
 @dataclass(frozen=True)
-class FrictionCone:
-    """``mu n - ||(t, o)|| >= margin`` and its soft and frictionless kin, at every contact."""
+class FrictionCone(Limit):
+    """``mu n - ||(t, o)|| >= margin`` and its soft and frictionless kin, at every contact.
+
+    With any margin, as programs need it; the margin that a task asks for is a `SlipMargin`.
+    """
 
     margin: float = 0.0  # [N]
-    key: str = "limits.margin"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+    key: str = field(default="limits.margin", repr=False)
+    watches = "forces"
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per contact (a plain bound for a frictionless one)."""

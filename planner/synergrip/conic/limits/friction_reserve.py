@@ -4,32 +4,93 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 import numpy as np
 
+from synergrip.conic.arguments import OneOrEach, one_each, size, sizes
 from synergrip.conic.formulation import Formulation
+from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
-from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.limit import Limit, Usage, Watches
 from synergrip.conic.rows import Rows
+from synergrip.documents.fields import Written, number, unit_schema, with_unit
+from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
 
-@dataclass(frozen=True)
-class FrictionReserve:
+
+@dataclass(frozen=True, eq=False)
+class FrictionReserve(Limit):
     """``ratio mu n >= ||(t, o)||`` at every contact, and its soft kin with ``ratio nu``.
 
     An angle phi to the cone is the ratio ``tan(atan(mu) - phi) / mu``, a safety factor s the ratio ``1 / s``
-    (docs/theory.md).
+    (docs/theory.md). One of the three is given.
+
+    Args:
+        factor: by which friction may be smaller than stated before a contact slips, 1 or more.
+        angle: that every contact force keeps to its cone [rad].
+        ratios: share of its friction that a contact may use, between 0 and 1: one for all, or one for each.
+
+    Raises:
+        InputError: none or several of them, or one that is no such number.
+
+    Example:
+        ``FrictionReserve(factor=1.2)``, ``FrictionReserve(angle=np.radians(3))``
     """
 
-    ratios: Array
-    """(n_c,) between 0 and 1."""
-    key: str = "limits.safety_factor"
-    title: str = "slip margin with reserve"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+    factor: float | None = None
+    angle: float | None = None
+    ratios: OneOrEach = None
+
+    def __post_init__(self) -> None:
+        """Judge what is given."""
+        given = [name for name in ("factor", "angle", "ratios") if getattr(self, name) is not None]
+        if not given or {"factor", "angle"} <= {*given}:
+            got = " and ".join(given) or "none of them"
+            raise InputError.at("FrictionReserve", f"expected one of factor, angle and ratios, got {got}")
+        if self.factor is not None:
+            size("FrictionReserve.factor", self.factor, "a factor of at least 1", at_least=1.0)
+        if self.angle is not None:
+            size("FrictionReserve.angle", self.angle, "an angle in radians greater than 0", above=0.0)
+        if self.ratios is not None:
+            ratios = sizes("FrictionReserve.ratios", self.ratios, "contact")
+            if np.any(ratios > 1):
+                message = f"expected shares of the friction between 0 and 1, got {float(ratios.max()):g}"
+                raise InputError.at("FrictionReserve.ratios", message)
+            object.__setattr__(self, "ratios", ratios)
+
+    @property
+    def key(self) -> str:
+        """Key in the problem file: a reserve is stated as an angle, or as a factor."""
+        return "limits.safety_factor" if self.angle is None else "limits.margin_angle"
+
+    @property
+    def watches(self) -> Watches:
+        """Forces alone."""
+        return "forces"
+
+    @property
+    def title(self) -> str:
+        """Name in reports."""
+        return "slip margin with reserve" if self.angle is None else "slip margin with angle"
+
+    def on(self, grasp: Grasp) -> Self:
+        """Return it with the ratio of each contact.
+
+        Raises:
+            InputError: a friction cone that is narrower than the angle, or ratios for other contacts.
+        """
+        names = [contact.name for contact in grasp.contacts]
+        if self.ratios is not None:
+            return replace(self, ratios=one_each("FrictionReserve.ratios", self.ratios, names, "contact"))
+        if self.angle is not None:
+            return replace(self, ratios=_ratios(grasp, self.angle))
+        assert self.factor is not None
+        return replace(self, ratios=frozen(np.full(grasp.n_c, 1 / self.factor)))
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones of contacts with less friction."""
@@ -39,7 +100,7 @@ class FrictionReserve:
         """Return nothing: a cone alone bounds no force."""
 
     def loosened(self, share: float) -> Self:
-        """Return it with `share` of the reserve given up."""
+        """Return it with `share` of the reserve given up, once it has its ratios."""
         return replace(self, ratios=frozen(self.ratios + share * (1 - self.ratios)))
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
@@ -49,8 +110,35 @@ class FrictionReserve:
 
     def _narrowed(self, formulation: Formulation) -> Formulation:
         grasp = formulation.response.grasp
+        ratios = np.asarray(self.on(grasp).ratios)
         contacts = tuple(
             replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
-            for contact, ratio in zip(grasp.contacts, np.asarray(self.ratios), strict=True)
+            for contact, ratio in zip(grasp.contacts, ratios, strict=True)
         )
         return replace(formulation, response=replace(formulation.response, grasp=replace(grasp, contacts=contacts)))
+
+
+def _ratios(grasp: Grasp, angle: float) -> Array:
+    """Return the friction that is left when every contact force stays `angle` [rad] away from its cone."""
+    left = np.arctan([contact.friction for contact in grasp.contacts]) - angle
+    pairs = list(zip(grasp.contacts, left, strict=True))
+    issues = [
+        Issue(f"the friction cone of '{contact.name}' is only {np.degrees(angle + rest):.4g} deg wide; ask for less",
+              key="FrictionReserve.angle")
+        for contact, rest in pairs
+        if contact.friction and rest <= 0
+    ]  # fmt: skip
+    raise_issues(issues)
+    return frozen([np.tan(rest) / contact.friction if contact.friction else 1.0 for contact, rest in pairs])
+
+
+_Angle = Annotated[float, Written(with_unit("angle", above=0), unit_schema("angle"))]
+_Factor = Annotated[float, Written(lambda value: number(value, at_least=1), {"type": "number", "minimum": 1})]
+ANGLE_IN_FILE = FileKey(
+    "margin_angle", _Angle, "angle that every contact force keeps to its friction cone",
+    lambda value, grasp: FrictionReserve(angle=value),
+)  # fmt: skip
+FACTOR_IN_FILE = FileKey(
+    "safety_factor", _Factor, "factor by which friction may be smaller than stated before a contact slips",
+    lambda value, grasp: FrictionReserve(factor=value),
+)  # fmt: skip

@@ -3,52 +3,135 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
+from synergrip.conic.arguments import OneOrEach, numbers, one_each
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
+from synergrip.errors import InputError
+from synergrip.hands.units import joint_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.grasps.held import Held
 
-@dataclass(frozen=True)
-class JointRange:
-    """``lower <= q + dq <= upper`` for every joint; infinity for none."""
+ENDS = ("start", "lower", "upper")
 
-    start: Array  # (n_q,) joint values at the start [rad or m]
-    lower: Array  # (n_q,)
-    upper: Array  # (n_q,)
-    unit: str = "rad"
-    """Of all joints; empty when some turn and some slide."""
-    key: str = "limits.joint_range"
-    watches: ClassVar[Watches] = "references"
-    couples_knots: ClassVar[bool] = False
+
+@dataclass(frozen=True, eq=False)
+class JointRange(Limit):
+    """``lower <= q + dq <= upper`` for every joint. What is not given is what the hand of the grasp says.
+
+    Args:
+        start: joint values (n_q,) at the start [rad or m], or one for all.
+        lower: ends of their ranges (n_q,), or one for all; minus infinity for none.
+        upper: the same; infinity for none.
+
+    Raises:
+        InputError: no numbers, or a lower end above an upper one.
+
+    Example:
+        ``JointRange()`` on a hand; ``JointRange(start=0.2, lower=-1.0, upper=1.0)`` on matrices
+    """
+
+    start: OneOrEach = None
+    lower: OneOrEach = None
+    upper: OneOrEach = None
+    of: str = field(default="JointRange", repr=False)
+    """What the ranges are an argument of, in messages."""
+    key = "limits.joint_range"
+
+    def __post_init__(self) -> None:
+        """Judge the numbers."""
+        for end in ENDS:
+            value, name = getattr(self, end), f"{self.of}.{end}"
+            if value is None:
+                continue
+            found = numbers(name, value, "joint")
+            if np.any(np.isnan(found)) or (end == "start" and not np.all(np.isfinite(found))):
+                worst = found[~np.isfinite(found)].ravel()[0]
+                raise InputError.at(name, f"expected finite numbers{' or infinity' * (end != 'start')}, got {worst:g}")
+            object.__setattr__(self, end, found)
+        low, high = (np.atleast_1d(0.0 if end is None else end) for end in (self.lower, self.upper))
+        given = self.lower is not None and self.upper is not None
+        if given and (len(low) == len(high) or 1 in (len(low), len(high))) and np.any(low > high):
+            k = int(np.argmax(np.broadcast_to(low - high, (max(len(low), len(high)),)) > 0))
+            pair = (float(end[k if len(end) > 1 else 0]) for end in (low, high))
+            message = "the lower bound {:g} is above the upper bound {:g}; swap them".format(*pair)
+            raise InputError.at(f"{self.of}.lower", message)
+
+    def on(self, grasp: Grasp) -> Self:
+        """Return it with one number for each joint, and those of the hand where none is given."""
+        missing = [end for end in ENDS if getattr(self, end) is None]
+        if missing and grasp.held is None:
+            needed = " and ".join([", ".join(missing[:-1]), missing[-1]] if len(missing) > 1 else missing)
+            message = f"needs a hand with joint ranges; a grasp given as matrices states none, give {needed}"
+            raise InputError.at(f"{self.of}.{missing[0]}", message)
+        of_hand = {} if grasp.held is None else _stated(grasp.held)
+        each: dict[str, Any] = {
+            end: one_each(f"{self.of}.{end}", of_hand[end] if end in missing else getattr(self, end),
+                          grasp.joints, "joint")
+            for end in ENDS
+        }  # fmt: skip
+        return replace(self, **each)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range."""
         names = formulation.response.grasp.joints
-        return within(self.key, names, formulation.joint.plus(self.start), self.lower, self.upper, self._unit)
+        start, lower, upper = self._ends(formulation)
+        return within(self.key, names, formulation.joint.plus(start), lower, upper, _unit(lower, upper))
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the joint displacements and how far they may go."""
-        return formulation.joint, np.maximum(self.upper - self.start, self.start - self.lower)
+        start, lower, upper = self._ends(formulation)
+        return formulation.joint, np.maximum(upper - start, start - lower)
 
     def loosened(self, share: float) -> Self:
-        """Return it with ranges wider by `share` of half of each."""
-        more = share * self._unit
+        """Return it with ranges wider by `share` of half of each; those of a hand must be filled in."""
+        more = share * _unit(self.lower, self.upper)
         return replace(self, lower=frozen(self.lower - more), upper=frozen(self.upper + more))
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the joint values that the motion reaches."""
-        names = formulation.response.grasp.joints
-        value = frozen(self.start + motion.dq)
-        return Usage("joint value", self.unit, names, value, self.lower, self.upper, self._unit, motion.times)
+        start, lower, upper = self._ends(formulation)
+        grasp = formulation.response.grasp
+        value = frozen(start + motion.dq)
+        scale = _unit(lower, upper)
+        return Usage("joint value", self.unit(grasp), grasp.joints, value, lower, upper, scale, motion.times)
 
-    @property
-    def _unit(self) -> Array:
-        half = (self.upper - self.lower) / 2
-        return np.where(np.isfinite(half) & (half > 0), half, 1.0)
+    def unit(self, grasp: Grasp) -> str:
+        """Return the unit of all joints; nothing when some turn and some slide."""
+        return "rad" if grasp.held is None else unit_of(joint_kinds(grasp.held.hand.joints).values(), "rad", "m")
+
+    def _ends(self, formulation: Formulation) -> tuple[Array, Array, Array]:
+        own = self.on(formulation.response.grasp)
+        return own.start, own.lower, own.upper
+
+
+def _unit(lower: Array, upper: Array) -> Array:
+    half = (upper - lower) / 2
+    return np.where(np.isfinite(half) & (half > 0), half, 1.0)
+
+
+def _stated(held: Held) -> dict[str, Array]:
+    """Return posture and ranges of a hand."""
+    lower, upper = (frozen([getattr(joint, end) for joint in held.hand.joints]) for end in ("lower", "upper"))
+    return {"start": held.q, "lower": lower, "upper": upper}
+
+
+def _made(value: Any, grasp: Grasp) -> JointRange:
+    if grasp.held is None:
+        raise InputError.at("", "needs a [hand]; a grasp file states no joint ranges")
+    return JointRange()
+
+
+IN_FILE = FileKey(
+    "joint_range", Literal["hand"], '"hand": every joint stays within the range that the hand states', _made
+)

@@ -2,42 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
-from synergrip.conic.rows import Rows
+from synergrip.conic.limits.file_key import Efforts, FileKey, judge_units, needs_hand
+from synergrip.conic.limits.limit import Symmetric
+from synergrip.hands.units import joint_kinds, torque_unit
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.grasps.held import Held
 
-@dataclass(frozen=True)
-class JointTorque:
-    """One bound for each of them; infinity for none."""
 
-    limit: Array
-    unit: str = "N m"
-    """Of all joints: "N" when all slide; empty when some turn and some slide."""
-    key: str = "limits.joint_torque"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+@dataclass(frozen=True, eq=False)
+class JointTorque(Symmetric):
+    """``|tau| <= limit`` for each joint.
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each, in units of the limit."""
-        return symmetric_rows(self.key, formulation.response.grasp.joints, formulation.torque, self.limit)
+    Args:
+        limit: torque [N m] (of a slide force [N]) for all joints, or one for each; infinity for none; "hand" for what
+            the hand states.
 
-    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
-        """Return them and their limits."""
-        return formulation.torque, self.limit
+    Raises:
+        InputError: no numbers greater than 0.
 
-    def loosened(self, share: float) -> Self:
-        """Return it with every bound larger by `share`."""
-        return replace(self, limit=frozen(self.limit * (1 + share)))
+    Example:
+        ``JointTorque(1.5)``, ``JointTorque([1.5, 1.5, 0.8])``, ``JointTorque("hand")``
+    """
 
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the values that the motion reaches."""
-        items = formulation.response.grasp.joints
-        return symmetric_usage("joint torque", self.unit, items, motion.torques, self.limit, motion.times)
+    key = "limits.joint_torque"
+    watches = "forces"
+    of = "joint"
+    title = "joint torque"
+    hand_states = True
+
+    def value(self, formulation: Formulation) -> Affine:
+        """Return the torques."""
+        return formulation.torque
+
+    def reached(self, motion: Motion) -> Array:
+        """Return the torques (T, n_q)."""
+        return motion.torques
+
+    def unit(self, grasp: Grasp) -> str:
+        """Return "N m", "N" when all joints slide, nothing when some turn and some slide."""
+        return torque_unit(joint_kinds(grasp.held.hand.joints).values()) if grasp.held is not None else "N m"
+
+    def of_hand(self, held: Held) -> Array:
+        """Return the torque limits of the hand's joints."""
+        return frozen([joint.torque_limit for joint in held.hand.joints])
+
+
+def _made(value: Any, grasp: Grasp) -> JointTorque:
+    needs_hand(value, grasp)
+    made = JointTorque(value).on(grasp)
+    judge_units(IN_FILE.key, value, grasp, "joint")
+    return made
+
+
+IN_FILE = FileKey(
+    "joint_torque", Efforts,
+    "largest torque of a joint in N m, force of a slide in N, one or one per joint; "
+    '"hand": as the hand says', _made,
+)  # fmt: skip

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal, Protocol
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 import numpy as np
 
+from synergrip.conic.arguments import ByContent, OneOrEach, one_each, sizes
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.rows import Rows
-from synergrip.linalg import Array
+from synergrip.conic.rows import Rows, with_room, within
+from synergrip.errors import InputError
+from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.grasps.held import Held
 
 Watches = Literal["forces", "motion", "references"]
 """The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
@@ -61,32 +68,172 @@ def first_largest(values: Array, tie: float = 1e-6) -> tuple[int, int]:
     return flat // values.shape[1], flat % values.shape[1]
 
 
-class Limit(Protocol):
-    """Something that must hold at every knot. A new limit is one file here and one line where plans list them."""
+class Limit(ByContent, ABC):
+    """Something that must hold at every knot. A limit of one's own is `rows` and `usage`.
+
+    Example:
+        The sum of all normal forces, at most 40 N (docs/in-code.md)::
+
+            class TotalSqueeze(Limit):
+                def rows(self, formulation):
+                    total = np.ones((1, len(normals))) @ normal_selection(formulation)
+                    return within(self.key, ("sum",), formulation.force.after(total), ...)
+    """
 
     @property
     def key(self) -> str:
-        """Key in the problem file."""
+        """What asks for it, in messages and proofs: the key in a problem file, or the name of the class."""
+        return type(self).__name__
 
     @property
     def watches(self) -> Watches:
-        """What it depends on."""
+        """What it depends on; on all the references unless it says less, so that redundancy is free for it."""
+        return "references"
 
     @property
     def couples_knots(self) -> bool:
         """Whether it speaks of the step from knot to knot, and not of each instant."""
+        return False
 
+    @abstractmethod
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return the rows it adds to the program."""
+        """Return the rows it adds to the program, divided by the limit or another size of what they are about."""
+
+    @abstractmethod
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+        """Return what a motion makes of it, from the motion alone."""
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return quantities and the sizes (m,) that this limit keeps them within; None when it keeps none.
 
         `cones_hold` says whether the friction cones hold as well, which bound tangential by normal forces.
         """
+        return None
 
     def loosened(self, share: float) -> Limit:
-        """Return the same limit with that share of itself more room, for rounding."""
+        """Return the same limit with that share of itself more room, for rounding: that much in its rows."""
+        return _Roomier(self, share)
+
+    def on(self, grasp: Grasp) -> Limit:
+        """Return the limit for one grasp: numbers one for each, and what its hand states filled in.
+
+        Raises:
+            InputError: the grasp has not what the limit needs, or numbers do not fit it.
+        """
+        return self
+
+
+@dataclass(frozen=True)
+class _Roomier(Limit):
+    """A limit whose cones are all kept but for a share of the unit of their rows."""
+
+    limit: Limit
+    share: float
+
+    @property
+    def key(self) -> str:
+        return self.limit.key
+
+    @property
+    def watches(self) -> Watches:
+        return self.limit.watches
+
+    @property
+    def couples_knots(self) -> bool:
+        return self.limit.couples_knots
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        return [with_room(part, self.share) for part in self.limit.rows(formulation)]
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return what a motion makes of it, from the motion alone."""
+        return self.limit.usage(formulation, motion)
+
+
+@dataclass(frozen=True, eq=False)
+class Symmetric(Limit):
+    """``|value| <= limit`` for each joint or synergy: `value` and `reached` say of what.
+
+    Args:
+        limit: one number for all, or one for each; infinity for none. "hand" where the hand states it.
+
+    Raises:
+        InputError: no numbers greater than 0.
+    """
+
+    limit: OneOrEach
+    of: ClassVar[Literal["joint", "synergy"]] = "synergy"
+    title: ClassVar[str]
+    hand_states: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        """Judge the numbers."""
+        key = f"{type(self).__name__}.limit"
+        word = self.hand_states and isinstance(self.limit, str) and self.limit == "hand"
+        object.__setattr__(self, "limit", self.limit if word else sizes(key, self.limit, self.of))
+
+    @abstractmethod
+    def value(self, formulation: Formulation) -> Affine:
+        """Return what is bounded."""
+
+    @abstractmethod
+    def reached(self, motion: Motion) -> Array:
+        """Return its values (T, m) in a motion."""
+
+    def unit(self, grasp: Grasp) -> str:
+        """Return the unit of the values."""
+        return "synergy units"
+
+    def names(self, grasp: Grasp) -> tuple[str, ...]:
+        """Return the names of the joints or synergies."""
+        return grasp.joints if self.of == "joint" else grasp.synergies
+
+    def of_hand(self, held: Held) -> Array:
+        """Return what a hand states."""
+        raise NotImplementedError
+
+    def on(self, grasp: Grasp) -> Self:
+        """Return it with one number for each, those of the hand where it is to say."""
+        key = f"{type(self).__name__}.limit"
+        limit = self.limit
+        if isinstance(limit, str):
+            if grasp.held is None:
+                raise InputError.at(key, NO_HAND)
+            limit = frozen(self.of_hand(grasp.held))
+            if not np.any(np.isfinite(limit)):
+                raise InputError.at(key, NOT_STATED)
+        return replace(self, limit=one_each(key, limit, self.names(grasp), self.of))
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        """Return two bounds for each, in units of the limit."""
+        names, own = self.names(formulation.response.grasp), self.on(formulation.response.grasp)
+        return within(self.key, names, self.value(formulation), -own.limit, own.limit, _unit(own.limit))
+
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+        """Return the values and their limits."""
+        return self.value(formulation), self.on(formulation.response.grasp).limit
+
+    def loosened(self, share: float) -> Self:
+        """Return it with every bound larger by `share`; those of a hand must be filled in."""
+        return replace(self, limit=frozen(self.limit * (1 + share)))
+
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+        """Return the values that the motion reaches."""
+        grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
+        return Usage(
+            self.title, self.unit(grasp), self.names(grasp), self.reached(motion), -limit, limit, _unit(limit),
+            motion.times,
+        )  # fmt: skip
+
+
+NO_HAND = "'hand' needs a hand; a grasp given as matrices states no limits, give numbers"
+NOT_STATED = "this hand states no such limit; write numbers"
+
+
+def _unit(limit: Array) -> Array:
+    return np.where(np.isfinite(limit), limit, 1.0)
+
+
+def norm_usage(title: str, unit: str, item: str, norm: Array, limit: float, times: Array) -> Usage:
+    """Return the usage of ``norm <= limit``, norm (T,)."""
+    none, bound = frozen([-np.inf]), frozen([limit])
+    return Usage(title, unit, (item,), norm[:, None], none, bound, bound, times)

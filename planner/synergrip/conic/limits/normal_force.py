@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, Self
 
 import numpy as np
 
+from synergrip.conic.arguments import is_number, size
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import carried
-from synergrip.conic.limits.limit import Usage, Watches
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
+from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
+from synergrip.errors import InputError
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -20,14 +24,34 @@ FAR = 1e3
 
 
 @dataclass(frozen=True)
-class NormalForce:
-    """``lower <= n <= upper`` at every contact."""
+class NormalForce(Limit):
+    """``lower <= n <= upper`` at every contact.
 
-    lower: float  # [N]
-    upper: float  # [N], infinity for none
-    key: str = "limits.normal_force"
-    watches: ClassVar[Watches] = "forces"
-    couples_knots: ClassVar[bool] = False
+    Args:
+        lower: least normal force [N].
+        upper: largest normal force [N]; infinity for none.
+
+    Raises:
+        InputError: no forces of at least 0, or a lower bound above the upper one.
+
+    Example:
+        ``NormalForce(upper=20.0)``, ``NormalForce(lower=0.5, upper=20.0)``
+    """
+
+    lower: float = 0.0
+    upper: float = np.inf
+    key: str = field(default="limits.normal_force", repr=False)
+    watches = "forces"
+
+    def __post_init__(self) -> None:
+        """Judge the bounds; a lower one of minus infinity stands for none."""
+        lower = _bound("NormalForce.lower", self.lower, -np.inf)
+        upper = _bound("NormalForce.upper", self.upper, np.inf)
+        if lower > upper:
+            message = f"the lower bound {lower:g} N is above the upper bound {upper:g} N; swap them"
+            raise InputError.at("NormalForce.lower", message)
+        object.__setattr__(self, "lower", lower)
+        object.__setattr__(self, "upper", upper)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
@@ -67,6 +91,14 @@ class NormalForce:
         )  # fmt: skip
 
 
+def _bound(key: str, value: Any, none: float) -> float:
+    """Return a bound [N]; `none` stands for no bound."""
+    if is_number(value) and value == none:
+        return float(none)
+    word = "infinity" if none > 0 else "minus infinity"
+    return size(key, value, f"a force in newtons of at least 0, or {word} for no bound", at_least=0.0)
+
+
 def bound_unit(bound: float, force_unit: float) -> float:
     """Return the unit [N] of the rows of a bound: its own where it is far from all forces, to drown nothing."""
     return abs(bound) if np.isfinite(bound) and abs(bound) > FAR * force_unit else force_unit
@@ -80,3 +112,24 @@ def normal_selection(formulation: Formulation) -> Array:
 
 def _names(formulation: Formulation) -> tuple[str, ...]:
     return tuple(contact.name for contact in formulation.response.grasp.contacts)
+
+
+_force = with_unit("force", at_least=0)
+
+
+def _range(value: object) -> tuple[float, float]:
+    low, high = listed(_force, value, 2, "forces") if isinstance(value, list) else (0.0, _force(value))
+    if low > high:
+        raise InputError.at("", f"the least force {low:g} N exceeds the largest, {high:g} N")
+    if high == 0:
+        raise InputError.at("", "the largest normal force must be greater than 0 N")
+    return low, high
+
+
+_Range = Annotated[
+    tuple[float, float], Written(_range, {"anyOf": [unit_schema("force"), array_of(unit_schema("force"), 2)]})
+]
+IN_FILE = FileKey(
+    "normal_force", _Range, "largest normal force of a contact, or [least, largest]",
+    lambda value, grasp: NormalForce(*value),
+)  # fmt: skip

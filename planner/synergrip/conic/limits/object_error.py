@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Literal, Self
+from dataclasses import dataclass, field, replace
+from typing import Literal, Self, get_args
 
 import numpy as np
 
+from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import norm_usage
+from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
+from synergrip.documents.fields import Size
+from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -19,21 +22,47 @@ AxisName = Literal["x", "y", "z", "rx", "ry", "rz"]
 AXES: tuple[AxisName, ...] = ("x", "y", "z", "rx", "ry", "rz")
 """Translations along and rotations about the palm's axes, about B."""
 
+Part = Literal["whole", "rigid"]
+
 
 @dataclass(frozen=True)
-class ObjectError:
+class ObjectError(Limit):
     """``||D (u - wanted)|| <= limit`` over the chosen axes, D = diag(1, 1, 1, L, L, L), L the characteristic length.
 
     u is the whole displacement of the object, sag under load included, or the rigid part Gamma_ucs beta of it.
+
+    Args:
+        limit: largest distance [m].
+        axes: which of "x", "y", "z", "rx", "ry", "rz" count.
+        part: "whole" or "rigid".
+
+    Raises:
+        InputError: no length greater than 0, no such axes, no such part.
+
+    Example:
+        ``ObjectError(limit=2e-3, axes=("x", "y", "z"))``
     """
 
-    limit: float  # [m]
+    limit: float
     axes: tuple[AxisName, ...] = AXES
-    part: Literal["whole", "rigid"] = "whole"
-    key: str = "limits.drift"
-    title: str = "object drift"
-    watches: ClassVar[Watches] = "motion"
-    couples_knots: ClassVar[bool] = False
+    part: Part = "whole"
+    key: str = field(default="limits.drift", repr=False)
+    title: str = field(default="object drift", repr=False)
+    watches = "motion"
+
+    def __post_init__(self) -> None:
+        """Judge length, axes and part."""
+        found = size("ObjectError.limit", self.limit, "a length in metres greater than 0", above=0.0)
+        axes = (self.axes,) if isinstance(self.axes, str) else tuple(self.axes)
+        for axis in axes:
+            if axis not in AXES:
+                raise InputError.at("ObjectError.axes", one_of(axis, AXES))
+        if not axes:
+            raise InputError.at("ObjectError.axes", f"expected one or more of {', '.join(AXES)}, got none")
+        if self.part not in get_args(Part):
+            raise InputError.at("ObjectError.part", one_of(self.part, get_args(Part)))
+        object.__setattr__(self, "limit", found)
+        object.__setattr__(self, "axes", axes)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""
@@ -71,3 +100,9 @@ def axis_weights(axes: Sequence[AxisName], length: float) -> Array:
     """Return the rows of diag(1, 1, 1, L, L, L) of the named axes, (len(axes), 6)."""
     whole = np.diag([1.0] * 3 + [length] * 3)
     return whole[[AXES.index(axis) for axis in axes]]
+
+
+IN_FILE = FileKey(
+    "drift", Size, "how far the object may be from where it is wanted, sag under load included",
+    lambda value, grasp: ObjectError(value),
+)  # fmt: skip

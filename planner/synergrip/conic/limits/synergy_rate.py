@@ -2,57 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import symmetric_usage
-from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
-from synergrip.linalg import Array, frozen
+from synergrip.conic.limits.differences import Differences
+from synergrip.conic.limits.file_key import FileKey, References
+from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
 
-@dataclass(frozen=True)
-class SynergyRate:
-    """One bound [synergy units / s] for each synergy; infinity for none. The first knot is not bounded by it."""
 
-    limit: Array
-    key: str = "limits.synergy_rate"
-    watches: ClassVar[Watches] = "references"
-    couples_knots: ClassVar[bool] = True
+@dataclass(frozen=True, eq=False)
+class SynergyRate(Differences):
+    """``|z_k - z_(k-1)| <= h_k limit`` for each synergy. The first knot is not bounded by it.
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each synergy and step, in units of the limit."""
-        if formulation.knots < 2:
-            return []
-        keep = np.isfinite(self.limit)
-        names = [name for name, kept in zip(formulation.response.grasp.synergies, keep, strict=True) if kept]
-        steps = np.diff(formulation.times)[:, None] * self.limit[keep]
-        moved = np.diff(formulation.reference.constant[:, keep], axis=0) / steps
-        # one matrix serves all steps, so the steps are compared in the unit of the longest
-        unit = steps.max(axis=0)
-        matrix = formulation.reference.matrix[keep] / unit[:, None]
-        result = []
-        for side, sign in (("falling", 1.0), ("rising", -1.0)):
-            value = Affine(frozen(sign * matrix), frozen((1.0 + sign * moved) * steps / unit))
-            before = Earlier(1, frozen(-sign * matrix), frozen(np.ones(len(steps))))
-            result.append(nonnegative(self.key, items_of(names, side), value, (before,)))
-        return result
+    Args:
+        limit: rate [synergy units / s] for all synergies, or one for each; infinity for none.
 
-    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
-        """Return nothing: a rate bounds no value."""
+    Raises:
+        InputError: no numbers greater than 0.
 
-    def loosened(self, share: float) -> Self:
-        """Return it with every bound larger by `share`."""
-        return replace(self, limit=frozen(self.limit * (1 + share)))
+    Example:
+        ``SynergyRate(1.0)``
+    """
 
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the rates, each at the knot where its step ends."""
+    key = "limits.synergy_rate"
+    title = "synergy rate"
+
+    def differences(self, times: Array) -> tuple[Array, Array]:
+        """Return the steps between knots, and what each takes from the knot before."""
+        return np.diff(times), -np.ones((len(times) - 1, 1))
+
+    def reached(self, motion: Motion) -> Array:
+        """Return the rates (T, n_z), each at the knot where its step ends."""
         rates = np.zeros_like(motion.dz_r)
         rates[1:] = np.diff(motion.dz_r, axis=0) / np.diff(motion.times)[:, None]
-        items = formulation.response.grasp.synergies
-        return symmetric_usage("synergy rate", "synergy units/s", items, rates, self.limit, motion.times)
+        return rates
+
+    def unit(self, grasp: Grasp) -> str:
+        """Return the unit of a rate."""
+        return "synergy units/s"
+
+
+IN_FILE = FileKey(
+    "synergy_rate", References, "largest change of a synergy reference per second, one or one per synergy",
+    lambda value, grasp: SynergyRate(value),
+)  # fmt: skip

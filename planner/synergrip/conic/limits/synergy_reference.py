@@ -2,40 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from dataclasses import dataclass
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Usage, Watches
-from synergrip.conic.limits.symmetric import symmetric_rows, symmetric_usage
-from synergrip.conic.rows import Rows
-from synergrip.linalg import Array, frozen
+from synergrip.conic.limits.file_key import FileKey, References
+from synergrip.conic.limits.limit import Symmetric
+from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 
-@dataclass(frozen=True)
-class SynergyReference:
-    """One bound for each of them; infinity for none."""
+@dataclass(frozen=True, eq=False)
+class SynergyReference(Symmetric):
+    """``|dz_r| <= limit`` for each synergy.
 
-    limit: Array
-    key: str = "limits.synergy_reference"
-    watches: ClassVar[Watches] = "references"
-    couples_knots: ClassVar[bool] = False
+    Args:
+        limit: largest change [synergy units] for all synergies, or one for each; infinity for none.
 
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each, in units of the limit."""
-        return symmetric_rows(self.key, formulation.response.grasp.synergies, formulation.reference, self.limit)
+    Raises:
+        InputError: no numbers greater than 0.
 
-    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
-        """Return them and their limits."""
-        return formulation.reference, self.limit
+    Example:
+        ``SynergyReference(0.5)``
+    """
 
-    def loosened(self, share: float) -> Self:
-        """Return it with every bound larger by `share`."""
-        return replace(self, limit=frozen(self.limit * (1 + share)))
+    key = "limits.synergy_reference"
+    title = "synergy reference"
 
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the values that the motion reaches."""
-        items = formulation.response.grasp.synergies
-        return symmetric_usage("synergy reference", "synergy units", items, motion.dz_r, self.limit, motion.times)
+    def value(self, formulation: Formulation) -> Affine:
+        """Return the references."""
+        return formulation.reference
+
+    def reached(self, motion: Motion) -> Array:
+        """Return the references (T, n_z)."""
+        return motion.dz_r
+
+
+IN_FILE = FileKey(
+    "synergy_reference", References, "largest change of a synergy reference, one or one per synergy",
+    lambda value, grasp: SynergyReference(value),
+)  # fmt: skip

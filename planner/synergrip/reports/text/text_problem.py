@@ -7,10 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.problems.problem import Problem
-from synergrip.tasks.goals import SIMPLE
-from synergrip.tasks.timed_task import GoalName, TimedTask
+from synergrip.tasks.timed_task import TimedTask
 
 
 def problem_lines(problem: Problem) -> Iterator[str]:
@@ -36,7 +34,7 @@ def _task(problem: Problem) -> Iterator[str]:
     yield many(knots, "knot")
     yield f"load up to {_load(task):.3g} N"
     yield f"slip margin ≥ {task.margin:.4g} N"
-    yield ", then ".join(_goal(name, task) for name in task.order)
+    yield ", then ".join(goal.name for goal in task.goals)
 
 
 def _load(task: TimedTask) -> float:
@@ -60,12 +58,6 @@ def _wanted(task: TimedTask) -> str:
     shift, turn = (np.linalg.norm(part, axis=1).max() for part in (values[:, :3], values[:, 3:]))
     sizes = [f"{1e3 * shift:.3g} mm"] * bool(shift) + [f"{np.degrees(turn):.3g} deg"] * bool(turn)
     return "move the object" + f" by up to {' and '.join(sizes)}" * bool(sizes)
-
-
-def _goal(name: GoalName, task: TimedTask) -> str:
-    if name == "weighted":
-        return " + ".join(f"{weight:g} {_goal(each, task)}" for each, weight in task.weights.items())
-    return CentredJoints.name if name == "centred" else SIMPLE[name].name
 
 
 def many(count: int, noun: str) -> str:

@@ -1,0 +1,108 @@
+"""What a problem file may say of a limit: the key under [limits], how its value is read, and what it becomes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from synergrip.conic.limits.limit import Limit
+from synergrip.documents.fields import (
+    POSITIVE,
+    Schema,
+    Written,
+    array_of,
+    either,
+    listed,
+    number,
+    unit_schema,
+)
+from synergrip.errors import InputError, raise_issues
+from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+
+
+@dataclass(frozen=True)
+class FileKey:
+    """A key under [limits]."""
+
+    name: str
+    type: Any
+    """Annotation of the value: how it is read, and its JSON Schema."""
+    description: str
+    make: Callable[[Any, Grasp], Limit]
+    """The limit of a value that was read, for a grasp; keys of what it refuses are replaced by this one."""
+    default: str | None = None
+    """The value where none stands; None for no limit."""
+
+    @property
+    def key(self) -> str:
+        """The key with its table."""
+        return f"limits.{self.name}"
+
+
+def _one_each(read: Callable[[Any], float], word: str = "") -> Callable[[Any], Any]:
+    """Return the function that reads one bound for all, a list of them, or the `word`."""
+
+    def bounds(value: object) -> float | str | tuple[float, ...]:
+        if isinstance(value, list):
+            return listed(read, value)
+        if word and value == word:
+            return word
+        if word and isinstance(value, str) and value.strip().isalpha():
+            raise InputError.at(
+                "", f"expected '{word}', a number, a torque such as \"1.5 N m\" or a list, got {value!r}"
+            )
+        return read(value)
+
+    return bounds
+
+
+def _one_each_schema(one: list[Schema], word: str = "") -> Schema:
+    words: list[Schema] = [{"const": word}] if word else []
+    return {"anyOf": [*words, *one, array_of({"anyOf": one})]}
+
+
+_written_effort = either("torque", "force", above=0)
+
+
+def _effort(value: object) -> float:
+    return _written_effort(value) if isinstance(value, str) else number(value, above=0)
+
+
+def _positive(value: object) -> float:
+    return number(value, above=0)
+
+
+Efforts = Annotated[
+    float | tuple[float, ...] | Literal["hand"],
+    Written(_one_each(_effort, "hand"), _one_each_schema([POSITIVE, unit_schema("torque", "force")], "hand")),
+]
+"""Efforts of joints or synergies: one, one for each, or those that the hand states."""
+References = Annotated[float | tuple[float, ...], Written(_one_each(_positive), _one_each_schema([POSITIVE]))]
+"""Sizes of synergies, in their own units: one, or one for each."""
+
+
+def needs_hand(value: object, grasp: Grasp) -> None:
+    """Refuse ``"hand"`` on a grasp given as matrices, in the words of the file."""
+    if value == "hand" and grasp.held is None:
+        raise InputError.at("", "'hand' needs a [hand]; a grasp file states no limits, write numbers")
+
+
+def judge_units(key: str, value: Any, grasp: Grasp, what: Literal["joint", "synergy"]) -> None:
+    """Refuse values in units of joints that turn for those that slide, and the reverse.
+
+    Args:
+        key: of the values.
+        value: one, one for each, or a word.
+        grasp: whose joints or synergies they are for.
+        what: which of these.
+    """
+    if grasp.held is None or isinstance(value, str):
+        return
+    kinds = joint_kinds(grasp.held.hand.joints)
+    if what == "synergy":
+        kinds = synergy_kinds(grasp.held.synergies, kinds.values())
+    raise_issues(list_misfits(key, value, kinds, what))

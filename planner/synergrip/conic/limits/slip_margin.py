@@ -1,0 +1,39 @@
+"""The slip margin that a task asks of every contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from synergrip.conic.arguments import size
+from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.documents.fields import Force
+
+MARGIN = "a slip margin in newtons of at least 0; 0 asks only that nothing slips"
+
+
+@dataclass(frozen=True)
+class SlipMargin(FrictionCone):
+    """Every contact force at least so far inside its friction cone: ``mu n - ||(t, o)|| >= margin``.
+
+    Friction cones always hold; this says by how much.
+
+    Args:
+        margin: [N], 0 or more.
+
+    Raises:
+        InputError: no such force.
+
+    Example:
+        ``SlipMargin(0.5)``
+    """
+
+    def __post_init__(self) -> None:
+        """Judge the margin."""
+        object.__setattr__(self, "margin", size("SlipMargin.margin", self.margin, MARGIN, at_least=0.0))
+
+
+IN_FILE = FileKey(
+    "margin", Force, "distance of every contact force to its friction cone",
+    lambda value, grasp: SlipMargin(value), default="0 N",
+)  # fmt: skip
