@@ -11,10 +11,11 @@ import numpy as np
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Squares:
+@dataclass(frozen=True, eq=False, repr=False)
+class Squares(Value):
     """Half the sum of squares of ``matrix v_k + constant[k]``, and of what earlier knots add to it."""
 
     matrix: Array  # (m, n_v)
@@ -34,8 +35,8 @@ class Squares:
         return np.asarray(value)
 
 
-@dataclass(frozen=True)
-class Objective:
+@dataclass(frozen=True, eq=False, repr=False)
+class Objective(Value):
     """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
 
     squares: tuple[Squares, ...] = ()
