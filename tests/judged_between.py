@@ -147,7 +147,7 @@ def _judged_plan(seed: int, found: Case, outcome: Plan) -> Judged:
     if task.between == "hold" and excess > 1e-5:
         result.wrong.append(f"held, and passed by {excess}")
     write_outcome(found.folder, outcome_document("", grasp, outcome), outcome, ("json",))
-    checked = judge_references(grasp, task, read_references(found.folder, grasp.n_z))
+    checked = judge_references(grasp, task, read_references(found.folder, grasp))
     if checked.verdict != "feasible" or checked.between is None:
         result.wrong.append(f"its own check fails: {[check.name for check in checked.checks if not check.passed]}")
     elif abs(checked.between.usages[0].value.min() - told) > 1e-9:

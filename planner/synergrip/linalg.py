@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.values import Value
+
 Array = NDArray[np.float64]
 
 RANK_TOLERANCE = 1e-8
@@ -32,8 +34,8 @@ def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
     return array
 
 
-@dataclass(frozen=True)
-class Decision:
+@dataclass(frozen=True, eq=False, repr=False)
+class Decision(Value):
     """A rank decision together with what it was based on."""
 
     rank: int
@@ -48,8 +50,8 @@ class Decision:
         return cls(int(np.sum(relative > RANK_TOLERANCE)), frozen(relative), bool(np.any(grey)))
 
 
-@dataclass(frozen=True)
-class Split:
+@dataclass(frozen=True, eq=False, repr=False)
+class Split(Value):
     """The row space and the null space of a matrix, as orthonormal columns."""
 
     row_space: Array

@@ -12,6 +12,7 @@ import pytest
 
 from synergrip.errors import InputError, MotionDirectionError, NotRestrainedError
 from synergrip.linalg import Array, frozen
+from synergrip.planning.arrays import columns_of
 from synergrip.planning.check import Judgement, judge_references
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
@@ -53,7 +54,7 @@ def _rebuilt(outcome: Plan, squeeze: float = 1.0, follow: float = 1.0) -> Array:
 def test_our_own_plan_passes_from_every_file(name: str, form: str, tmp_path: Path) -> None:
     problem, outcome = _solved(name)
     write_outcome(tmp_path, outcome_document("", problem.grasp, outcome), outcome, ("json", "csv", "npz"))
-    references = read_references(tmp_path / form, problem.grasp.n_z)
+    references = read_references(tmp_path / form, problem.grasp)
     judgement = judge_references(problem.grasp, problem.task, references)
     assert (judgement.verdict, judgement.exit_code, _failed(judgement)) == ("feasible", 0, [])
     assert judgement.motion.times == pytest.approx(problem.task.times, abs=1e-12)
@@ -128,7 +129,7 @@ def test_a_csv_file_with_few_digits_passes_also_under_a_rate_limit(tmp_path: Pat
     rows = [f"{t:.3f},{z[0] + 1e-6:.6f}" for t, z in zip(times, outcome.motion.dz_r, strict=True)]
     path = tmp_path / "short.csv"
     path.write_text("\n".join(["t_s,zr_1", *rows]), encoding="utf-8")
-    judgement = judge_references(problem.grasp, problem.task, read_references(path, 1))
+    judgement = judge_references(problem.grasp, problem.task, read_references(path, problem.grasp))
     assert _failed(judgement) == []
     assert len(judgement.motion.times) == 11
     assert any(usage.title == "synergy rate" for usage in judgement.usages)
@@ -161,6 +162,10 @@ def test_a_task_that_no_references_can_do_is_a_refusal() -> None:
         _judged(loose, np.array([0.0, 1.0]), np.zeros((2, 1)))
 
 
+ONE = load_problem("pinch-soft").grasp
+"""With one synergy."""
+
+
 def _written(folder: Path, name: str, text: str) -> Path:
     (folder / name).write_text(text, encoding="utf-8")
     return folder / name
@@ -169,10 +174,38 @@ def _written(folder: Path, name: str, text: str) -> Path:
 def test_references_of_another_hand_are_refused(tmp_path: Path) -> None:
     problem, outcome = _solved("tripod")
     path = _written(tmp_path, "plan.csv", plan_csv(outcome))
-    assert read_references(path, problem.grasp.n_z).values.shape == (11, 4)
-    with pytest.raises(InputError) as caught:
-        read_references(path, 3)
-    assert "has 4 synergy references, the grasp has n_z = 3" in caught.value.issues[0].message
+    assert read_references(path, problem.grasp).values.shape == (11, 4)
+    with pytest.raises(InputError, match=r"references of .* are zr_z1, zr_z2, zr_z3, zr_z4; the grasp's are zr_z1, or"):
+        read_references(path, ONE)
+    numbered = _written(tmp_path, "numbered.csv", "t_s,zr_1,zr_2\n0,0,0\n")
+    with pytest.raises(InputError, match="has 2 synergy references, the grasp has n_z = 1"):
+        read_references(numbered, ONE)
+
+
+@pytest.mark.parametrize("name", ["tripod", "barrett-ball-hold", "gripper-box"])
+def test_references_by_name_or_by_number_in_any_order_of_columns(name: str, tmp_path: Path) -> None:
+    problem, outcome = _solved(name)
+    names = columns_of(problem.grasp)["dz_r"]
+    values = np.column_stack([outcome.time, outcome.dz_r])
+    for number, header in enumerate((names, [f"zr_{i + 1}" for i in range(len(names))])):
+        for order in ([0, *range(1, values.shape[1])], [*reversed(range(values.shape[1]))]):
+            every = ["t_s", *header]
+            rows = [",".join(every[i] for i in order), *(",".join(map(repr, row[order].tolist())) for row in values)]
+            path = _written(tmp_path, f"{number}.csv", "\n".join(rows))
+            assert np.array_equal(read_references(path, problem.grasp).values, outcome.dz_r)
+
+
+def test_columns_carry_units_and_names() -> None:
+    barrett = load_problem("barrett-ball-hold").grasp
+    assert columns_of(barrett)["dz_r"] == tuple(f"zr_{name}_rad" for name in barrett.synergies)
+    assert columns_of(barrett)["tau"] == tuple(f"tau_{name}_Nm" for name in barrett.joints)
+    assert barrett.held is not None
+    hand = barrett.held.hand
+    sliding = replace(hand, joints=tuple(replace(joint, kind="slide") for joint in hand.joints))
+    slides = replace(barrett, held=replace(barrett.held, hand=sliding))
+    assert columns_of(slides)["dz_r"] == tuple(f"zr_{name}_m" for name in barrett.synergies)
+    assert columns_of(slides)["tau"] == tuple(f"tau_{name}_N" for name in barrett.joints)
+    assert columns_of(load_problem("tripod").grasp)["dz_r"] == ("zr_z1", "zr_z2", "zr_z3", "zr_z4")
 
 
 @pytest.mark.parametrize(
@@ -194,24 +227,24 @@ def test_references_of_another_hand_are_refused(tmp_path: Path) -> None:
 )
 def test_what_is_no_plan_is_refused(name: str, text: str, fragment: str, tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
-        read_references(_written(tmp_path, name, text), 1)
+        read_references(_written(tmp_path, name, text), ONE)
     assert fragment in caught.value.issues[0].message
 
 
 @pytest.mark.parametrize("name", ["gone.json", "gone.csv", "gone", "."])
 def test_a_plan_that_is_not_there_is_refused(name: str, tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
-        read_references(tmp_path / name, 1)
+        read_references(tmp_path / name, ONE)
     assert caught.value.issues[0].key == "PLAN"
 
 
 def test_an_archive_of_other_things_is_refused(tmp_path: Path) -> None:
     np.savez(tmp_path / "plan.npz", q=np.zeros(3))
     with pytest.raises(InputError, match="dz_r and time_s are missing"):
-        read_references(tmp_path / "plan.npz", 1)
+        read_references(tmp_path / "plan.npz", ONE)
     np.savez(tmp_path / "plan.npz", time_s=np.array([object()]), dz_r=np.zeros((1, 1)))
     with pytest.raises(InputError, match="archive of plain arrays"):
-        read_references(tmp_path / "plan.npz", 1)
+        read_references(tmp_path / "plan.npz", ONE)
 
 
 def test_forces_that_a_file_claims_are_compared_with_those_it_would_produce(tmp_path: Path) -> None:
@@ -225,7 +258,7 @@ def test_forces_that_a_file_claims_are_compared_with_those_it_would_produce(tmp_
         if name:
             told[name][3][0] += 0.01
         (tmp_path / "plan.json").write_text(json.dumps(told))
-        judgement = judge_references(problem.grasp, problem.task, read_references(tmp_path, problem.grasp.n_z))
+        judgement = judge_references(problem.grasp, problem.task, read_references(tmp_path, problem.grasp))
         failed = [check.name for check in judgement.checks if not check.passed]
         assert failed == ([] if passes else [f"claimed {name}"])
 

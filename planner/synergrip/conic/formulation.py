@@ -18,13 +18,14 @@ from synergrip.conic.intersample import Intersample
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
+from synergrip.values import Value
 
 ROUNDING = 1e-12
 """An entry this small beside its row's largest, after a change of directions, is 0."""
 
 
-@dataclass(frozen=True)
-class Affine:
+@dataclass(frozen=True, eq=False, repr=False)
+class Affine(Value):
     """``y_k = matrix @ v_k + constant[k]``."""
 
     matrix: Array  # (m, n_v)
@@ -52,8 +53,8 @@ class Units:
     motion: float = 1.0  # [m]
 
 
-@dataclass(frozen=True)
-class Formulation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Formulation(Value):
     """What the program's unknowns mean."""
 
     response: Response

@@ -16,6 +16,7 @@ from synergrip.conic.rows import Item, Kind
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 
 @dataclass(frozen=True)
@@ -43,8 +44,8 @@ class Block:
         return self.cones * self.dim
 
 
-@dataclass(frozen=True)
-class Program:
+@dataclass(frozen=True, eq=False, repr=False)
+class Program(Value):
     """A second-order cone program with a quadratic objective, and what its rows mean.
 
     The unknowns are the knots' v_k one after the other, or the coefficients of their time_basis in time one after the
@@ -65,6 +66,11 @@ class Program:
     """(T, f) the time_basis in time that the unknowns of the knots are made of; None when each knot has its own."""
     constant: float = 0.0
     """Of the objective, so that its value is the goal's: gaps are measured against it."""
+
+    def __repr__(self) -> str:
+        """Return the sizes."""
+        cones, limits = sum(block.cones for block in self.blocks), len({block.limit for block in self.blocks})
+        return f"Program({len(self.q)} unknowns, {len(self.b)} rows in {cones} cones of {limits} limits)"
 
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""

@@ -13,13 +13,14 @@ import numpy as np
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 SMALLEST = 1e-12
 """A characteristic length below this is rounding [m]."""
 
 
-@dataclass(frozen=True)
-class Scale:
+@dataclass(frozen=True, eq=False, repr=False)
+class Scale(Value):
     """Scaled coordinates, marked ~: ``u~ = motion u``, ``w~ = motion^-T w``, ``lambda~ = force lambda``."""
 
     length: float

@@ -70,7 +70,7 @@ def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: 
     certificate = refusal_certificate(grasp, task, analysis, refusal)
     if not certificate.verified:
         raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
-    return Infeasible(task, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
+    return Infeasible(task, grasp, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
 
 
 class _Planner:
@@ -154,7 +154,8 @@ class _Planner:
         ray = proven.certificate.y
         found = conflicts(proven.program, ray) if ray is not None else ()
         return Infeasible(
-            self.task, self.analysis, "magnitude", f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
+            self.task, self.analysis.grasp, self.analysis, "magnitude",
+            f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
             proven.certificate, proven.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 

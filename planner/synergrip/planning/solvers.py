@@ -22,6 +22,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
+from synergrip.values import Value
 
 Answerer = Callable[[Question, Program, Settings], Solution]
 
@@ -58,8 +59,8 @@ APART = 3.0
 """Factor between two units that makes a difference."""
 
 
-@dataclass(frozen=True)
-class Answered:
+@dataclass(frozen=True, eq=False, repr=False)
+class Answered(Value):
     """A question as it was finally asked, in units that suit its answer, and the answer."""
 
     question: Question

@@ -18,6 +18,7 @@ from synergrip.conic.question import Question
 from synergrip.linalg import Array, frozen, split
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.tasks.timed_task import unbounded
+from synergrip.values import Value
 
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
@@ -29,8 +30,8 @@ LOOSE = 1e-7
 part touches has no room for rounding."""
 
 
-@dataclass(frozen=True)
-class Stage:
+@dataclass(frozen=True, eq=False, repr=False)
+class Stage(Value):
     """What the goals so far have led to."""
 
     formulation: Formulation

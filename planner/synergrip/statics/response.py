@@ -18,6 +18,7 @@ from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
+from synergrip.values import Value
 
 ENOUGH = 1e-11
 """Relative error of the maps up to which float64 is believed; beyond it they are worked out in twice the digits."""
@@ -62,8 +63,8 @@ class Accuracy:
         return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
 
 
-@dataclass(frozen=True)
-class Response:
+@dataclass(frozen=True, eq=False, repr=False)
+class Response(Value):
     """Linear maps of a restrained grasp, SI units. Forces act on the object."""
 
     grasp: Grasp

@@ -14,10 +14,11 @@ import numpy as np
 
 from synergrip.linalg import SINGULAR, Array, Decision, canonical, frozen, split
 from synergrip.statics.response import Response
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Subspaces:
+@dataclass(frozen=True, eq=False, repr=False)
+class Subspaces(Value):
     """Bases of the controlled subspaces. Each is determined by its subspace alone (fixed order and sign)."""
 
     E_s: Array
@@ -40,6 +41,12 @@ class Subspaces:
     def ambiguous(self) -> bool:
         """True when a singular value lies in the grey zone, or the force map disagrees with (34)."""
         return any(decision.ambiguous for decision in self.decisions.values())
+
+    def __repr__(self) -> str:
+        """Return the dimensions."""
+        forces, motions, redundant = self.dimensions
+        doubt = ", ambiguous" * self.ambiguous
+        return f"Subspaces(dim E_s {forces}, Gamma_ucs {motions}, Gamma_zr {redundant}{doubt})"
 
 
 def subspaces(response: Response) -> Subspaces:

@@ -13,10 +13,11 @@ import numpy as np
 from synergrip.linalg import Array, frozen
 from synergrip.statics.response import Response
 from synergrip.statics.subspaces import Subspaces
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Coordinates:
+@dataclass(frozen=True, eq=False, repr=False)
+class Coordinates(Value):
     """The change of coordinates between synergy references and (alpha, beta, gamma)."""
 
     M: Array

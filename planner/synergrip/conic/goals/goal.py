@@ -13,14 +13,15 @@ from synergrip.conic.arguments import ByContent
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.conic.limits.limit import Limit, Watches
     from synergrip.grasps.grasp import Grasp
 
 
-@dataclass(frozen=True)
-class Squares:
+@dataclass(frozen=True, eq=False, repr=False)
+class Squares(Value):
     """Half the sum of squares of ``matrix v_k + constant[k]``, and of what earlier knots add to it."""
 
     matrix: Array  # (m, n_v)
@@ -40,8 +41,8 @@ class Squares:
         return np.asarray(value)
 
 
-@dataclass(frozen=True)
-class Objective:
+@dataclass(frozen=True, eq=False, repr=False)
+class Objective(Value):
     """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
 
     squares: tuple[Squares, ...] = ()
