@@ -51,7 +51,7 @@ class Course(Protocol):
         """Where load or wish have corners, where the load jumps, and where one of them is curved."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Target:
     """The wanted object motion from the start of the task."""
 
@@ -60,10 +60,10 @@ class Target:
     """(T, 6) displacement about B [m, rad] for "motion"; (T, dim Gamma_ucs) beta [m] for "modes"; the same for
     "mode moves", where columns that are not there stand for zero; (T, 0) to hold."""
     key: str = ""
-    """Key in the problem file."""
+    """The argument that states it, for errors."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TimedTask:
     """A task at T knots."""
 
