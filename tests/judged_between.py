@@ -108,7 +108,7 @@ def judged(seed: int) -> Judged:
     """Plan a random problem and judge what the answer says of the time between its knots."""
     with tempfile.TemporaryDirectory() as folder:
         found = case(np.random.default_rng(seed), Path(folder))
-        outcome = plan(found.problem.grasp, found.problem.task)
+        outcome = plan(found.problem.grasp, found.problem.timed)
         if not isinstance(outcome, Plan):
             proven = outcome.verdict == "unknown" or outcome.certificate.verified
             return Judged(seed, outcome.verdict, [] if proven else ["not proven"])
@@ -116,7 +116,7 @@ def judged(seed: int) -> Judged:
 
 
 def _judged_plan(seed: int, found: Case, outcome: Plan) -> Judged:
-    grasp, task, between = found.problem.grasp, found.problem.task, outcome.between
+    grasp, task, between = found.problem.grasp, found.problem.timed, outcome.between
     result = Judged(seed, "feasible")
     assert between is not None
     times = np.unique(np.concatenate([task.times, found.load[0], np.linspace(0, 1, 301), *(found.wish or ())[:1]]))

@@ -218,6 +218,11 @@ def repeated(names: Iterable[Hashable]) -> Iterator[int]:
         seen.add(name)
 
 
+def kind_of(value: object) -> str:
+    """Return what a value is, for messages about arguments of another type: ``str``, ``the class Grasp``."""
+    return f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
+
+
 def shortened(text: str, most: int = LONGEST_NAME) -> str:
     """Return a text as a message shows it: its beginning when it is very long."""
     return text if len(text) <= most else f"{text[: most - 3]}..."

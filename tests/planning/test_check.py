@@ -37,7 +37,7 @@ def _solved(name: str, *overrides: str) -> tuple[Problem, Plan]:
 
 
 def _judged(problem: Problem, times: Array, dz_r: Array) -> Judgement:
-    return judge_references(problem.grasp, problem.task, References(frozen(times), frozen(dz_r), {}))
+    return judge_references(problem.grasp, problem.timed, References(frozen(times), frozen(dz_r), {}))
 
 
 def _failed(judgement: Judgement) -> list[str]:
@@ -55,16 +55,16 @@ def test_our_own_plan_passes_from_every_file(name: str, form: str, tmp_path: Pat
     problem, outcome = _solved(name)
     write_outcome(tmp_path, outcome_document("", problem.grasp, outcome), outcome, ("json", "csv", "npz"))
     references = read_references(tmp_path / form, problem.grasp)
-    judgement = judge_references(problem.grasp, problem.task, references)
+    judgement = judge_references(problem.grasp, problem.timed, references)
     assert (judgement.verdict, judgement.exit_code, _failed(judgement)) == ("feasible", 0, [])
-    assert judgement.motion.times == pytest.approx(problem.task.times, abs=1e-12)
+    assert judgement.motion.times == pytest.approx(problem.timed.times, abs=1e-12)
     assert judgement.margins == pytest.approx(outcome.margins, abs=1e-9)
     assert {"slip margin", "rigid motion [m]", "equilibrium"} <= {check.name for check in judgement.checks}
 
 
 def test_the_references_of_the_tripod_pass_before_they_are_tampered_with() -> None:
     problem, outcome = _solved(*TRIPOD)
-    assert _failed(_judged(problem, problem.task.times, _rebuilt(outcome))) == []
+    assert _failed(_judged(problem, problem.timed.times, _rebuilt(outcome))) == []
 
 
 @pytest.mark.parametrize(
@@ -80,16 +80,16 @@ def test_the_references_of_the_tripod_pass_before_they_are_tampered_with() -> No
 )
 def test_tampered_references_fail_the_check_they_break(squeeze: float, follow: float, broken: list[str]) -> None:
     problem, outcome = _solved(*TRIPOD)
-    judgement = _judged(problem, problem.task.times, _rebuilt(outcome, squeeze, follow))
+    judgement = _judged(problem, problem.timed.times, _rebuilt(outcome, squeeze, follow))
     assert _failed(judgement) == broken
     assert (judgement.verdict, judgement.exit_code) == ("infeasible", 1)
 
 
 def test_the_tolerance_of_the_task_is_that_of_the_tracking() -> None:
     problem, outcome = _solved(*TRIPOD)
-    references = References(problem.task.times, frozen(_rebuilt(outcome, follow=1.01)), {})  # off by 64 micrometres
+    references = References(problem.timed.times, frozen(_rebuilt(outcome, follow=1.01)), {})  # off by 64 micrometres
     for tolerance, broken in ((1e-4, []), (1e-5, ["rigid motion [m]"])):
-        judgement = judge_references(problem.grasp, replace(problem.task, tolerance=tolerance), references)
+        judgement = judge_references(problem.grasp, replace(problem.timed, tolerance=tolerance), references)
         assert _failed(judgement) == broken
 
 
@@ -99,14 +99,14 @@ def test_references_of_another_time_grid_are_judged_at_the_knots_of_both(times: 
     dz_r = np.tile(outcome.motion.dz_r[0], (len(times), 1))
     judgement = _judged(problem, np.array(times), dz_r)
     inside = [t for t in times if 0 <= t <= 1]
-    assert judgement.motion.times == pytest.approx(np.union1d(problem.task.times, inside), abs=1e-9)
+    assert judgement.motion.times == pytest.approx(np.union1d(problem.timed.times, inside), abs=1e-9)
     assert _failed(judgement) == []
 
 
 def test_a_slip_between_the_knots_of_the_task_is_seen() -> None:
     problem, outcome = _solved(*TRIPOD)
     weak = _rebuilt(outcome, squeeze=0.5)
-    dz_r, times = outcome.motion.dz_r, problem.task.times
+    dz_r, times = outcome.motion.dz_r, problem.timed.times
     between = (times[5] + times[6]) / 2
     dz_r = np.insert(dz_r, 6, (weak[5] + weak[6]) / 2, axis=0)
     judgement = _judged(problem, np.insert(times, 6, between), dz_r)
@@ -118,18 +118,18 @@ def test_a_slip_between_the_knots_of_the_task_is_seen() -> None:
 def test_a_motion_that_cuts_the_corners_is_seen() -> None:
     """Every second knot is too coarse for a minimum-jerk course."""
     problem, outcome = _solved(*TRIPOD)
-    assert _failed(_judged(problem, problem.task.times[::2], outcome.motion.dz_r[::2])) == ["rigid motion [m]"]
+    assert _failed(_judged(problem, problem.timed.times[::2], outcome.motion.dz_r[::2])) == ["rigid motion [m]"]
 
 
 def test_a_csv_file_with_few_digits_passes_also_under_a_rate_limit(tmp_path: Path) -> None:
     """Knots 0.3 and 0.30000000000000004 are one: no rate is taken between them."""
     problem, outcome = _solved("pinch-soft", "task.knots=11", f"limits.synergy_rate={RATE}", "limits.margin=0.4 N")
-    times = problem.task.times
+    times = problem.timed.times
     assert any(float(f"{t:.3f}") != t for t in times)
     rows = [f"{t:.3f},{z[0] + 1e-6:.6f}" for t, z in zip(times, outcome.motion.dz_r, strict=True)]
     path = tmp_path / "short.csv"
     path.write_text("\n".join(["t_s,zr_1", *rows]), encoding="utf-8")
-    judgement = judge_references(problem.grasp, problem.task, read_references(path, problem.grasp))
+    judgement = judge_references(problem.grasp, problem.timed, read_references(path, problem.grasp))
     assert _failed(judgement) == []
     assert len(judgement.motion.times) == 11
     assert any(usage.title == "synergy rate" for usage in judgement.usages)
@@ -139,7 +139,7 @@ def test_a_step_that_is_too_fast_fails_the_rate() -> None:
     problem, outcome = _solved("pinch-soft", "task.knots=11", f"limits.synergy_rate={RATE}", "limits.margin=0.4 N")
     dz_r = np.array(outcome.motion.dz_r)
     dz_r[5:] += 1.1 * RATE * 0.1
-    assert _failed(_judged(problem, problem.task.times, dz_r)) == ["synergy rate"]
+    assert _failed(_judged(problem, problem.timed.times, dz_r)) == ["synergy rate"]
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.9], [0.1, 1.0]])
@@ -153,8 +153,8 @@ def test_references_that_do_not_cover_the_task_are_refused(times: list[float]) -
 
 def test_a_task_that_no_references_can_do_is_a_refusal() -> None:
     problem, _ = _solved("tripod")
-    sideways = np.outer(problem.task.times, [0.01, 0, 0, 0, 0, 0])
-    task = replace(problem.task, target=Target("motion", frozen(sideways), "task.motion"))
+    sideways = np.outer(problem.timed.times, [0.01, 0, 0, 0, 0, 0])
+    task = replace(problem.timed, target=Target("motion", frozen(sideways), "task.motion"))
     with pytest.raises(MotionDirectionError):
         judge_references(problem.grasp, task, References(task.times, frozen(np.zeros((11, 4))), {}))
     loose = load_problem("pinch-hard")
@@ -258,13 +258,13 @@ def test_forces_that_a_file_claims_are_compared_with_those_it_would_produce(tmp_
         if name:
             told[name][3][0] += 0.01
         (tmp_path / "plan.json").write_text(json.dumps(told))
-        judgement = judge_references(problem.grasp, problem.task, read_references(tmp_path, problem.grasp))
+        judgement = judge_references(problem.grasp, problem.timed, read_references(tmp_path, problem.grasp))
         failed = [check.name for check in judgement.checks if not check.passed]
         assert failed == ([] if passes else [f"claimed {name}"])
 
 
 def test_a_claim_of_another_size_fails(tmp_path: Path) -> None:
     problem = load_problem("tripod")
-    references = References(problem.task.times, frozen(np.zeros((11, 4))), {"tau": frozen(np.zeros((11, 2)))})
-    failed = [c.name for c in judge_references(problem.grasp, problem.task, references).checks if not c.passed]
+    references = References(problem.timed.times, frozen(np.zeros((11, 4))), {"tau": frozen(np.zeros((11, 2)))})
+    failed = [c.name for c in judge_references(problem.grasp, problem.timed, references).checks if not c.passed]
     assert "claimed tau" in failed

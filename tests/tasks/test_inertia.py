@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from task_tables import Loads, loads
 
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.problems.loads import Loads, loads, palm_motion
+from synergrip.problems.loads import palm_of
 from synergrip.problems.motion_tables import PalmTable
 from synergrip.problems.task_file import TaskTable
 from synergrip.tasks.inertia import uniform_tensor
@@ -55,7 +56,7 @@ def _second_difference(position: Any, time: float, step: float = 1e-3) -> Array:
 
 @pytest.mark.parametrize("name", ["min-jerk", "cubic"])
 def test_the_acceleration_of_a_point_of_the_palm_is_that_of_its_way_through_the_world(name: Any) -> None:
-    motion = palm_motion(PalmTable.model_validate({**PALM, "profile": name}), 0.0, 0.8)
+    motion = palm_of(PalmTable.model_validate({**PALM, "profile": name})).motion(0.0, 0.8)
     found = motion.acceleration(CENTRE, TIMES)
 
     def position(time: float) -> Array:

@@ -34,7 +34,7 @@ def _task(values: object, kind: str = "motion", tolerance: float = 0.0) -> Timed
     """A task whose knots are the rows of `values`, under no load."""
     wanted = frozen(values)
     count = len(wanted)
-    task = _tripod()[0].task
+    task = _tripod()[0].timed
     return replace(
         task, times=frozen(np.linspace(0, 1, count)), wrench=frozen(np.zeros((count, 6))), tolerance=tolerance,
         target=Target(kind, wanted, "task.motion"),  # type: ignore[arg-type]

@@ -27,7 +27,7 @@ def check(
 
         loaded = load_problem(problem, overrides or [])
         try:
-            judgement = judge_references(loaded.grasp, loaded.task, read_references(plan, loaded.grasp))
+            judgement = judge_references(loaded.grasp, loaded.timed, read_references(plan, loaded.grasp))
             code = judgement.exit_code
             show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
         except Refusal as error:

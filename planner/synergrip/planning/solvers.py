@@ -41,10 +41,16 @@ SOLVERS: dict[str, Answerer] = {"clarabel": _clarabel, "cvxpy": _cvxpy}
 """"cvxpy" writes the question down by itself, independently of the program's rows."""
 
 
-def answerer(name: str) -> Answerer:
-    """Return the solver of that name or raise an `InputError` that lists them."""
-    if name not in SOLVERS:
-        raise InputError.at("--solver", one_of(name, SOLVERS))
+def answerer(name: str | Answerer, key: str = "--solver") -> Answerer:
+    """Return the solver of that name, or one that is a function already.
+
+    Raises:
+        InputError: none of that name, at the option or argument `key`; the names are listed.
+    """
+    if callable(name):
+        return name
+    if not isinstance(name, str) or name not in SOLVERS:
+        raise InputError.at(key, one_of(name, SOLVERS))
     return SOLVERS[name]
 
 

@@ -11,9 +11,9 @@ from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.palm_motion import Palm, marks_of
+from synergrip.tasks.palm_in_world import PalmInWorld, marks_of
 
-KEY = "task.palm.inertia"
+KEY = "inertia"
 LOOKS = 65
 """Evenly spaced instants at which the size of the load is looked at."""
 
@@ -25,7 +25,7 @@ class Inertia:
     mass: float  # [kg]
     centre: Array  # (3,) centre of mass in the palm frame [m]
     tensor: Array  # (3, 3) about the centre, axes of the palm [kg m^2]
-    palm: Palm
+    palm: PalmInWorld
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B: force ``-m a``, moment ``-(I alpha + omega x I omega)`` (Euler)."""
@@ -40,21 +40,19 @@ class Inertia:
         return marks_of(self.palm)
 
 
-def inertia(body: Object | None, mass: float, palm: Palm) -> Inertia:
-    """Return the inertial load on a placed object; without one, on a point mass at the origin of the palm frame.
+def inertia(body: Object | None, palm: PalmInWorld) -> Inertia:
+    """Return the inertial load on a placed object.
 
     Raises:
         InputError: there is no mass or no time to move in, or the load is beyond all numbers.
     """
-    if mass == 0:
-        message = "inertia needs the mass of the object: give object.mass (a grasp file has none: use task.wrench)"
-        raise InputError.at(KEY, message)
+    if body is None or not body.mass:
+        given = "a grasp given as matrices has none, give the wrench itself" if body is None else "give object.mass"
+        raise InputError.at(KEY, f"inertia needs the mass of the object: {given}")
     start, end = palm.corners[[0, -1]]
     if end <= start:
         raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {end:g} s")
-    centre = np.zeros(3) if body is None else body.position
-    shape = None if body is None else body.shape
-    found = Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
+    found = Inertia(body.mass, frozen(body.position), frozen(body.mass * uniform_tensor(body.shape)), palm)
     _judge_size(found)
     return found
 

@@ -51,7 +51,7 @@ class Target(Value):
     """(T, 6) displacement about B [m, rad] for "motion"; (T, dim Gamma_ucs) beta [m] for "modes"; the same for
     "mode moves", where columns that are not there stand for zero; (T, 0) to hold."""
     key: str = ""
-    """Key in the problem file."""
+    """The argument that states it, for errors."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
