@@ -80,8 +80,8 @@ def _between(rows: Rows, shares: sparse.csr_matrix, extra: int) -> sparse.csc_ma
 def _block(rows: Rows, knots: int) -> Block:
     count = len(rows.constant)
     if rows.inside is not None:
-        return Block(rows.limit, rows.kind, rows.dim, rows.items, 0, count, between=True)
-    return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - count, count)
+        return Block(rows.limit, rows.kind, rows.dim, rows.items, 0, count, between=True, friction=rows.friction)
+    return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - count, count, friction=rows.friction)
 
 
 def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:

@@ -17,10 +17,6 @@ HEAVY = 0.2
 """Items that carry less than this share of what the heaviest item of their limit carries are not named."""
 
 
-FRICTION = frozenset({"limits.margin", "limits.margin_angle", "limits.safety_factor"})
-"""Limits whose multipliers say that contacts slip."""
-
-
 @dataclass(frozen=True)
 class Conflict:
     """One limit's part in a proof of infeasibility."""
@@ -31,12 +27,14 @@ class Conflict:
     """Share of the proof's multipliers, all in units of their limits."""
     items: tuple[str, ...]
     """Contacts, joints or synergies, the heaviest first."""
+    friction: bool = False
+    """Whether its multipliers say that contacts slip."""
 
 
 def beside_friction(found: Sequence[Conflict]) -> str:
     """Return the limit that carries most of a proof, with its heaviest item; empty when that is friction itself."""
     chief = max(found, key=lambda conflict: conflict.share, default=None)
-    return "" if chief is None or chief.key in FRICTION else f"{chief.key} ({chief.items[0]})"
+    return "" if chief is None or chief.friction else f"{chief.key} ({chief.items[0]})"
 
 
 def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
@@ -52,6 +50,7 @@ def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
             signed = -size if item.side in LOWER_SIDES else size
             place = item.name, block.between
             of_limit[place] = of_limit.get(place, np.zeros(block.knots)) + signed
+    friction = {block.limit for block in program.blocks if block.friction}
     weights = {key: _weights(items) for key, items in sums.items()}
     total = sum(sum(items.values()) for items in weights.values())
     found = []
@@ -60,7 +59,7 @@ def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
         if share > COUNTS:
             ordered = sorted(items, key=lambda item: -items[item])
             heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
-            found.append(Conflict(key, share, tuple(heavy)))
+            found.append(Conflict(key, share, tuple(heavy), key in friction))
     return tuple(sorted(found, key=lambda conflict: -conflict.share))
 
 

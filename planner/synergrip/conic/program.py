@@ -32,6 +32,8 @@ class Block:
     """How many; of instants between the knots, how many of these."""
     between: bool = False
     """Whether it speaks of instants between the knots."""
+    friction: bool = False
+    """Whether its cones are friction cones."""
 
     @property
     def cones(self) -> int:
@@ -140,7 +142,7 @@ class Program(Value):
         blocks = tuple(
             Block(
                 b["limit"], Kind(b["kind"]), b["dim"], tuple(Item(*pair) for pair in b["items"]),
-                b["first_knot"], b["knots"], b.get("between", False),
+                b["first_knot"], b["knots"], b.get("between", False), b.get("friction", False),
             )
             for b in header["blocks"]
         )  # fmt: skip

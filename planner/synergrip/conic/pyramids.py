@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.limit import Limit, Usage, Watches
-from synergrip.conic.rows import Item, Kind, Rows, items_of
+from synergrip.conic.rows import Item, Kind, Rows
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
@@ -61,17 +61,16 @@ def _normals(sides: int) -> Array:
     return np.asarray(np.column_stack([np.cos(angles), np.sin(angles)]) / np.cos(np.pi / sides))
 
 
-def inscribed(rows: Rows, contacts: Collection[str], facets: int) -> Rows:
-    """Return the rows with inscribed pyramids in the place of the second-order cones of contacts.
+def inscribed(rows: Rows, facets: int) -> Rows:
+    """Return the rows with inscribed pyramids in the place of friction cones.
 
     Rows of any other kind come back as they are.
 
     Args:
         rows: of a limit or a goal.
-        contacts: names of the contacts.
         facets: of the pyramid of a hard finger (see `pyramid`).
     """
-    if rows.kind is not Kind.SECOND_ORDER or not {*rows.items} <= {*items_of(contacts)} or rows.dim not in (3, 4):
+    if not rows.friction or rows.kind is not Kind.SECOND_ORDER or rows.dim not in (3, 4):
         return rows
     H = pyramid(facets, rows.dim)
     whole = np.kron(np.eye(len(rows.items)), H)
@@ -79,13 +78,12 @@ def inscribed(rows: Rows, contacts: Collection[str], facets: int) -> Rows:
     earlier = tuple(replace(part, matrix=frozen(whole @ part.matrix)) for part in rows.earlier)
     return Rows(
         rows.limit, Kind.NONNEGATIVE, 1, items, frozen(whole @ rows.matrix), frozen(rows.constant @ whole.T),
-        frozen(whole @ rows.epigraph), earlier,
+        frozen(whole @ rows.epigraph), earlier, friction=True,
     )  # fmt: skip
 
 
-def _all_inscribed(rows: Sequence[Rows], formulation: Formulation, facets: int) -> list[Rows]:
-    names = [contact.name for contact in formulation.response.grasp.contacts]
-    return [inscribed(part, names, facets) for part in rows]
+def _all_inscribed(rows: Sequence[Rows], facets: int) -> list[Rows]:
+    return [inscribed(part, facets) for part in rows]
 
 
 @dataclass(frozen=True)
@@ -96,7 +94,7 @@ class FrictionPyramid(FrictionCone):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the facets."""
-        return _all_inscribed(super().rows(formulation), formulation, self.facets)
+        return _all_inscribed(super().rows(formulation), self.facets)
 
 
 @dataclass(frozen=True)
@@ -107,7 +105,7 @@ class LargestMarginInPyramids(LargestMargin):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the facets with s in the margin's place."""
-        return _all_inscribed(super().rows(formulation), formulation, self.facets)
+        return _all_inscribed(super().rows(formulation), self.facets)
 
     def keeps(self, best: float, slack: float) -> FrictionPyramid:
         """Return the limit that keeps a margin of `best` less `slack` [N]."""
@@ -134,7 +132,7 @@ class _OtherInPyramids(Limit):
         return self.limit.couples_knots
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        return _all_inscribed(self.limit.rows(formulation), formulation, self.facets)
+        return _all_inscribed(self.limit.rows(formulation), self.facets)
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         return self.limit.bounded(formulation, cones_hold=cones_hold)

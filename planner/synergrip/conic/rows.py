@@ -77,6 +77,8 @@ class Rows(Value):
     inside: sparse.csr_matrix | None = None
     """(K, T) what each knot has of each instant, for rows at instants between the knots; None for rows at the knots.
     The value is then ``matrix (inside v)_k + ...``."""
+    friction: bool = False
+    """Whether the cones are friction cones: those alone have pyramids, and what they clash with says that it slips."""
 
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:

@@ -24,6 +24,10 @@ _WORDS = {
     "z": "synergy displacements", "q": "joint displacements",
 }  # fmt: skip
 _CAUSES = {"dzr": "synergy references do", "dw": "the load does"}
+_TOLD = {
+    f"d{what}_{cause}": f"{does} to the {word}" for what, word in _WORDS.items() for cause, does in _CAUSES.items()
+}
+"""Map by its name -> what it says, in words."""
 
 
 class InDoubtError(SelfCheckError):
@@ -36,13 +40,13 @@ def accuracy_notes(response: Response) -> Iterator[str]:
     name = max(known, key=lambda each: known[each].error)
     if known[name].error > SHOWN:
         yield (
-            f"inaccurate: what {_named(name)} may be wrong by {known[name].error:.0e} of its size, because the "
+            f"inaccurate: what {_TOLD[name]} may be wrong by {known[name].error:.0e} of its size, because the "
             "stiffnesses of the grasp differ by too many powers of ten; soften what is stiffest"
         )
     name = max(known, key=lambda each: known[each].sensitivity)
     if known[name].sensitivity > max(SHOWN, known[name].error):
         yield (
-            f"sensitive: what {_named(name)} changes by about {known[name].sensitivity:.0e} of its size with digits "
+            f"sensitive: what {_TOLD[name]} changes by about {known[name].sensitivity:.0e} of its size with digits "
             "that the numbers of the grasp do not have, because it is almost rigid or almost free in some direction"
         )
 
@@ -84,8 +88,3 @@ def _forces_in_doubt(response: Response, motion: Motion) -> float:
     unknown = of_references.unknown * references + of_load.unknown * load
     size = max(response.scale.largest_force(motion.forces), CANCELLED * largest_term(response, motion.dz_r))
     return unknown / size if unknown > 0 else 0.0
-
-
-def _named(name: str) -> str:
-    what, cause = name.removeprefix("d").split("_")
-    return f"{_CAUSES[cause]} to the {_WORDS[what]}"

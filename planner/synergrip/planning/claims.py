@@ -44,11 +44,8 @@ class Claims:
     """The worst of each key that is not right."""
     skipped: tuple[str, ...] = ()
     """Keys that were not compared: they do not follow from the references, or nothing is known of them."""
-
-    @property
-    def right(self) -> tuple[str, ...]:
-        """The keys that are as they should be."""
-        return tuple(check.name.removeprefix(CLAIMED) for check in self.checks if check.passed)
+    right: tuple[str, ...] = ()
+    """The keys that are as they should be."""
 
 
 def compared(
@@ -62,18 +59,21 @@ def compared(
         sizes: of the terms that the numbers are made of.
         unchanged: whether the numbers are those that were written, by a digest in the file; None when there is none.
     """
-    checks, differences = [], []
+    checks, differences, right = [], [], []
     for key in claimed:
         if key not in expected:
             continue
         found = list(_differences(key, claimed[key], expected[key], sizes.of(key)))
         worst = max(found, key=lambda each: each.error, default=None)
         checks.append(Check(CLAIMED + key, 0.0 if worst is None else worst.error, LIMIT))
-        if worst is not None and not checks[-1].passed:
+        if checks[-1].passed:
+            right.append(key)
+        elif worst is not None:
             differences.append(worst)
     if unchanged is not None:
         checks.append(Check(AS_WRITTEN, float(not unchanged), 0.0))
-    return Claims(tuple(checks), tuple(differences), tuple(key for key in claimed if key not in expected))
+        right += [AS_WRITTEN] * unchanged
+    return Claims(tuple(checks), tuple(differences), tuple(key for key in claimed if key not in expected), tuple(right))
 
 
 def _differences(key: str, says: Any, found: Any, size: Any) -> Iterator[Difference]:

@@ -15,6 +15,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proof
+from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.quantities import apart
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
@@ -96,6 +97,7 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
         formulation = formulated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
+    refuse_malformed(task.limits, task.goals, formulation)
     planners: list[_Planner] = []
 
     def answer(each: Formulation) -> Outcome:

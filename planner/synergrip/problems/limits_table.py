@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
-from typing import Any
 
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.registry import GOALS
-from synergrip.conic.limits.file_key import FileKey
+from synergrip.conic.limits.file_key import limit_of
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.registry import LIMITS
-from synergrip.errors import InputError, Issue, raise_issues
+from synergrip.errors import Issue, raise_issues
 from synergrip.grasps.grasp import Grasp
 from synergrip.problems.limits_file import GoalTable
 from synergrip.problems.problem_file import ProblemFile
@@ -25,19 +23,9 @@ def limits_of(file: ProblemFile, grasp: Grasp) -> tuple[Limit, ...]:
             not suit the joints, or a goal that needs ranges that nobody states.
     """
     given = ((key, getattr(file.limits, key.name)) for key in LIMITS)
-    limits = tuple(_made(key, value, grasp) for key, value in given if value is not None)
+    limits = tuple(limit_of(key, value, grasp) for key, value in given if value is not None)
     raise_issues(list(_without_ranges(file.goal, grasp)))
     return limits
-
-
-def _made(key: FileKey, value: Any, grasp: Grasp) -> Limit:
-    """Return the limit that a value stands for; what it refuses stands at its key."""
-    try:
-        return key.make(value, grasp).on(grasp)
-    except InputError as error:
-        place = key.key
-        kept = [issue if issue.key.startswith(place) else replace(issue, key=place) for issue in error.issues]
-        raise InputError(kept) from None
 
 
 def _without_ranges(goal: GoalTable, grasp: Grasp) -> Iterator[Issue]:

@@ -30,15 +30,22 @@ from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import items_of
-from synergrip.errors import SynergripError, one_of
+from synergrip.errors import InputError, Issue, one_of
 from synergrip.linalg import Array
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
 from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
 
 
-class NotWrittenError(SynergripError, TypeError):
+class NotWrittenError(InputError):
     """A limit, goal or contact kind for which the second formulation has no formula."""
+
+    @classmethod
+    def of(cls, what: str, value: object) -> NotWrittenError:
+        """Return the error for a limit or goal, which the other solver takes all the same."""
+        name = type(value).__name__
+        advice = "use solver 'clarabel' (--solver clarabel), or write its formula in referee/"
+        return cls([Issue(f"the CVXPY formulation knows no {what} {name}; {advice}", "solver")])
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
@@ -48,7 +55,7 @@ def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
         NotWrittenError: there is no formula for this type of limit.
     """
     if type(limit) not in LIMITS:
-        raise NotWrittenError(f"the CVXPY formulation knows no limit {type(limit).__name__}; use --solver clarabel")
+        raise NotWrittenError.of("limit", limit)
     return LIMITS[type(limit)](model, limit)
 
 
@@ -59,7 +66,7 @@ def write_goal(model: Model, goal: Goal) -> Written:
         NotWrittenError: there is no formula for this type of goal.
     """
     if type(goal) not in GOALS:
-        raise NotWrittenError(f"the CVXPY formulation knows no goal {type(goal).__name__}; use --solver clarabel")
+        raise NotWrittenError.of("goal", goal)
     return GOALS[type(goal)](model, goal)
 
 
@@ -85,7 +92,8 @@ def friction(
             tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu]) / own
             cones.append(Cone(key, items_of([contact.name]), (mu * force[:, 0] - margin) / own, tail))
         else:
-            raise NotWrittenError(f"contact.kind: {one_of(contact.kind.name, ('frictionless', 'hard', 'soft'))}")
+            known = ("frictionless", "hard", "soft")
+            raise NotWrittenError([Issue(one_of(contact.kind.name, known), "contact.kind")])
     return tuple(cones)
 
 

@@ -11,6 +11,7 @@ from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.rows import Item, items_of
 from synergrip.linalg import Array
 from synergrip.referee.model import Cone, Expression, Model
+from synergrip.referee.targets import COLUMNS
 
 
 def synergy_acceleration(model: Model, limit: SynergyAcceleration) -> tuple[Cone, ...]:
@@ -65,6 +66,6 @@ def object_error(model: Model, limit: ObjectError) -> tuple[Cone, ...]:
     sag = (model.wrench - model.response.grasp.w_0) @ model.response.du_dw.T
     reached = model.moved + sag if limit.part == "whole" else model.rigid
     sizes = np.array([1.0, 1.0, 1.0, *[model.response.scale.length] * 3])
-    columns = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in limit.axes]
+    columns = [COLUMNS[axis] for axis in limit.axes]
     error = (reached - model.target)[:, columns] @ np.diag(sizes[columns] / limit.limit)
     return (Cone(limit.key, (Item("object", "norm"),), np.ones(len(model.times)), error),)

@@ -11,6 +11,8 @@ from synergrip.tasks.timed_task import TimedTask
 
 OUTSIDE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs."""
+COLUMNS = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5}
+"""Of a displacement, by axis."""
 
 
 def followed(analysis: Analysis, task: TimedTask) -> tuple[Array | None, Array, Array]:
@@ -18,7 +20,7 @@ def followed(analysis: Analysis, task: TimedTask) -> tuple[Array | None, Array, 
     basis, scale = analysis.spaces.Gamma_ucs, analysis.response.scale
     dimension = basis.shape[1]
     values = task.target.values
-    rows = ["xyz".find(axis[-1]) + 3 * axis.startswith("r") for axis in task.axes]
+    rows = [COLUMNS[axis] for axis in task.axes]
     wanted = np.zeros((len(task.times), 6))  # on the other axes, where the object starts
     wanted[:, rows] = (values if task.target.kind == "motion" else values @ basis[:, : values.shape[1]].T)[:, rows]
     if task.tracking == "compliant":

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.file_key import Efforts, FileKey, judge_units, needs_hand
+from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
 from synergrip.conic.limits.limit import Symmetric
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
@@ -50,11 +50,10 @@ class ActuatorEffort(Symmetric):
 
 def _made(value: Any, grasp: Grasp) -> ActuatorEffort:
     needs_hand(value, grasp)
-    made = ActuatorEffort(value).on(grasp)
-    judge_units(IN_FILE.key, value, grasp, "synergy")
-    return made
+    return ActuatorEffort(value)
 
 
 IN_FILE = FileKey(
-    "actuator_effort", Efforts, 'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made
-)
+    "actuator_effort", Efforts, 'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made,
+    efforts_of="synergy",
+)  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from synergrip.conic.limits.limit import Limit
@@ -36,6 +36,8 @@ class FileKey:
     """The limit of a value that was read, for a grasp; keys of what it refuses are replaced by this one."""
     default: str | None = None
     """The value where none stands; None for no limit."""
+    efforts_of: Literal["joint", "synergy"] | None = None
+    """Whose efforts the value holds, whose units are to suit what turns and what slides; None when it holds none."""
 
     @property
     def key(self) -> str:
@@ -91,18 +93,20 @@ def needs_hand(value: object, grasp: Grasp) -> None:
         raise InputError.at("", "'hand' needs a [hand]; a grasp file states no limits, write numbers")
 
 
-def judge_units(key: str, value: Any, grasp: Grasp, what: Literal["joint", "synergy"]) -> None:
-    """Refuse values in units of joints that turn for those that slide, and the reverse.
+def limit_of(key: FileKey, value: Any, grasp: Grasp) -> Limit:
+    """Return the limit that a value under a key stands for.
 
-    Args:
-        key: of the values.
-        value: one, one for each, or a word.
-        grasp: whose joints or synergies they are for.
-        what: which of these.
+    Raises:
+        InputError: what the limit refuses, and values in units of joints that turn for those that slide, or the
+            reverse; at the key.
     """
-    if grasp.held is None or isinstance(value, str):
-        return
-    kinds = joint_kinds(grasp.held.hand.joints)
-    if what == "synergy":
-        kinds = synergy_kinds(grasp.held.synergies, kinds.values())
-    raise_issues(list_misfits(key, value, kinds, what))
+    try:
+        made = key.make(value, grasp).on(grasp)
+    except InputError as error:
+        raise InputError([replace(issue, key=key.key) for issue in error.issues]) from None
+    if key.efforts_of is not None and grasp.held is not None and not isinstance(value, str):
+        kinds = joint_kinds(grasp.held.hand.joints)
+        if key.efforts_of == "synergy":
+            kinds = synergy_kinds(grasp.held.synergies, kinds.values())
+        raise_issues(list_misfits(key.key, value, kinds, key.efforts_of))
+    return made

@@ -94,7 +94,7 @@ def friction_rows(formulation: Formulation, margin: float, epigraph: float, key:
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
         items = items_of(contact.name for contact, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
-        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first)))
+        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first), friction=True))
     return result
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.file_key import Efforts, FileKey, judge_units, needs_hand
+from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
 from synergrip.conic.limits.limit import Symmetric
 from synergrip.hands.units import joint_kinds, torque_unit
 from synergrip.linalg import Array, frozen
@@ -57,13 +57,11 @@ class JointTorque(Symmetric):
 
 def _made(value: Any, grasp: Grasp) -> JointTorque:
     needs_hand(value, grasp)
-    made = JointTorque(value).on(grasp)
-    judge_units(IN_FILE.key, value, grasp, "joint")
-    return made
+    return JointTorque(value)
 
 
 IN_FILE = FileKey(
     "joint_torque", Efforts,
     "largest torque of a joint in N m, force of a slide in N, one or one per joint; "
-    '"hand": as the hand says', _made,
+    '"hand": as the hand says', _made, efforts_of="joint",
 )  # fmt: skip

@@ -40,6 +40,20 @@ class Usage(Value):
     allowance: Array | None = None
     """(T, m) size against which an excess is small or large; `scale` when None."""
 
+    def __post_init__(self) -> None:
+        """Judge the shapes, which a limit of one's own may get wrong.
+
+        Raises:
+            InputError: an array that does not fit items and times.
+        """
+        T, m = len(self.times), len(self.items)
+        wanted = {"value": (T, m), "lower": (m,), "upper": (m,), "scale": (m,), "allowance": (T, m)}
+        for name, shape in wanted.items():
+            given = getattr(self, name)
+            if given is not None and np.shape(given) != shape:
+                what = f"expected shape {shape} for {T} instants and {m} items of '{self.title}'"
+                raise InputError.at(f"Usage.{name}", f"{what}, got {np.shape(given)}")
+
     @property
     def excess(self) -> Array:
         """(T, m) how far the value is beyond its bounds; negative inside."""

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
@@ -58,11 +60,11 @@ def _usage(usage: Usage) -> Chart:
 
 def _unlimited(plan: Plan) -> Iterator[Chart]:
     """Yield forces and references when no limit speaks of them."""
-    grasp, titles = plan.analysis.grasp, {usage.title for usage in plan.usages}
-    if "normal force" not in titles:
+    grasp, kinds = plan.analysis.grasp, {type(limit) for limit in plan.task.limits}
+    if NormalForce not in kinds:
         names = tuple(contact.name for contact in grasp.contacts)
         yield _by_size("normal force", "N", names, plan.motion.forces[:, grasp.normal_rows])
-    if "synergy reference" not in titles:
+    if SynergyReference not in kinds:
         yield _by_size("synergy reference", "", grasp.synergies, plan.motion.dz_r)
 
 

@@ -9,7 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.conic.decide import Decision
+from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.explain.repairs import repairs
 from synergrip.linalg import Array
@@ -84,16 +87,15 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
     yield f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
-    if not any(row[0] == "largest normal force" for row in rows):
+    limits = plan.task.limits
+    if not any(isinstance(limit, NormalForce) and np.isfinite(limit.upper) for limit in limits):
         rows.insert(1, _largest_normal(plan))
-    if not any(usage.title == "synergy reference" for usage in plan.usages):
+    if not any(isinstance(limit, SynergyReference) for limit in limits):
         names = plan.analysis.grasp.synergies
         rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
     scale = plan.analysis.response.scale
-    limited = {usage.title for usage in plan.usages}
-    for name, motion in (("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)):
-        if name in limited:
-            continue
+    motions = [("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)]
+    for name, motion in motions[any(isinstance(limit, ElasticMotion) for limit in limits) :]:
         rows.append(_largest_motion(name, np.linalg.norm(scale.twist(motion), axis=1), plan))
     yield table(("", "worst", "at", "limit"), rows)
 

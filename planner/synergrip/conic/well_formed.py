@@ -1,0 +1,71 @@
+"""Whether limits and goals say what a program can hold: those of one's own may get shapes wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.goals.goal import Goal, Objective, Squares
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.rows import Rows
+from synergrip.errors import InputError
+
+
+def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation: Formulation) -> None:
+    """Refuse rows and objectives whose shapes do not fit the task.
+
+    Args:
+        limits: of the task.
+        goals: of the task.
+        formulation: which has the unknowns and the knots.
+
+    Raises:
+        InputError: the first one, with the method that returned it.
+    """
+    for limit in limits:
+        _judge_rows(f"{type(limit).__name__}.rows", limit.rows(formulation), formulation)
+    for goal in goals:
+        name = type(goal).__name__
+        cost = goal.objective(formulation)
+        if not isinstance(cost, Objective):
+            raise InputError.at(f"{name}.objective", f"expected an Objective, got {type(cost).__name__}")
+        for squares in cost.squares:
+            _judge_squares(f"{name}.objective", squares, formulation)
+        if goal.has_scalar != (cost.epigraph is not None) or (goal.has_scalar and cost.squares):
+            is_so = "has a scalar" if goal.has_scalar else "has no scalar"
+            wanted = "an epigraph and no squares" if goal.has_scalar else "squares and no epigraph"
+            raise InputError.at(f"{name}.objective", f"expected {wanted}, since the goal {is_so} (has_scalar)")
+        _judge_rows(f"{name}.rows", goal.rows(formulation), formulation)
+
+
+def _judge_rows(key: str, given: Any, formulation: Formulation) -> None:
+    parts = list(given) if isinstance(given, Iterable) else [given]
+    if not isinstance(given, Iterable) or not all(isinstance(part, Rows) for part in parts):
+        raise InputError.at(key, f"expected a list of Rows, got {type(given).__name__}")
+    for part in parts:
+        _judge_shapes(key, part, len(part.items) * part.dim, formulation)
+        if np.shape(part.epigraph) != (len(part.items) * part.dim,):
+            wanted = f"one number for each of the {len(part.items) * part.dim} rows"
+            raise InputError.at(key, f"expected {wanted} as epigraph, got shape {np.shape(part.epigraph)}")
+
+
+def _judge_squares(key: str, given: Any, formulation: Formulation) -> None:
+    if not isinstance(given, Squares):
+        raise InputError.at(key, f"expected Squares in the objective, got {type(given).__name__}")
+    _judge_shapes(key, given, np.shape(given.matrix)[-2], formulation)
+
+
+def _judge_shapes(key: str, given: Rows | Squares, count: int, formulation: Formulation) -> None:
+    """Refuse a matrix that is not (count, n_v) for each knot, or constants that are not (K, count) for K <= T knots."""
+    matrix, constant = np.shape(given.matrix), np.shape(given.constant)
+    if matrix[-2:] != (count, formulation.n_v):
+        wanted = f"a matrix with a row for each item and a column for each unknown, {(count, formulation.n_v)}"
+        raise InputError.at(key, f"expected {wanted}, got shape {matrix}")
+    if len(constant) != 2 or constant[1] != count or constant[0] > formulation.knots:
+        wanted = f"constants at {formulation.knots} knots for {count} rows, {(formulation.knots, count)}"
+        raise InputError.at(key, f"expected {wanted}, got shape {constant}")
+    if not (np.all(np.isfinite(given.matrix)) and np.all(np.isfinite(given.constant))):
+        raise InputError.at(key, "expected finite numbers in matrix and constant, got nan or infinity")
