@@ -129,10 +129,12 @@ class LimitsTable(Table):
     )
 
 
-SQUARES = ("effort", "torque", "actuator", "references", "travel", "smooth", "centred")
+SQUARES = ("effort", "torque", "actuator", "steady", "references", "travel", "smooth", "centred")
 """Goals that are sums of squares, and so can be weighted."""
 SMALL = (*SQUARES, "peak_force")
-Ordered = Literal["margin", "peak_force", "effort", "torque", "actuator", "references", "travel", "smooth", "centred"]
+Ordered = Literal[
+    "margin", "peak_force", "effort", "torque", "actuator", "steady", "references", "travel", "smooth", "centred"
+]
 
 
 def _minimised(value: object) -> str | dict[str, float]:

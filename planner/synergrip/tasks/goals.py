@@ -11,6 +11,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.errors import InputError
 from synergrip.tasks.timed_task import EFFORTS, GoalName, TimedTask
@@ -21,6 +22,7 @@ SIMPLE: dict[GoalName, Goal] = {
     "effort": LeastEffort(),
     "torque": LeastEffort("torque"),
     "actuator": LeastEffort("actuator"),
+    "steady": SteadyForces(),
     "references": LeastMotion(),
     "travel": LeastMotion("rates"),
     "smooth": LeastMotion("accelerations"),
@@ -54,4 +56,4 @@ def _goal(name: GoalName, task: TimedTask) -> Goal:
 
 def _exact(goal: Goal) -> Goal:
     """Return the goal with the factor that its definition gives it."""
-    return replace(goal, exact=True) if isinstance(goal, LeastMotion) else goal
+    return replace(goal, exact=True) if isinstance(goal, LeastMotion | SteadyForces) else goal

@@ -19,12 +19,22 @@ from synergrip.tasks.marks import Marks
 from synergrip.tasks.task_judging import limit_issues, order_issues, size_issues, times_of, word_issues, wrench_of
 
 GoalName = Literal[
-    "margin", "effort", "torque", "actuator", "peak_force", "references", "travel", "smooth", "centred", "weighted"
+    "margin",
+    "effort",
+    "torque",
+    "actuator",
+    "peak_force",
+    "steady",
+    "references",
+    "travel",
+    "smooth",
+    "centred",
+    "weighted",
 ]
 """Maximise the worst margin, or minimise: contact effort, torque effort, actuator effort, the peak normal force, the
-synergy references, their rates, their accelerations, the joints' distances from the middle of their ranges; or a
-weighted sum of those that are sums of squares."""
-FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", "torque", "actuator"})
+change of the contact forces over time, the synergy references, their rates, their accelerations, the joints' distances
+from the middle of their ranges; or a weighted sum of those that are sums of squares."""
+FORCE_GOALS: frozenset[GoalName] = frozenset({"margin", "peak_force", "effort", "torque", "actuator", "steady"})
 """Those that speak of forces only."""
 SUMS = tuple(name for name in get_args(GoalName) if name not in ("margin", "peak_force", "weighted"))
 """Those that are sums of squares, and so can be weighted."""
