@@ -21,9 +21,10 @@ from synergrip.problems.problem_file import read_problem_file
 
 HAND = Path(__file__).parents[1] / "data" / "bad_inputs" / "hand.toml"
 AXES = ("x", "y", "z", "rx", "ry", "rz")
-ALL_SQUARES = "{effort=1, torque=2, actuator=3, references=4, travel=5, smooth=6, centred=0.5}"
+ALL_SQUARES = "{effort=1, torque=2, actuator=3, references=4, travel=5, smooth=6, centred=0.5, steady=0.2}"
 SQUARES = {
     "effort": 1.0, "torque": 2.0, "actuator": 3.0, "references": 4.0, "travel": 5.0, "smooth": 6.0, "centred": 0.5,
+    "steady": 0.2,
 }  # fmt: skip
 
 

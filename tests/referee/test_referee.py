@@ -10,6 +10,7 @@ import pytest
 from named_goals import goals
 from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
+from scipy import sparse
 
 from synergrip.conic.decide import decide, judge
 from synergrip.conic.formulation import Formulation, formulate
@@ -86,7 +87,8 @@ def test_redundancy_is_settled_alike(seed: int) -> None:
     formulation = outcome.formulation
     v = np.hstack([outcome.alpha / formulation.force_unit, np.zeros_like(outcome.gamma)])
     n_alpha = outcome.alpha.shape[1]
-    formulation = formulation.around(v, np.eye(formulation.n_v)[:, n_alpha:])
+    open_ = sparse.kron(sparse.eye_array(len(v)), np.eye(formulation.n_v)[:, n_alpha:], format="csc")
+    formulation = formulation.around(v, sparse.csc_matrix(open_))
     watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
     loosened = tuple(limit.loosened(LOOSE) for limit in watching)
     question = Question(formulation, loosened, LeastReconfiguration())

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine
+from synergrip.conic.affine import Affine
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 

@@ -10,7 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.affine import Affine
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
 from synergrip.conic.limits.limit import Limit
 from synergrip.linalg import Array, split

@@ -15,6 +15,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
@@ -34,7 +35,7 @@ from synergrip.errors import InputError, Issue, one_of
 from synergrip.linalg import Array
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
-from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
+from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
 
 
 class NotWrittenError(InputError):
@@ -202,6 +203,7 @@ GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LeastPeak: _least_peak,
     LeastReconfiguration: least_reconfiguration,
     LeastMotion: least_motion,
+    SteadyForces: steady_forces,
     CentredJoints: centred_joints,
     WeightedSum: _weighted_sum,
 }

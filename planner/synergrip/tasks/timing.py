@@ -45,8 +45,8 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
         wrench = frozen(np.tile(task.load_factor * grasp.w_0, (len(times), 1)))
     return TimedTask(
         times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
-        margin=0.0, limits=tuple(task.limits), goals=tuple(task.goals), tolerance=task.tolerance, tracking=task.tracking,
-        axes=task.axes, drift=task.drift, course=profiles, between=task.between,
+        margin=0.0, limits=tuple(task.limits), goals=tuple(task.goals), tolerance=task.tolerance,
+        tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
     ).on(grasp)  # fmt: skip
 
 

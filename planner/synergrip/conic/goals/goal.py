@@ -27,9 +27,6 @@ class Squares(Value):
     matrix: Array  # (m, n_v)
     constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
     earlier: tuple[Earlier, ...] = ()
-    unseen: Array | None = None
-    """(T, f) the time_basis in time of the unknowns, any of them, that the squares do not see; None when they see each
-    knot by itself."""
 
     def at(self, v: Array) -> Array:
         """Return the values (K, m) whose squares are summed, at unknowns v (T, n_v)."""
