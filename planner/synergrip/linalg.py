@@ -112,3 +112,9 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
         result[row : row + block.shape[0], column : column + block.shape[1]] = block
         row, column = row + block.shape[0], column + block.shape[1]
     return result
+
+
+def cross(v: Array) -> Array:
+    """Return the skew matrix (3, 3) of a vector (3,): ``cross(v) @ u`` is v x u."""
+    x, y, z = v
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

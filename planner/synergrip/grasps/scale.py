@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, cross, frozen
 
 SMALLEST = 1e-12
 """A characteristic length below this is rounding [m]."""
@@ -29,7 +30,7 @@ class Scale:
     motion: Array
     """(6, 6): velocity of the centroid, and rotation times length [m]."""
     force: Array
-    """(n_l,) diagonal: 1 for forces, 1 / length for spin moments."""
+    """(n_l,) diagonal: 1 for forces, 1 / length for moments."""
 
     def wrench(self, w: Array) -> Array:
         """Return wrenches (..., 6) in scaled coordinates [N]."""
@@ -52,8 +53,7 @@ def scale_of(grasp: Grasp) -> Scale:
     if not length > max(SMALLEST, 1e-9 * float(np.linalg.norm(centroid))):
         length = 1.0  # all contacts on one spot: no length to speak of
     motion = np.eye(6)
-    x, y, z = centroid
-    motion[:3, 3:] = -np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    motion[:3, 3:] = -cross(centroid)
     motion[3:] *= length
-    force = [1.0 / length if component == "m" else 1.0 for _, component in grasp.components]
+    force = [1.0 / length if is_moment(component) else 1.0 for _, component in grasp.components]
     return Scale(length, frozen(centroid), frozen(motion), frozen(force))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.planning.between import Between
@@ -39,7 +40,7 @@ def columns_of(grasp: Grasp) -> dict[str, tuple[str, ...]]:
     """Return the columns of plan.csv by the keys of plan.json; those of "margin" hold its `per_contact_N`."""
     found = {
         "dz_r": tuple(f"zr_{i + 1}" for i in range(grasp.n_z)),
-        "lambda": tuple(f"lambda_{name}_{c}" + ("_Nm" if c == "m" else "_N") for name, c in grasp.components),
+        "lambda": tuple(f"lambda_{name}_{c}" + ("_Nm" if is_moment(c) else "_N") for name, c in grasp.components),
         "tau": tuple(f"tau_{name}" for name in grasp.joints),
         "du": tuple(f"du_{axis}" for axis in AXES),
         "margin": tuple(f"margin_{contact.name}_N" for contact in grasp.contacts),

@@ -13,6 +13,7 @@ import numpy as np
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
@@ -209,7 +210,7 @@ def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactEr
 
 def _stiffness_key(file: ProblemFile, error: RigidContactError) -> str:
     """Return the key that says how stiff the contact is in the direction of the error."""
-    names = {"n": ("stiffness",), "m": ("spin_stiffness",)}.get(error.component, ("tangential_stiffness", "stiffness"))
+    names = (STIFFNESS_OF.get(error.component, "stiffness"), "stiffness")
     entries = [(f"contact[{i}]", entry) for i, entry in enumerate(file.contact)
                if error.contact == (entry.name or entry.at or entry.link)]  # fmt: skip
     for name in names:
