@@ -17,9 +17,11 @@ if TYPE_CHECKING:
     from synergrip.grasps.contact_at import ContactAt as ContactAt
     from synergrip.grasps.contact_at import LinkPlace as LinkPlace
     from synergrip.grasps.contacts.contact import Contact as Contact
+    from synergrip.grasps.contacts.elliptic_soft_finger import EllipticSoftFinger as EllipticSoftFinger
     from synergrip.grasps.contacts.frictionless import Frictionless as Frictionless
     from synergrip.grasps.contacts.hard_finger import HardFinger as HardFinger
     from synergrip.grasps.contacts.kind import ContactKind as ContactKind
+    from synergrip.grasps.contacts.patch_contact import PatchContact as PatchContact
     from synergrip.grasps.contacts.soft_finger import SoftFinger as SoftFinger
     from synergrip.grasps.from_matrices import grasp_from_matrices as grasp_from_matrices
     from synergrip.grasps.grasp import Grasp as Grasp
@@ -62,6 +64,8 @@ _HOMES = {
     "grasps.contacts.hard_finger": ("HardFinger",),
     "grasps.contacts.soft_finger": ("SoftFinger",),
     "grasps.contacts.frictionless": ("Frictionless",),
+    "grasps.contacts.elliptic_soft_finger": ("EllipticSoftFinger",),
+    "grasps.contacts.patch_contact": ("PatchContact",),
     "grasps.contacts.contact": ("Contact",),
     "grasps.contact_at": ("ContactAt", "LinkPlace"),
     "grasps.grasp": ("Grasp",),

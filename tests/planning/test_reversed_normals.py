@@ -166,7 +166,9 @@ def test_reversed_normals_are_the_same_grasp_with_other_signs(seed: int) -> None
     rng = np.random.default_rng(seed)
     grasp = hand_like_grasp(rng)
     root = rng.normal(size=(grasp.n_l, grasp.n_l))
-    grasp = replace(grasp, C_s=frozen(grasp.C_s + 1e-5 * root @ root.T), lambda_0=frozen(rng.normal(size=grasp.n_l)))
+    forces = rng.normal(size=grasp.n_l)
+    start = {"lambda_0": forces, "w_0": -grasp.G @ forces}
+    grasp = replace(grasp, C_s=frozen(grasp.C_s + 1e-5 * root @ root.T), **start)
     grasp = replace(grasp, w_0=frozen(-grasp.G @ grasp.lambda_0))
     chosen = tuple(rng.permutation(grasp.n_c)[:2].tolist())
     other = reversed_normals(grasp, chosen)

@@ -16,7 +16,7 @@ FLAT = 1e-6
 SETTLED = 1e-15  # [m]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Spread:
     """Pads of distance ``R + r_i`` from the centre: what these equations say within the space the pads span.
 

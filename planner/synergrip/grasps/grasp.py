@@ -61,6 +61,7 @@ class Grasp(ByContent):
         judge.finish()  # all that follows goes by their components
         n_l = sum(contact.n_rows for contact in contacts)
         n_q, n_z = (np.shape(matrix)[-1] if np.ndim(matrix) == 2 else 0 for matrix in (self.J, self.S))
+        judge.names("contacts", [contact.name for contact in contacts])
         kept = {
             "title": judge.text("title", self.title),
             "contacts": contacts,
@@ -75,7 +76,6 @@ class Grasp(ByContent):
             "joints": judge.named("joints", self.joints, n_q, "joint"),
             "synergies": judge.named("synergies", self.synergies, n_z, "synergy"),
         }
-        judge.names("contacts", [contact.name for contact in contacts])
         if not judge.issues and self.lambda_0 is not None:
             G, lambda_0, w_0 = (np.asarray(kept[name]) for name in ("G", "lambda_0", "w_0"))
             if message := unbalanced(G, lambda_0, w_0):

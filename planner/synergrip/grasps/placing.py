@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -35,14 +35,14 @@ class Touch(ByContent):
     """The entries that the kind takes [N/m, N m/rad]; infinity when rigid."""
     normals: Literal["object", "pad"]
     """Contact normal from the object (its surface, or its centre) or from the pad."""
-    key: str
+    key: str = field(default="", compare=False)
     """Where it stands, for errors: an argument, or a key of the problem file."""
     tangent: tuple[float, ...] | None = None
     """(3,) direction that t of the contact follows, in the frame of the link; None for any."""
     aimed: bool = True
     """False for a pad without a normal of its own: it pushes toward the object, and its `normal` is 0."""
 
-    normal_at: str = ""
+    normal_at: str = field(default="", compare=False)
     """Where the normal of the pad is stated, for advice."""
 
     def alone(self, body: Object) -> bool:

@@ -14,13 +14,14 @@ import numpy as np
 from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, cross, frozen
+from synergrip.values import ByContent
 
 SMALLEST = 1e-12
 """A characteristic length below this is rounding [m]."""
 
 
-@dataclass(frozen=True)
-class Scale:
+@dataclass(frozen=True, eq=False)
+class Scale(ByContent):
     """Scaled coordinates, marked ~: ``u~ = motion u``, ``w~ = motion^-T w``, ``lambda~ = force lambda``."""
 
     length: float

@@ -12,14 +12,14 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
-from synergrip.values import ByContent
+from synergrip.values import ByContent, same
 
 UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
 
 
-@dataclass(frozen=True)
-class PointMotion:
+@dataclass(frozen=True, eq=False)
+class PointMotion(ByContent):
     """Where a point of a link is, and how it moves with the joints, in the palm frame."""
 
     position: Array
@@ -138,8 +138,8 @@ class SynergySet(ByContent):
             object.__setattr__(self, name, value)
 
 
-@dataclass(frozen=True)
-class Coupling:
+@dataclass(frozen=True, eq=False)
+class Coupling(ByContent):
     """A joint moved by other joints: q_follower = sum of ratio q_driver, + offset."""
 
     ratios: Mapping[str, float]
@@ -152,7 +152,7 @@ class Coupling:
 
 
 @dataclass(frozen=True, eq=False)
-class Drives:
+class Drives(ByContent):
     """What a model file says of motors and springs, for the joints that no motor moves."""
 
     compliance: Array
@@ -175,8 +175,8 @@ class Drives:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Hand:
-    """A robot hand as data; `load_hand` makes one. Two hands are equal when they are the same one."""
+class Hand(ByContent):
+    """A robot hand as data; `load_hand` makes one."""
 
     name: str
     title: str = ""
@@ -188,7 +188,7 @@ class Hand:
     """The first one is the default; every hand also has "joints" (S = I)."""
     postures: Mapping[str, Array] = field(default_factory=dict)
     """Named joint values (n_q,)."""
-    kinematics: Kinematics
+    kinematics: Kinematics = field(compare=False)
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
     """Follower -> its drivers; already in every synergy set but "joints"."""
     parents: Mapping[str, str] = field(default_factory=dict)
@@ -226,6 +226,18 @@ class Hand:
         judge.finish()
         for each, value in (("joints", joints), ("C_q", C_q), ("postures", postures)):
             object.__setattr__(self, each, value)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare by content, and by where all links are and move at zero, which tells all that kinematics can."""
+        if self is other or not isinstance(other, Hand):
+            return self is other
+        return super().__eq__(other) and same(self._home(), other._home())
+
+    __hash__ = ByContent.__hash__
+
+    def _home(self) -> tuple[PointMotion, ...]:
+        origin = np.zeros(3)
+        return self.kinematics.at(np.zeros(len(self.joints)), [(link, origin) for link in self.links])
 
     def __repr__(self) -> str:
         """Return name, joints, synergy sets and pads, in one line."""

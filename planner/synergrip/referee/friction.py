@@ -59,9 +59,25 @@ def _soft(kind: Any, force: Expression, share: float) -> Parts:
     yield "", mu, force[:, 1:] @ np.diag([1.0, 1.0, mu / nu])
 
 
+def _soft_elliptic(kind: Any, force: Expression, share: float) -> Parts:
+    """``mu n >= mu sqrt((t / mu_t)^2 + (o / mu_o)^2 + (m / nu)^2)``, mu the smaller of mu_t and mu_o."""
+    axes = share * np.array([kind.friction, kind.cross_friction, kind.spin_friction])
+    mu = float(min(axes[:2]))
+    yield "", mu, force[:, 1:] @ np.diag(mu / axes)
+
+
+def _patch(kind: Any, force: Expression, share: float) -> Parts:
+    """``mu n >= sqrt(t^2 + o^2 + (mu m / nu)^2)``, and ``n >= ||(m_t, m_o)|| / r``."""
+    mu, nu = share * kind.friction, share * kind.spin_friction
+    yield "slip", mu, force[:, 1:4] @ np.diag([1.0, 1.0, mu / nu])
+    yield "tipping", 1.0, force[:, 4:] / kind.patch_radius
+
+
 FORMULAS: dict[str, Callable[[Any, Expression, float], Parts]] = {
     "frictionless": _frictionless,
     "hard": _hard,
     "soft": _soft,
+    "soft-elliptic": _soft_elliptic,
+    "patch": _patch,
 }
 """By the name of the kind."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Contact(ByContent):
     """(3,) position from the object frame B, axes of N [m]."""
     frame: Array
     """(3, 3) columns n, t, o."""
-    normal_at: str = ""
+    normal_at: str = field(default="", compare=False)
     """Where a user states the normal, for advice; empty when it follows from the object."""
 
     def __post_init__(self) -> None:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.contacts.elliptic_soft_finger import EllipticSoftFinger
 from synergrip.grasps.contacts.frictionless import Frictionless
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind, Parameter
+from synergrip.grasps.contacts.patch_contact import PatchContact
 from synergrip.grasps.contacts.soft_finger import SoftFinger
 
-KINDS: dict[str, type[ContactKind]] = {kind.name: kind for kind in (HardFinger, SoftFinger, Frictionless)}
+KINDS: dict[str, type[ContactKind]] = {
+    kind.name: kind for kind in (HardFinger, SoftFinger, Frictionless, EllipticSoftFinger, PatchContact)
+}
 
 PARAMETERS: dict[str, Parameter] = {each.name: each for kind in KINDS.values() for each in kind.parameters}
 """Of all kinds, by name: what a file may say of a contact."""
