@@ -26,7 +26,7 @@ TIMES = np.linspace(0.0, 0.8, 301)
 
 
 def thing_of(shape: Shape | None = BOX) -> Object:
-    return Object("thing", 0.4, frozen(CENTRE), shape)
+    return Object(title="thing", mass=0.4, position=frozen(CENTRE), shape=shape)
 
 
 def write_path(folder: Path, times: Array, positions: Array, rotations: Array) -> None:

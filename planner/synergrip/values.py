@@ -1,9 +1,10 @@
-"""Frozen values: compared by identity, shown in a few lines, and read-only again when they come out of a pickle."""
+"""Frozen values: shown in a few lines, compared without ever raising, read-only again out of a pickle."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
@@ -34,6 +35,27 @@ class Value:
         self.__dict__.update(state)
 
 
+class ByContent:
+    """A dataclass (with ``eq=False``) that equals another of its type when all their fields are equal.
+
+    Arrays are equal when shape and entries are, NaN to NaN. Fields with ``compare=False`` do not count.
+    """
+
+    def __eq__(self, other: object) -> bool:
+        """Compare field by field."""
+        if type(other) is not type(self):
+            return NotImplemented
+        if not is_dataclass(self):  # nothing is known of what it is made of
+            return self is other
+        return self is other or all(same(a, b) for a, b in zip(_kept(self), _kept(other), strict=True))
+
+    def __hash__(self) -> int:
+        """Return the same number for equal values."""
+        if not is_dataclass(self):
+            return object.__hash__(self)
+        return hash((type(self), *(_digest(value) for value in _kept(self))))
+
+
 def told(name: str, parts: Iterable[str]) -> str:
     """Return ``name(parts)``, cut when it is very long."""
     return shortened(f"{name}({', '.join(parts)})", LONGEST)
@@ -57,3 +79,29 @@ def brief(value: object) -> str:
         plain = len(value) <= FEW and all(isinstance(each, str | int | float) for each in value)
         return f"({', '.join(map(brief, value))})" if plain else f"<{len(value)} entries>"
     return f"<{type(value).__name__}>"
+
+
+def same(a: Any, b: Any) -> bool:
+    """Tell whether two values are equal; arrays by shape and entries."""
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        both = isinstance(a, np.ndarray) and isinstance(b, np.ndarray)
+        return both and np.array_equal(a, b, equal_nan=np.asarray(a).dtype.kind == "f")
+    if isinstance(a, tuple | list) and type(a) is type(b):
+        return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b, strict=True))
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return list(a) == list(b) and all(same(a[key], b[key]) for key in a)
+    return bool(a == b)
+
+
+def _kept(value: Any) -> tuple[object, ...]:
+    return tuple(getattr(value, field.name) for field in fields(value) if field.compare)
+
+
+def _digest(value: object) -> int:
+    if isinstance(value, np.ndarray):
+        return hash((value.shape, (value + 0.0).tobytes() if value.dtype.kind == "f" else value.tobytes()))
+    if isinstance(value, tuple | list):
+        return hash(tuple(_digest(each) for each in value))
+    if isinstance(value, Mapping):
+        return hash(tuple((key, _digest(each)) for key, each in value.items()))
+    return hash(value)

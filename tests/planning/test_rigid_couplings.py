@@ -132,4 +132,4 @@ def test_a_finger_that_its_own_pad_stops_is_told_nothing_of_couplings(tmp_path):
     (message,) = messages(tmp_path / "ball.toml")
     assert "'near' does not reach" in message
     assert "rigid" not in message
-    assert "start from another hand.posture" in message
+    assert "start from another posture" in message

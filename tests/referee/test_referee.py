@@ -28,6 +28,7 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SelfCheckError, SynergripError
+from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
@@ -166,11 +167,8 @@ class _Strange:
     key: str = "limits.strange"
 
 
-@dataclass(frozen=True)
-class _Sticky:
-    name: str = "sticky"
-    components: tuple[str, ...] = ("n", "t", "o")
-    selection = frozen(np.eye(3, 6))
+class _Sticky(HardFinger):
+    name = "sticky"
 
 
 def test_what_has_no_formula_is_refused_by_name() -> None:
@@ -185,7 +183,7 @@ def test_what_has_no_formula_is_refused_by_name() -> None:
 def test_a_contact_kind_without_formula_is_refused_by_name() -> None:
     grasp, task = random_task_on_grasp(np.random.default_rng(0))
     analysis = analyse(grasp)
-    odd = replace(grasp, contacts=(replace(grasp.contacts[0], kind=_Sticky()), *grasp.contacts[1:]))
+    odd = replace(grasp, contacts=(replace(grasp.contacts[0], kind=_Sticky(friction=0.5)), *grasp.contacts[1:]))
     with pytest.raises(SynergripError, match="'sticky'"):
         referee(replace(analysis, response=replace(analysis.response, grasp=odd)), task)
 

@@ -30,7 +30,6 @@ from synergrip.files import bundled
 from synergrip.grasps.objects import Sphere
 from synergrip.linalg import Array
 from synergrip.problems.task_file import TaskTable
-from synergrip.tasks.inertia import uniform_tensor
 from synergrip.tasks.palm_path import PalmSpline, spline
 from synergrip.tasks.profiles import Rise
 
@@ -84,7 +83,7 @@ def test_a_palm_on_a_circle_presses_the_object_outward(tmp_path: Path) -> None:
     times, rate, radius = np.linspace(0.0, 0.8, 401), 3.0, np.array([0.5, 0.0, 0.0])
     spin = Rotation.from_rotvec(np.outer(rate * times, [0, 0, 1]))
     write_path(tmp_path, times, spin.apply(radius), spin.as_rotvec())
-    omega, tensor = np.array([0, 0, rate]), 0.4 * uniform_tensor(BOX)
+    omega, tensor = np.array([0, 0, rate]), 0.4 * BOX.inertia
     expected = [*(0.4 * rate**2 * (radius + CENTRE)[:2]), 0, *-np.cross(omega, tensor @ omega)]
     assert load_at(path_loads(tmp_path)) == pytest.approx(np.tile(expected, (len(TIMES), 1)), abs=6e-5)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -99,5 +100,5 @@ def metric_of(points: Array, components: Sequence[str]) -> tuple[Metric, Array, 
     for row, column, arm in ((0, 4, z), (1, 5, x), (2, 3, y)):
         motion[..., row, column] = arm
         motion[..., column - 3, row + 3] = -arm
-    spins = np.array([component == "m" for component in components])
+    spins = np.array([is_moment(component) for component in components])
     return Metric(motion, np.where(spins, 1.0 / length[..., None], 1.0)), length, centroid

@@ -15,6 +15,7 @@ from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
@@ -133,7 +134,7 @@ def _asked(file: ProblemFile, folder: Path, touching: _Touching | None) -> tuple
     task, keys = task_of(file.task, folder)
     body = touching.grasp.held.body if touching is not None and touching.grasp.held is not None else None
     if body is None and file.object is not None:
-        body = Object("object", file.object.mass or 0.0, frozen(np.zeros(3)), None)
+        body = Object(mass=file.object.mass or 0.0, position=frozen(np.zeros(3)))
     try:
         happening(task, body)
     except InputError as error:
@@ -223,7 +224,7 @@ def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactEr
 
 def _stiffness_key(file: ProblemFile, error: RigidContactError) -> str:
     """Return the key that says how stiff the contact is in the direction of the error."""
-    names = {"n": ("stiffness",), "m": ("spin_stiffness",)}.get(error.component, ("tangential_stiffness", "stiffness"))
+    names = (STIFFNESS_OF.get(error.component, "stiffness"), "stiffness")
     entries = [(f"contact[{i}]", entry) for i, entry in enumerate(file.contact)
                if error.contact == (entry.name or entry.at or entry.link)]  # fmt: skip
     for name in names:

@@ -23,7 +23,7 @@ Rows = Sequence[Sequence[float]] | Array
 class Arguments(Judge):
     """Judges the arguments of a load or a target, and returns each as it is kept: plain, immutable values."""
 
-    def number(self, name: str, value: Any, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
+    def real(self, name: str, value: Any, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
         """Return a finite number; NaN after noting that it is none, or out of bounds."""
         wanted = f" greater than {above:g}" if above > -math.inf else ""
         wanted = f" of at least {at_least:g}" if at_least > -math.inf else wanted
@@ -33,7 +33,7 @@ class Arguments(Judge):
             return math.nan
         return float(value)
 
-    def numbers(self, name: str, value: Any, count: int, what: str) -> tuple[float, ...]:
+    def vector(self, name: str, value: Any, count: int, what: str) -> tuple[float, ...]:
         """Return a list of finite numbers."""
         return tuple(map(float, self.rows(name, value, (count,), what)))
 
@@ -55,7 +55,7 @@ class Arguments(Judge):
             if value not in ("x", "y", "z"):
                 self.refuse(name, f"{value!r} is not 'x', 'y', 'z' or 3 numbers, axes of the palm")
             return tuple(float(value == axis) for axis in "xyz")
-        found = self.numbers(name, value, 3, "a direction, axes of the palm; or 'x', 'y', 'z'")
+        found = self.vector(name, value, 3, "a direction, axes of the palm; or 'x', 'y', 'z'")
         if not any(found):
             if not self.issues:
                 self.refuse(name, "an axis needs a direction; all 3 numbers are 0")

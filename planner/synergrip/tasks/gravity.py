@@ -36,7 +36,7 @@ class Gravity(Load):
         """Judge the argument."""
         judge = Arguments("Gravity")
         what = "3 accelerations in m/s^2, axes of the palm, such as (0, 0, -9.81)"
-        keep(self, judge, acceleration=judge.numbers("acceleration", self.acceleration, 3, what))
+        keep(self, judge, acceleration=judge.vector("acceleration", self.acceleration, 3, what))
 
     def over(self, setting: Setting) -> Profile:
         """Return the weight at any time.

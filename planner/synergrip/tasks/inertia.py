@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
-from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
+from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.palm_in_world import PalmInWorld, marks_of
@@ -52,7 +52,8 @@ def inertia(body: Object | None, palm: PalmInWorld) -> Inertia:
     start, end = palm.corners[[0, -1]]
     if end <= start:
         raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {end:g} s")
-    found = Inertia(body.mass, frozen(body.position), frozen(body.mass * uniform_tensor(body.shape)), palm)
+    tensor = np.zeros((3, 3)) if body.shape is None else body.shape.inertia
+    found = Inertia(body.mass, frozen(body.position), frozen(body.mass * tensor), palm)
     _judge_size(found)
     return found
 
@@ -65,21 +66,3 @@ def _judge_size(load: Inertia) -> None:
     if not size < LARGEST_NUMBER:
         message = f"an inertial load of the order of {size:.1e} N or N m is too large; check task.duration"
         raise InputError.at(KEY, message)
-
-
-def uniform_tensor(shape: Shape | None) -> Array:
-    """Return the inertia tensor (3, 3) [m^2] of a solid of uniform density about its centre, for each kg of mass.
-
-    An object without a shape, or with one that is not known here, counts as a point mass: zero.
-    """
-    if isinstance(shape, Turned):
-        return np.asarray(shape.rotation @ uniform_tensor(shape.shape) @ shape.rotation.T)
-    if isinstance(shape, Sphere):
-        return 0.4 * shape.radius**2 * np.eye(3)
-    if isinstance(shape, Box):
-        squares = np.square(shape.size)
-        return np.diag(squares.sum() - squares) / 12
-    if isinstance(shape, Cylinder):
-        across = shape.radius**2 / 4 + shape.height**2 / 12
-        return np.diag([across, across, shape.radius**2 / 2])
-    return np.zeros((3, 3))

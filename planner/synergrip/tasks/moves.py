@@ -61,8 +61,8 @@ class Move(_Addable):
         """Judge the arguments."""
         judge = Arguments("Move")
         axis = judge.direction("axis", self.axis)
-        lift = None if self.lift is None else judge.number("lift", self.lift)
-        roll = None if self.roll is None else judge.number("roll", self.roll)
+        lift = None if self.lift is None else judge.real("lift", self.lift)
+        roll = None if self.roll is None else judge.real("roll", self.roll)
         if lift is None and roll is None:
             judge.refuse("lift", "a move along an axis needs lift [m] or roll [rad], for example lift=0.01")
         judge.word("profile", self.profile, tuple(PROFILES))
@@ -101,7 +101,7 @@ class ModeMove(_Addable):
         whole = isinstance(self.mode, int | np.integer) and not isinstance(self.mode, bool)
         if not whole or not 1 <= self.mode <= MOST_MODES:
             judge.refuse("mode", f"expected a whole number from 1 to {MOST_MODES}, got {plainly(self.mode)}")
-        amplitude = judge.number("amplitude", self.amplitude)
+        amplitude = judge.real("amplitude", self.amplitude)
         judge.word("profile", self.profile, tuple(PROFILES))
         keep(self, judge, mode=int(self.mode) if whole else 0, amplitude=amplitude)
 

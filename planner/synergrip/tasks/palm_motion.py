@@ -46,9 +46,9 @@ class Palm(Load):
         """Judge the arguments, alone and together."""
         judge = Arguments("Palm")
         axis = None if self.axis is None else judge.direction("axis", self.axis)
-        turn = None if self.turn is None else judge.number("turn", self.turn)
+        turn = None if self.turn is None else judge.real("turn", self.turn)
         what = "3 lengths in m, axes of the palm at the start"
-        shift = None if self.shift is None else judge.numbers("shift", self.shift, 3, what)
+        shift = None if self.shift is None else judge.vector("shift", self.shift, 3, what)
         judge.word("profile", self.profile, tuple(PROFILES))
         judge.flag("inertia", self.inertia)
         if turn is None and shift is None:

@@ -53,12 +53,12 @@ class Push(Load):
         """Judge the arguments, alone and together."""
         judge = Arguments("Push")
         kept = {
-            "force": judge.number("force", self.force, at_least=0),
+            "force": judge.real("force", self.force, at_least=0),
             "direction": judge.direction("direction", self.direction),
-            "at": judge.numbers("at", self.at, 3, "3 lengths in m from B, axes of the palm"),
-            "start": None if self.start is None else judge.number("start", self.start, at_least=0),
-            "end": None if self.end is None else judge.number("end", self.end, above=0),
-            "ramp": None if self.ramp is None else judge.number("ramp", self.ramp, above=0),
+            "at": judge.vector("at", self.at, 3, "3 lengths in m from B, axes of the palm"),
+            "start": None if self.start is None else judge.real("start", self.start, at_least=0),
+            "end": None if self.end is None else judge.real("end", self.end, above=0),
+            "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0),
         }
         judge.word("profile", self.profile, get_args(PushProfile))
         if self.profile == "trapezoid" and self.ramp is None:

@@ -75,7 +75,7 @@ class Task:
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
         judge = Arguments("Task")
-        duration = None if self.duration is None else judge.number("duration", self.duration, at_least=SHORTEST)
+        duration = None if self.duration is None else judge.real("duration", self.duration, at_least=SHORTEST)
         knots = None if self.knots is None else _whole(judge, self.knots)
         if not isinstance(self.target, Motion):
             expected = "where the object is wanted, such as Hold(), Move(...) + Move(...) or Waypoints(...)"
@@ -84,7 +84,7 @@ class Task:
         limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(0.0, 20.0)")
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
         axes = _listed(judge, "axes", self.axes, str, f"names of axes, of {', '.join(AXES)}")
-        factor = judge.number("load_factor", self.load_factor, at_least=0)
+        factor = judge.real("load_factor", self.load_factor, at_least=0)
         compliant = self.tracking == "compliant"
         judge.issues += [
             *limit_issues(limits), *goal_issues(goals), *_axis_issues(axes, self.drift),

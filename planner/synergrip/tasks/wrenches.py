@@ -36,7 +36,7 @@ class Wrench(Load):
     def __post_init__(self) -> None:
         """Judge the argument."""
         judge = Arguments("Wrench")
-        keep(self, judge, values=judge.numbers("values", self.values, 6, COLUMNS))
+        keep(self, judge, values=judge.vector("values", self.values, 6, COLUMNS))
 
     def over(self, setting: Setting) -> Constant:
         """Return the wrench at any time."""

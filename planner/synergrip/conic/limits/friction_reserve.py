@@ -112,7 +112,7 @@ class FrictionReserve(Limit):
         grasp = formulation.response.grasp
         ratios = np.asarray(self.on(grasp).ratios)
         contacts = tuple(
-            replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
+            replace(contact, kind=contact.kind.slippery(ratio))
             for contact, ratio in zip(grasp.contacts, ratios, strict=True)
         )
         return replace(formulation, response=replace(formulation.response, grasp=replace(grasp, contacts=contacts)))
