@@ -8,12 +8,12 @@ from random_grasps import random_grasp
 from synergrip.conic.formulation import Formulation, Units, formulate
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.object_error import ObjectError
+from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -22,7 +22,7 @@ from synergrip.statics.analysis import analyse
 
 KNOTS = 4
 LIMITS = {
-    "friction": lambda g: FrictionCone(0.7),
+    "friction": lambda g: SlipMargin(0.7),
     "friction reserve": lambda g: FrictionReserve(ratios=frozen(np.linspace(0.5, 0.9, g.n_c))),
     "normal": lambda g: NormalForce(0.5, 3.0),
     "normal, no upper": lambda g: NormalForce(0.5, np.inf),

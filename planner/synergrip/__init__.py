@@ -10,7 +10,31 @@ if TYPE_CHECKING:
     from typing import Any
 
     from synergrip.conic.certificate import Certificate as Certificate
+    from synergrip.conic.goals.centred_joints import CentredJoints as CentredJoints
+    from synergrip.conic.goals.goal import Goal as Goal
+    from synergrip.conic.goals.goal import Objective as Objective
+    from synergrip.conic.goals.goal import squares_of as squares_of
+    from synergrip.conic.goals.largest_margin import LargestMargin as LargestMargin
+    from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort
+    from synergrip.conic.goals.least_motion import LeastMotion as LeastMotion
+    from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
+    from synergrip.conic.goals.weighted_sum import WeightedSum as WeightedSum
+    from synergrip.conic.limits.actuator_effort import ActuatorEffort as ActuatorEffort
+    from synergrip.conic.limits.elastic_motion import ElasticMotion as ElasticMotion
+    from synergrip.conic.limits.friction_reserve import FrictionReserve as FrictionReserve
+    from synergrip.conic.limits.joint_range import JointRange as JointRange
+    from synergrip.conic.limits.joint_torque import JointTorque as JointTorque
+    from synergrip.conic.limits.limit import Limit as Limit
+    from synergrip.conic.limits.limit import Usage as Usage
+    from synergrip.conic.limits.normal_force import NormalForce as NormalForce
+    from synergrip.conic.limits.object_error import ObjectError as ObjectError
+    from synergrip.conic.limits.slip_margin import SlipMargin as SlipMargin
+    from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration as SynergyAcceleration
+    from synergrip.conic.limits.synergy_rate import SynergyRate as SynergyRate
+    from synergrip.conic.limits.synergy_reference import SynergyReference as SynergyReference
     from synergrip.conic.program import Program as Program
+    from synergrip.conic.rows import norm_within as norm_within
+    from synergrip.conic.rows import within as within
     from synergrip.errors import InputError as InputError
     from synergrip.errors import Refusal as Refusal
     from synergrip.errors import SynergripError as SynergripError
@@ -73,6 +97,36 @@ _HOMES = {
     "grasps.from_matrices": ("grasp_from_matrices",),
     "grasps.matrices": ("GivenContact", "read_matrices"),
     "statics": ("respond", "subspaces", "coordinates"),
+    "conic.limits.limit": (
+        "Limit",
+        "Usage",
+    ),
+    "conic.limits.slip_margin": ("SlipMargin",),
+    "conic.limits.friction_reserve": ("FrictionReserve",),
+    "conic.limits.normal_force": ("NormalForce",),
+    "conic.limits.joint_torque": ("JointTorque",),
+    "conic.limits.actuator_effort": ("ActuatorEffort",),
+    "conic.limits.synergy_reference": ("SynergyReference",),
+    "conic.limits.synergy_rate": ("SynergyRate",),
+    "conic.limits.synergy_acceleration": ("SynergyAcceleration",),
+    "conic.limits.joint_range": ("JointRange",),
+    "conic.limits.elastic_motion": ("ElasticMotion",),
+    "conic.limits.object_error": ("ObjectError",),
+    "conic.goals.goal": (
+        "Goal",
+        "Objective",
+        "squares_of",
+    ),
+    "conic.goals.largest_margin": ("LargestMargin",),
+    "conic.goals.least_peak": ("LeastPeak",),
+    "conic.goals.least_effort": ("LeastEffort",),
+    "conic.goals.least_motion": ("LeastMotion",),
+    "conic.goals.centred_joints": ("CentredJoints",),
+    "conic.goals.weighted_sum": ("WeightedSum",),
+    "conic.rows": (
+        "within",
+        "norm_within",
+    ),
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
     "statics.analysis": ("Analysis", "analyse"),

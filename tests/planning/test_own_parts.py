@@ -143,6 +143,16 @@ def test_a_scalar_of_ones_own_is_kept_by_the_goals_after_it(load: float, goals: 
         assert plan(tripod(below=0.2), bounded).verdict == verdict
 
 
+def test_a_loosened_limit_of_ones_own_has_that_much_more_room_in_the_heads_of_its_cones() -> None:
+    formulation = planned(plan(tripod(), asked())).formulation
+    for limit, heads in ((TotalSqueeze(50.0), [1.0]), (SmallTangential(0, 1.0), [1.0, 0.0, 0.0])):
+        loose, (rows,) = limit.loosened(0.1), limit.rows(formulation)
+        (more,) = loose.rows(formulation)
+        assert more.constant - rows.constant == pytest.approx(np.tile(0.1 * np.array(heads), (3, 1)))
+        assert np.array_equal(more.matrix, rows.matrix)
+        assert (loose.key, loose.watches, loose.couples_knots) == (limit.key, "references", False)
+
+
 def test_a_goal_that_nothing_bounds_is_named() -> None:
     class MostTotal(LeastTotal):
         def objective(self, formulation: Formulation) -> Objective:

@@ -27,7 +27,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
-from synergrip.errors import SelfCheckError, SynergripError
+from synergrip.errors import InputError, SelfCheckError, SynergripError
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
@@ -177,7 +177,7 @@ def test_what_has_no_formula_is_refused_by_name() -> None:
     for question in (Question(formulation, (_Strange(),), LargestMargin()), Question(formulation, (), _Strange())):
         with pytest.raises(SynergripError, match="_Strange") as refused:
             solve(question, program, Settings())
-        assert isinstance(refused.value, TypeError)
+        assert isinstance(refused.value, InputError)
 
 
 def test_a_contact_kind_without_formula_is_refused_by_name() -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
-from synergrip.conic.limits.limit import Symmetric
+from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -44,7 +44,7 @@ class ActuatorEffort(Symmetric):
         return motion.efforts
 
     def of_hand(self, held: Held) -> Array:
-        """Return the effort limits of the hand's synergies."""
+        """Return the effort limits of a hand's synergies."""
         return held.synergies.effort_limits
 
 
@@ -54,6 +54,7 @@ def _made(value: Any, grasp: Grasp) -> ActuatorEffort:
 
 
 IN_FILE = FileKey(
-    "actuator_effort", Efforts, 'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made,
+    "actuator_effort", ActuatorEffort, Efforts,
+    'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made,
     efforts_of="synergy",
 )  # fmt: skip

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.limit import Symmetric
+from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.conic.rows import Earlier, Rows, items_of, nonnegative
 from synergrip.linalg import Array, frozen
 

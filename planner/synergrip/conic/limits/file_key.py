@@ -29,6 +29,8 @@ class FileKey:
     """A key under [limits]."""
 
     name: str
+    kind: type[Limit]
+    """Class of the limit."""
     type: Any
     """Annotation of the value: how it is read, and its JSON Schema."""
     description: str

@@ -135,10 +135,11 @@ def _ratios(grasp: Grasp, angle: float) -> Array:
 _Angle = Annotated[float, Written(with_unit("angle", above=0), unit_schema("angle"))]
 _Factor = Annotated[float, Written(lambda value: number(value, at_least=1), {"type": "number", "minimum": 1})]
 ANGLE_IN_FILE = FileKey(
-    "margin_angle", _Angle, "angle that every contact force keeps to its friction cone",
+    "margin_angle", FrictionReserve, _Angle, "angle that every contact force keeps to its friction cone",
     lambda value, grasp: FrictionReserve(angle=value),
 )  # fmt: skip
 FACTOR_IN_FILE = FileKey(
-    "safety_factor", _Factor, "factor by which friction may be smaller than stated before a contact slips",
+    "safety_factor", FrictionReserve, _Factor,
+    "factor by which friction may be smaller than stated before a contact slips",
     lambda value, grasp: FrictionReserve(factor=value),
 )  # fmt: skip

@@ -133,5 +133,5 @@ def _made(value: Any, grasp: Grasp) -> JointRange:
 
 
 IN_FILE = FileKey(
-    "joint_range", Literal["hand"], '"hand": every joint stays within the range that the hand states', _made
+    "joint_range", JointRange, Literal["hand"], '"hand": every joint stays within the range that the hand states', _made
 )

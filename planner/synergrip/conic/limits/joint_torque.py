@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
-from synergrip.conic.limits.limit import Symmetric
+from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.hands.units import joint_kinds, torque_unit
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -51,7 +51,7 @@ class JointTorque(Symmetric):
         return torque_unit(joint_kinds(grasp.held.hand.joints).values()) if grasp.held is not None else "N m"
 
     def of_hand(self, held: Held) -> Array:
-        """Return the torque limits of the hand's joints."""
+        """Return the torque limits of a hand's joints."""
         return frozen([joint.torque_limit for joint in held.hand.joints])
 
 
@@ -61,7 +61,7 @@ def _made(value: Any, grasp: Grasp) -> JointTorque:
 
 
 IN_FILE = FileKey(
-    "joint_torque", Efforts,
+    "joint_torque", JointTorque, Efforts,
     "largest torque of a joint in N m, force of a slide in N, one or one per joint; "
     '"hand": as the hand says', _made, efforts_of="joint",
 )  # fmt: skip

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from synergrip.conic.arguments import ByContent, OneOrEach, one_each, sizes
+from synergrip.conic.arguments import ByContent
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.rows import Rows, with_room, within
+from synergrip.conic.rows import Rows, with_room
 from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -19,7 +19,6 @@ from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
-    from synergrip.grasps.held import Held
 
 Watches = Literal["forces", "motion", "references"]
 """The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
@@ -93,12 +92,16 @@ class Limit(ByContent, ABC):
     """Something that must hold at every knot. A limit of one's own is `rows` and `usage`.
 
     Example:
-        The sum of all normal forces, at most 40 N (docs/in-code.md)::
+        Forces of at most 5 N along the second row of lambda::
 
-            class TotalSqueeze(Limit):
+            class Sideways(Limit):
                 def rows(self, formulation):
-                    total = np.ones((1, len(normals))) @ normal_selection(formulation)
-                    return within(self.key, ("sum",), formulation.force.after(total), ...)
+                    side = formulation.force.after(np.eye(formulation.response.grasp.n_l)[[1]])
+                    return [norm_within(self.key, "sideways", side, 5.0)]
+
+                def usage(self, formulation, motion):
+                    five = np.array([5.0])
+                    return Usage("sideways", "N", ("left",), motion.forces[:, [1]], -five, five, five, motion.times)
     """
 
     @property
@@ -168,90 +171,6 @@ class _Roomier(Limit):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         return self.limit.usage(formulation, motion)
-
-
-@dataclass(frozen=True, eq=False)
-class Symmetric(Limit):
-    """``|value| <= limit`` for each joint or synergy: `value` and `reached` say of what.
-
-    Args:
-        limit: one number for all, or one for each; infinity for none. "hand" where the hand states it.
-
-    Raises:
-        InputError: no numbers greater than 0.
-    """
-
-    limit: OneOrEach
-    of: ClassVar[Literal["joint", "synergy"]] = "synergy"
-    title: ClassVar[str]
-    hand_states: ClassVar[bool] = False
-
-    def __post_init__(self) -> None:
-        """Judge the numbers."""
-        key = f"{type(self).__name__}.limit"
-        word = self.hand_states and isinstance(self.limit, str) and self.limit == "hand"
-        object.__setattr__(self, "limit", self.limit if word else sizes(key, self.limit, self.of))
-
-    @abstractmethod
-    def value(self, formulation: Formulation) -> Affine:
-        """Return what is bounded."""
-
-    @abstractmethod
-    def reached(self, motion: Motion) -> Array:
-        """Return its values (T, m) in a motion."""
-
-    def unit(self, grasp: Grasp) -> str:
-        """Return the unit of the values."""
-        return "synergy units"
-
-    def names(self, grasp: Grasp) -> tuple[str, ...]:
-        """Return the names of the joints or synergies."""
-        return grasp.joints if self.of == "joint" else grasp.synergies
-
-    def of_hand(self, held: Held) -> Array:
-        """Return what a hand states."""
-        raise NotImplementedError
-
-    def on(self, grasp: Grasp) -> Self:
-        """Return it with one number for each, those of the hand where it is to say."""
-        key = f"{type(self).__name__}.limit"
-        limit = self.limit
-        if isinstance(limit, str):
-            if grasp.held is None:
-                raise InputError.at(key, NO_HAND)
-            limit = frozen(self.of_hand(grasp.held))
-            if not np.any(np.isfinite(limit)):
-                raise InputError.at(key, NOT_STATED)
-        return replace(self, limit=one_each(key, limit, self.names(grasp), self.of))
-
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each, in units of the limit."""
-        names, own = self.names(formulation.response.grasp), self.on(formulation.response.grasp)
-        return within(self.key, names, self.value(formulation), -own.limit, own.limit, _unit(own.limit))
-
-    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
-        """Return the values and their limits."""
-        return self.value(formulation), self.on(formulation.response.grasp).limit
-
-    def loosened(self, share: float) -> Self:
-        """Return it with every bound larger by `share`; those of a hand must be filled in."""
-        return replace(self, limit=frozen(self.limit * (1 + share)))
-
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the values that the motion reaches."""
-        grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
-        return Usage(
-            self.title, self.unit(grasp), self.names(grasp), self.reached(motion), -limit, limit, _unit(limit),
-            motion.times,
-        )  # fmt: skip
-
-
-NO_HAND = "'hand' needs a hand; a grasp given as matrices states no limits, give numbers"
-NOT_STATED = "this hand states no such limit; write numbers"
-
-
-def _unit(limit: Array) -> Array:
-    return np.where(np.isfinite(limit), limit, 1.0)
 
 
 def norm_usage(title: str, unit: str, item: str, norm: Array, limit: float, times: Array) -> Usage:

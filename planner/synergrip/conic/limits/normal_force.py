@@ -127,6 +127,6 @@ _Range = Annotated[
     tuple[float, float], Written(_range, {"anyOf": [unit_schema("force"), array_of(unit_schema("force"), 2)]})
 ]
 IN_FILE = FileKey(
-    "normal_force", _Range, "largest normal force of a contact, or [least, largest]",
+    "normal_force", NormalForce, _Range, "largest normal force of a contact, or [least, largest]",
     lambda value, grasp: NormalForce(*value),
 )  # fmt: skip

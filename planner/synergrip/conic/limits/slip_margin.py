@@ -34,6 +34,6 @@ class SlipMargin(FrictionCone):
 
 
 IN_FILE = FileKey(
-    "margin", Force, "distance of every contact force to its friction cone",
+    "margin", SlipMargin, Force, "distance of every contact force to its friction cone",
     lambda value, grasp: SlipMargin(value), default="0 N",
 )  # fmt: skip

@@ -57,7 +57,7 @@ class SynergyAcceleration(Differences):
 
 
 IN_FILE = FileKey(
-    "synergy_acceleration", References,
+    "synergy_acceleration", SynergyAcceleration, References,
     "largest acceleration of a synergy reference, per s^2, one or one per synergy",
     lambda value, grasp: SynergyAcceleration(value),
 )  # fmt: skip

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey, References
-from synergrip.conic.limits.limit import Symmetric
+from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -38,6 +38,6 @@ class SynergyReference(Symmetric):
 
 
 IN_FILE = FileKey(
-    "synergy_reference", References, "largest change of a synergy reference, one or one per synergy",
+    "synergy_reference", SynergyReference, References, "largest change of a synergy reference, one or one per synergy",
     lambda value, grasp: SynergyReference(value),
 )  # fmt: skip

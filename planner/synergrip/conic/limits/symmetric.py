@@ -1,0 +1,105 @@
+"""``|value| <= limit`` of joints or synergies, whatever the value is: what those limits share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
+
+import numpy as np
+
+from synergrip.conic.arguments import OneOrEach, one_each, sizes
+from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.rows import Rows, within
+from synergrip.errors import InputError
+from synergrip.linalg import Array, frozen
+from synergrip.statics.motion import Motion
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.grasps.held import Held
+
+
+@dataclass(frozen=True, eq=False)
+class Symmetric(Limit):
+    """``|value| <= limit`` for each joint or synergy: `value` and `reached` say of what.
+
+    Args:
+        limit: one number for all, or one for each; infinity for none. "hand" where the hand states it.
+
+    Raises:
+        InputError: no numbers greater than 0.
+    """
+
+    limit: OneOrEach
+    of: ClassVar[Literal["joint", "synergy"]] = "synergy"
+    title: ClassVar[str]
+    hand_states: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        """Judge the numbers."""
+        key = f"{type(self).__name__}.limit"
+        word = self.hand_states and isinstance(self.limit, str) and self.limit == "hand"
+        object.__setattr__(self, "limit", self.limit if word else sizes(key, self.limit, self.of))
+
+    @abstractmethod
+    def value(self, formulation: Formulation) -> Affine:
+        """Return what is bounded."""
+
+    @abstractmethod
+    def reached(self, motion: Motion) -> Array:
+        """Return its values (T, m) in a motion."""
+
+    def unit(self, grasp: Grasp) -> str:
+        """Return the unit of the values."""
+        return "synergy units"
+
+    def names(self, grasp: Grasp) -> tuple[str, ...]:
+        """Return the names of the joints or synergies."""
+        return grasp.joints if self.of == "joint" else grasp.synergies
+
+    def of_hand(self, held: Held) -> Array:
+        """Return what a hand states of it, infinity where it states nothing."""
+        return frozen([np.inf])
+
+    def on(self, grasp: Grasp) -> Self:
+        """Return it with one number for each, those of the hand where it is to say."""
+        key, limit = f"{type(self).__name__}.limit", self.limit
+        if isinstance(limit, str):
+            if grasp.held is None:
+                raise InputError.at(key, NO_HAND)
+            limit = frozen(self.of_hand(grasp.held))
+            if not np.any(np.isfinite(limit)):
+                raise InputError.at(key, NOT_STATED)
+        return replace(self, limit=one_each(key, limit, self.names(grasp), self.of))
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        """Return two bounds for each, in units of the limit."""
+        names, own = self.names(formulation.response.grasp), self.on(formulation.response.grasp)
+        return within(self.key, names, self.value(formulation), -own.limit, own.limit, _unit(own.limit))
+
+    def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
+        """Return the values and their limits."""
+        return self.value(formulation), self.on(formulation.response.grasp).limit
+
+    def loosened(self, share: float) -> Self:
+        """Return it with every bound larger by `share`; those of a hand must be filled in."""
+        return replace(self, limit=frozen(self.limit * (1 + share)))
+
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+        """Return the values that the motion reaches."""
+        grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
+        return Usage(
+            self.title, self.unit(grasp), self.names(grasp), self.reached(motion), -limit, limit, _unit(limit),
+            motion.times,
+        )  # fmt: skip
+
+
+NO_HAND = "'hand' needs a hand; a grasp given as matrices states no limits, give numbers"
+NOT_STATED = "this hand states no such limit; write numbers"
+
+
+def _unit(limit: Array) -> Array:
+    return np.where(np.isfinite(limit), limit, 1.0)
