@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from made_kinds import made_kind
 
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 
@@ -15,7 +15,12 @@ from synergrip.linalg import Array, frozen
 def touch(name: str, kind: str, point: Sequence[float] | Array, normal: Sequence[float] | Array, mu: float) -> Contact:
     """A contact; a soft one carries 10 mm of spin moment for each newton."""
     spin = 0.01 if kind == "soft" else 0.0
-    return Contact(name, contact_kind(kind), mu, spin, frozen(point), contact_frame(np.asarray(normal, dtype=float)))
+    return Contact(
+        name=name,
+        kind=made_kind(kind, mu, spin),
+        point=frozen(point),
+        frame=contact_frame(np.asarray(normal, dtype=float)),
+    )
 
 
 def driven(contacts: Sequence[Contact], stiffness: float = 1e3) -> Grasp:
@@ -24,8 +29,20 @@ def driven(contacts: Sequence[Contact], stiffness: float = 1e3) -> Grasp:
     n_l = G.shape[1]
     eye, zero = frozen(np.eye(n_l)), frozen(np.zeros((n_l, n_l)))
     names = tuple(f"q{i}" for i in range(n_l))
-    return Grasp("driven", tuple(contacts), G, eye, eye, frozen(np.eye(n_l) / stiffness), zero, zero, None,
-                 frozen(np.zeros(6)), names, names)  # fmt: skip
+    return Grasp(
+        title="driven",
+        contacts=tuple(contacts),
+        G=G,
+        J=eye,
+        S=eye,
+        C_s=frozen(np.eye(n_l) / stiffness),
+        C_q=zero,
+        C_z=zero,
+        lambda_0=None,
+        w_0=frozen(np.zeros(6)),
+        joints=names,
+        synergies=names,
+    )
 
 
 def nose_cone() -> Grasp:

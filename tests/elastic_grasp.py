@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from made_kinds import spin_of
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
@@ -60,7 +61,7 @@ def slip_margins(grasp: Grasp, forces: Array) -> Array:
     for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
         part = np.array(forces[:, rows])
         if part.shape[1] == 4:
-            part[:, 3] *= contact.friction / contact.spin_friction
+            part[:, 3] *= contact.friction / spin_of(contact)
         found.append(contact.friction * part[:, 0] - np.linalg.norm(part[:, 1:], axis=1))
     return np.column_stack(found)
 

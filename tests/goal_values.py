@@ -34,6 +34,7 @@ def goal_value(name: str, grasp: Grasp, task: TimedTask, found: Course, units: t
     value = {
         "effort": found.forces * spins, "torque": found.torques / length, "actuator": found.efforts / length,
         "references": found.dz_r, "travel": rates * np.sqrt(h), "smooth": np.diff(rates, axis=0) / np.sqrt(span),
+        "steady": np.diff(found.forces * spins, axis=0) / np.sqrt(h),
     }  # fmt: skip
     return _squares(value[name])
 
@@ -43,7 +44,7 @@ def _weighted(grasp: Grasp, task: TimedTask, found: Course, units: tuple[float, 
     duration, knots = float(task.times[-1] - task.times[0]), len(task.times)
     sizes = {
         "references": reference**-2, "travel": knots * duration / reference**2,
-        "smooth": knots * duration**3 / reference**2, "centred": 1.0,
+        "smooth": knots * duration**3 / reference**2, "centred": 1.0, "steady": knots * duration / force**2,
     }  # fmt: skip
     parts = [
         weight * sizes.get(name, force**-2) * goal_value(name, grasp, task, found)

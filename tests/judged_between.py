@@ -108,7 +108,7 @@ def judged(seed: int) -> Judged:
     """Plan a random problem and judge what the answer says of the time between its knots."""
     with tempfile.TemporaryDirectory() as folder:
         found = case(np.random.default_rng(seed), Path(folder))
-        outcome = plan(found.problem.grasp, found.problem.task)
+        outcome = plan(found.problem.grasp, found.problem.timed)
         if not isinstance(outcome, Plan):
             proven = outcome.verdict == "unknown" or outcome.certificate.verified
             return Judged(seed, outcome.verdict, [] if proven else ["not proven"])
@@ -116,7 +116,7 @@ def judged(seed: int) -> Judged:
 
 
 def _judged_plan(seed: int, found: Case, outcome: Plan) -> Judged:
-    grasp, task, between = found.problem.grasp, found.problem.task, outcome.between
+    grasp, task, between = found.problem.grasp, found.problem.timed, outcome.between
     result = Judged(seed, "feasible")
     assert between is not None
     times = np.unique(np.concatenate([task.times, found.load[0], np.linspace(0, 1, 301), *(found.wish or ())[:1]]))
@@ -147,7 +147,7 @@ def _judged_plan(seed: int, found: Case, outcome: Plan) -> Judged:
     if task.between == "hold" and excess > 1e-5:
         result.wrong.append(f"held, and passed by {excess}")
     write_outcome(found.folder, outcome_document("", grasp, outcome), outcome, ("json",))
-    checked = judge_references(grasp, task, read_references(found.folder, grasp.n_z))
+    checked = judge_references(grasp, task, read_references(found.folder, grasp))
     if checked.verdict != "feasible" or checked.between is None:
         result.wrong.append(f"its own check fails: {[check.name for check in checked.checks if not check.passed]}")
     elif abs(checked.between.usages[0].value.min() - told) > 1e-9:

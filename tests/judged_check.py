@@ -81,7 +81,7 @@ def accepted(problem: Problem, document: dict[str, Any], *, by_digest: bool) -> 
     """Return whether `check` calls a document feasible."""
     try:
         references = references_of("plan.json", document, unchanged(document) if by_digest else None)
-        return judge_references(problem.grasp, problem.task, references).verdict == "feasible"
+        return judge_references(problem.grasp, problem.timed, references).verdict == "feasible"
     except SynergripError:
         return False
 

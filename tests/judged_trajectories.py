@@ -15,6 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 from elastic_grasp import AXES, Course, course, motion_at_centroid, normal_forces, sizes_on, slip_margins
+from made_kinds import made_kind, spin_of
 from random_trajectories import random_trajectory
 
 from synergrip.errors import SelfCheckError
@@ -133,7 +134,7 @@ def excesses(outcome: Plan, found: Course) -> dict[str, float]:
 def _slippery(grasp: Grasp, ratios: Array) -> Grasp:
     """Return the grasp with less friction: mu and nu times a ratio for each contact."""
     pairs = zip(grasp.contacts, ratios, strict=True)
-    less = (replace(c, friction=r * c.friction, spin_friction=r * c.spin_friction) for c, r in pairs)
+    less = (replace(c, kind=made_kind(c.kind.name, r * c.friction, r * spin_of(c))) for c, r in pairs)
     return replace(grasp, contacts=tuple(less))
 
 

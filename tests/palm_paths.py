@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
+from task_tables import Loads, loads
 
 from synergrip.documents.time_table import MOTION
 from synergrip.grasps.objects import Box, Object, Shape, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.problems.loads import Loads, loads
 from synergrip.problems.task_file import TaskTable
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
@@ -26,7 +26,7 @@ TIMES = np.linspace(0.0, 0.8, 301)
 
 
 def thing_of(shape: Shape | None = BOX) -> Object:
-    return Object("thing", 0.4, frozen(CENTRE), shape)
+    return Object(title="thing", mass=0.4, position=frozen(CENTRE), shape=shape)
 
 
 def write_path(folder: Path, times: Array, positions: Array, rotations: Array) -> None:

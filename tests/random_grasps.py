@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from made_kinds import made_kind
 
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 
@@ -20,7 +20,11 @@ def random_contacts(rng: np.random.Generator, kinds: list[str], radius: float = 
         friction = 0.0 if kind == "frictionless" else float(rng.uniform(0.4, 1.0))
         spin = float(rng.uniform(0.002, 0.01)) if kind == "soft" else 0.0
         frame = contact_frame(normal)
-        contacts.append(Contact(f"C{i + 1}", contact_kind(kind), friction, spin, frozen(radius * direction), frame))
+        contacts.append(
+            Contact(
+                name=f"C{i + 1}", kind=made_kind(kind, friction, spin), point=frozen(radius * direction), frame=frame
+            )
+        )
     return tuple(contacts)
 
 
@@ -73,16 +77,16 @@ def random_grasp(
         )
     )
     return Grasp(
-        "random",
-        contacts,
-        G,
-        frozen(J),
-        frozen(S),
-        compliance(rng, n_l, 1e-3, kinds_of[0]),
-        compliance(rng, n_q, 0.02, kinds_of[1]),
-        compliance(rng, n_z, 0.02, kinds_of[2]),
-        None,
-        frozen(np.zeros(6)),
-        tuple(f"q{i + 1}" for i in range(n_q)),
-        tuple(f"z{i + 1}" for i in range(n_z)),
+        title="random",
+        contacts=contacts,
+        G=G,
+        J=frozen(J),
+        S=frozen(S),
+        C_s=compliance(rng, n_l, 1e-3, kinds_of[0]),
+        C_q=compliance(rng, n_q, 0.02, kinds_of[1]),
+        C_z=compliance(rng, n_z, 0.02, kinds_of[2]),
+        lambda_0=None,
+        w_0=frozen(np.zeros(6)),
+        joints=tuple(f"q{i + 1}" for i in range(n_q)),
+        synergies=tuple(f"z{i + 1}" for i in range(n_z)),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from made_kinds import made_kind
 from named_goals import goals
 
 from synergrip.conic.formulation import formulate
@@ -17,7 +18,6 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
@@ -66,8 +66,10 @@ def hand_like_grasp(rng: np.random.Generator) -> Grasp:
     C_q = rng.choice([0.0, 0.02]) * np.diag(rng.uniform(0.5, 2.0, n_q))
     C_z = rng.choice([0.0, 0.05]) * np.diag(rng.uniform(0.5, 2.0, n_z))
     names = tuple(f"q{i + 1}" for i in range(n_q)), tuple(f"z{i + 1}" for i in range(n_z))
-    grasp = Grasp("hand-like", contacts, G, frozen(J), frozen(S), frozen(C_s), frozen(C_q), frozen(C_z),
-                  None, frozen(np.zeros(6)), *names)  # fmt: skip
+    grasp = Grasp(
+        title="hand-like", contacts=contacts, G=G, J=J, S=S, C_s=C_s, C_q=C_q, C_z=C_z, joints=names[0],
+        synergies=names[1],
+    )  # fmt: skip
     return _preloaded(rng, grasp) if rng.uniform() < 0.2 else grasp
 
 
@@ -83,7 +85,9 @@ def _contacts(rng: np.random.Generator, count: int) -> tuple[Contact, ...]:
         kind = str(rng.choice(["hard", "soft"], p=[0.75, 0.25]))
         spin = float(rng.uniform(0.002, 0.01)) if kind == "soft" else 0.0
         mu = float(rng.uniform(0.5, 1.2))
-        contacts.append(Contact(f"C{i + 1}", contact_kind(kind), mu, spin, frozen(point), contact_frame(normal)))
+        contacts.append(
+            Contact(name=f"C{i + 1}", kind=made_kind(kind, mu, spin), point=frozen(point), frame=contact_frame(normal))
+        )
     return tuple(contacts)
 
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from made_kinds import made_kind
 
-from synergrip.grasps.contacts.kinds import contact_kind
+from synergrip.grasps.contacts.kind import EXAMPLE_OF
 from synergrip.grasps.placing import Touch
 from synergrip.hands.hand import Coupling, Hand, Joint, Pad
 from synergrip.hands.kinematics import kinematics
@@ -25,11 +26,20 @@ def hand_of(
     moving = [tree.joints[name] for name in tree.moving]
     every = joint_set(tree.moving)
     return Hand(
-        "small", "A small hand",
-        tuple(Joint(j.name, j.kind, j.lower, j.upper, math.inf, j.child) for j in moving),
-        frozen(np.zeros((len(moving), len(moving)))), pads or {}, {every.name: every}, {},
-        kinematics(tree, tree.moving), couplings or {}, tree.parents,
-    )  # fmt: skip
+        name="small",
+        title="A small hand",
+        joints=tuple(
+            Joint(name=j.name, kind=j.kind, lower=j.lower, upper=j.upper, torque_limit=math.inf, link=j.child)
+            for j in moving
+        ),
+        C_q=frozen(np.zeros((len(moving), len(moving)))),
+        pads=pads or {},
+        synergy_sets={every.name: every},
+        postures={},
+        kinematics=kinematics(tree, tree.moving),
+        couplings=couplings or {},
+        parents=tree.parents,
+    )
 
 
 def slide(name: str, parent: str, xyz: Sequence[float], axis: Sequence[float], upper: float = 0.1) -> TreeJoint:
@@ -45,13 +55,20 @@ def hinge(name: str, parent: str, xyz: Sequence[float], limits: tuple[float, flo
 
 def pad(name: str, link: str, point: Sequence[float] = (0, 0, 0), radius: float = 0.0) -> Pad:
     """Return a pad that pushes along x."""
-    return Pad(name, link, frozen(point), frozen([1.0, 0.0, 0.0]), radius)
+    return Pad(name=name, link=link, point=frozen(point), normal=frozen([1.0, 0.0, 0.0]), radius=radius)
 
 
 def touching(*pads: Pad) -> tuple[Touch, ...]:
     """Return a hard contact for each pad, toward the object whatever its normal says."""
-    hard = contact_kind("hard")
     return tuple(
-        Touch(each.name, each, hard, 0.5, 0.0, (1000.0,) * 3, "object", f"contacts.at[{i}]", aimed=False)
+        Touch(
+            name=each.name,
+            pad=each,
+            kind=made_kind("hard", 0.5, 0.0),
+            stiffness=dict.fromkeys(EXAMPLE_OF, 1000.0),
+            normals="object",
+            key=f"contacts.at[{i}]",
+            aimed=False,
+        )
         for i, each in enumerate(pads)
     )

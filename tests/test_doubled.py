@@ -76,4 +76,4 @@ def test_blocks_are_put_together_as_numpy_does() -> None:
     a, b, c, d = (numbers(rng, *shape) for shape in ((2, 3), (2, 1), (1, 3), (1, 1)))
     found = block([[a, b], [c, d]])
     assert np.array_equal(found.high, np.block([[a.high, b.high], [c.high, d.high]]))
-    assert np.array_equal(found.T.low, np.block([[a.low, b.low], [c.low, d.low]]).T)
+    assert np.array_equal(found.mT.low, np.block([[a.low, b.low], [c.low, d.low]]).T)

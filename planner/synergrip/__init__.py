@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort
     from synergrip.conic.goals.least_motion import LeastMotion as LeastMotion
     from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
+    from synergrip.conic.goals.steady_forces import SteadyForces as SteadyForces
     from synergrip.conic.goals.weighted_sum import WeightedSum as WeightedSum
     from synergrip.conic.limits.actuator_effort import ActuatorEffort as ActuatorEffort
     from synergrip.conic.limits.elastic_motion import ElasticMotion as ElasticMotion
@@ -38,9 +39,26 @@ if TYPE_CHECKING:
     from synergrip.errors import InputError as InputError
     from synergrip.errors import Refusal as Refusal
     from synergrip.errors import SynergripError as SynergripError
+    from synergrip.grasps.contact_at import ContactAt as ContactAt
+    from synergrip.grasps.contact_at import LinkPlace as LinkPlace
     from synergrip.grasps.contacts.contact import Contact as Contact
+    from synergrip.grasps.contacts.elliptic_soft_finger import EllipticSoftFinger as EllipticSoftFinger
+    from synergrip.grasps.contacts.frictionless import Frictionless as Frictionless
+    from synergrip.grasps.contacts.hard_finger import HardFinger as HardFinger
+    from synergrip.grasps.contacts.kind import ContactKind as ContactKind
+    from synergrip.grasps.contacts.patch_contact import PatchContact as PatchContact
+    from synergrip.grasps.contacts.soft_finger import SoftFinger as SoftFinger
+    from synergrip.grasps.from_matrices import grasp_from_matrices as grasp_from_matrices
     from synergrip.grasps.grasp import Grasp as Grasp
+    from synergrip.grasps.making import make_grasp as make_grasp
+    from synergrip.grasps.matrices import GivenContact as GivenContact
     from synergrip.grasps.matrices import read_matrices as read_matrices
+    from synergrip.grasps.objects import Object as Object
+    from synergrip.grasps.objects import Turned as Turned
+    from synergrip.grasps.shapes.box import Box as Box
+    from synergrip.grasps.shapes.cylinder import Cylinder as Cylinder
+    from synergrip.grasps.shapes.shape import Shape as Shape
+    from synergrip.grasps.shapes.sphere import Sphere as Sphere
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
     from synergrip.planning.outcome import Infeasible as Infeasible
@@ -62,9 +80,23 @@ _HOMES = {
     "errors": ("SynergripError", "InputError", "Refusal"),
     "hands.hand": ("Hand",),
     "hands.folder": ("load_hand",),
+    "grasps.objects": ("Object", "Turned"),
+    "grasps.shapes.shape": ("Shape",),
+    "grasps.shapes.sphere": ("Sphere",),
+    "grasps.shapes.box": ("Box",),
+    "grasps.shapes.cylinder": ("Cylinder",),
+    "grasps.contacts.kind": ("ContactKind",),
+    "grasps.contacts.hard_finger": ("HardFinger",),
+    "grasps.contacts.soft_finger": ("SoftFinger",),
+    "grasps.contacts.frictionless": ("Frictionless",),
+    "grasps.contacts.elliptic_soft_finger": ("EllipticSoftFinger",),
+    "grasps.contacts.patch_contact": ("PatchContact",),
     "grasps.contacts.contact": ("Contact",),
+    "grasps.contact_at": ("ContactAt", "LinkPlace"),
     "grasps.grasp": ("Grasp",),
-    "grasps.matrices": ("read_matrices",),
+    "grasps.making": ("make_grasp",),
+    "grasps.from_matrices": ("grasp_from_matrices",),
+    "grasps.matrices": ("GivenContact", "read_matrices"),
     "statics": ("respond", "subspaces", "coordinates"),
     "conic.limits.limit": (
         "Limit",
@@ -91,6 +123,7 @@ _HOMES = {
     "conic.goals.least_effort": ("LeastEffort",),
     "conic.goals.least_motion": ("LeastMotion",),
     "conic.goals.centred_joints": ("CentredJoints",),
+    "conic.goals.steady_forces": ("SteadyForces",),
     "conic.goals.weighted_sum": ("WeightedSum",),
     "conic.rows": (
         "within",

@@ -36,7 +36,7 @@ class Doubled:
         return values if isinstance(values, Doubled) else cls(np.asarray(values), np.zeros_like(values))
 
     @property
-    def T(self) -> Doubled:
+    def mT(self) -> Doubled:
         """The transpose."""
         return Doubled(self.high.T, self.low.T)
 
@@ -86,7 +86,7 @@ class Doubled:
 
 def block(rows: Sequence[Sequence[Doubled]]) -> Doubled:
     """Return the matrix of blocks, as `numpy.block` does."""
-    return _joined([_joined(row, axis=1) for row in rows], axis=0)
+    return _joined([_joined(row, axis=-1) for row in rows], axis=-2)
 
 
 def solve(A: Doubled, B: Doubled) -> Doubled:

@@ -54,6 +54,18 @@ class SynergripError(Exception):
 
     exit_code = 2
 
+    def __reduce__(self) -> tuple[Callable[..., SynergripError], tuple[object, ...]]:
+        """Pickle what it carries, whatever its constructor asks for."""
+        return _carrying, (type(self), self.args, self.__dict__)
+
+
+def _carrying(kind: type[SynergripError], args: tuple[object, ...], carried: dict[str, object]) -> SynergripError:
+    """Return the error that was pickled."""
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(carried)
+    return error
+
 
 class InputError(SynergripError):
     """Bad input: nothing was solved. Carries every issue found, in file order."""
@@ -101,6 +113,10 @@ class RigidContactError(InputError):
     def located(self, locate: Callable[[Issue], Issue]) -> RigidContactError:
         """Return the same error with each issue completed by `locate`."""
         return type(self)([locate(issue) for issue in self.issues], self.contact, self.component)
+
+
+class VerdictError(InputError, AttributeError):
+    """An attribute of an answer that only an answer with another verdict has; `hasattr` says no, as of any other."""
 
 
 class Refusal(SynergripError):
@@ -200,6 +216,11 @@ def repeated(names: Iterable[Hashable]) -> Iterator[int]:
         if name in seen:
             yield index
         seen.add(name)
+
+
+def kind_of(value: object) -> str:
+    """Return what a value is, for messages about arguments of another type: ``str``, ``the class Grasp``."""
+    return f"the class {value.__name__}" if isinstance(value, type) else type(value).__name__
 
 
 def shortened(text: str, most: int = LONGEST_NAME) -> str:

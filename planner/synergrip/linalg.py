@@ -8,19 +8,27 @@ Matrices are made free of units before they come here.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.values import Value
+
 Array = NDArray[np.float64]
+Places = NDArray[np.int64]
+"""Whole numbers: places in a stack, or ranks."""
 
 RANK_TOLERANCE = 1e-8
 GREY_FLOOR = 1e-11
 GREY_CEILING = 1e-5
 SINGULAR = 1e-13
 """A symmetric matrix with unit diagonal is singular when its smallest eigenvalue is below this."""
+SAME_LENGTH = 1e-15
+"""How far from 1 rounding leaves the length of a vector that was divided by it."""
 
 
 def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
@@ -32,8 +40,8 @@ def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
     return array
 
 
-@dataclass(frozen=True)
-class Decision:
+@dataclass(frozen=True, eq=False, repr=False)
+class Decision(Value):
     """A rank decision together with what it was based on."""
 
     rank: int
@@ -43,13 +51,36 @@ class Decision:
     @classmethod
     def of(cls, singular_values: Array, reference: float) -> Decision:
         """Decide by the policy; `reference` is the size that counts as 1."""
-        relative = np.asarray(singular_values) / reference if reference > 0 else np.zeros(len(singular_values))
+        return Decisions.of(np.asarray(singular_values), np.asarray(reference)).at(())
+
+
+@dataclass(frozen=True, eq=False)
+class Decisions:
+    """The rank decisions on the matrices of a stack: leading axes (...), those of `Decision` for each matrix."""
+
+    ranks: Places  # (...)
+    singular_values: Array  # (..., k) relative to the reference of each, descending
+    ambiguous: NDArray[np.bool_]  # (...)
+
+    @classmethod
+    def of(cls, singular_values: Array, references: Array) -> Decisions:
+        """Decide by the policy on values (..., k); `references` (...) are the sizes that count as 1."""
+        sizes = references[..., None]
+        relative = np.where(sizes > 0, singular_values / np.where(sizes > 0, sizes, 1.0), 0.0)
         grey = (relative > GREY_FLOOR) & (relative < GREY_CEILING)
-        return cls(int(np.sum(relative > RANK_TOLERANCE)), frozen(relative), bool(np.any(grey)))
+        return cls(np.sum(relative > RANK_TOLERANCE, axis=-1), relative, np.any(grey, axis=-1))
+
+    def at(self, place: Any) -> Decision:
+        """Return the decision on one matrix of the stack."""
+        return Decision(int(self.ranks[place]), frozen(self.singular_values[place]), bool(self.ambiguous[place]))
+
+    def taken(self, places: Any) -> Decisions:
+        """Return the decisions on those matrices of the stack."""
+        return Decisions(self.ranks[places], self.singular_values[places], self.ambiguous[places])
 
 
-@dataclass(frozen=True)
-class Split:
+@dataclass(frozen=True, eq=False, repr=False)
+class Split(Value):
     """The row space and the null space of a matrix, as orthonormal columns."""
 
     row_space: Array
@@ -66,9 +97,41 @@ def split(matrix: Array, reference: float | None = None) -> Split:
     if rows == 0 or columns == 0:
         return Split(np.zeros((columns, 0)), np.eye(columns), Decision.of(np.zeros(0), 1.0))
     _, values, transposed = np.linalg.svd(matrix, full_matrices=True)
-    padded = np.concatenate([values, np.zeros(max(columns - len(values), 0))])[:columns]
-    decision = Decision.of(padded, float(values[0]) if reference is None else reference)
+    decision = Decision.of(_padded(values, columns), float(values[0]) if reference is None else reference)
     return Split(transposed[: decision.rank].T, transposed[decision.rank :].T, decision)
+
+
+def decided(matrices: Array, references: Array | None = None) -> Decisions:
+    """Return what `split` decides of the ranks of matrices (..., m, n), without the spaces.
+
+    `references` (...) are the singular values that count as 1 (default: the largest of each matrix).
+    """
+    values = singular_values(matrices)
+    return Decisions.of(values, values.max(axis=-1, initial=0.0) if references is None else references)
+
+
+def singular_values(matrices: Array) -> Array:
+    """Return the n singular values (..., n) of matrices (..., m, n), descending; 0 where m is less than n."""
+    *leading, rows, columns = matrices.shape
+    if rows == 0 or columns == 0:
+        return np.zeros((*leading, columns))
+    return _padded(np.linalg.svd(matrices, compute_uv=False), columns)
+
+
+def right_singular(matrices: Array) -> tuple[Array, Array]:
+    """Return the n singular values (..., n) of matrices (..., m, n), and their directions as columns (..., n, n)."""
+    *leading, rows, columns = matrices.shape
+    if rows == 0 or columns == 0:
+        return np.zeros((*leading, columns)), np.broadcast_to(np.eye(columns), (*leading, columns, columns))
+    _, values, transposed = np.linalg.svd(matrices, full_matrices=rows < columns)
+    return _padded(values, columns), transposed.mT
+
+
+def _padded(values: Array, columns: int) -> Array:
+    """Return singular values (..., k) with a 0 for each of the `columns` that there is none for."""
+    if values.shape[-1] >= columns:
+        return values
+    return np.concatenate([values, np.zeros((*values.shape[:-1], columns - values.shape[-1]))], axis=-1)
 
 
 def canonical(basis: Array) -> Array:
@@ -77,23 +140,26 @@ def canonical(basis: Array) -> Array:
     Columns are taken greedily from the projector (largest remaining column, the first among
     equals), orthonormalised in that order, with the largest entry of each made positive. A
     subspace spanned by coordinate axes comes back as those axes.
+
+    Args:
+        basis: (..., n, k) of a subspace, or of each of a stack.
     """
-    size, dimension = basis.shape
+    *leading, size, dimension = basis.shape
     if dimension == 0:
-        return frozen(np.zeros((size, 0)))
-    remaining = np.linalg.qr(basis)[0]
-    columns = []
-    for _ in range(dimension):
-        lengths = np.linalg.norm(remaining, axis=1)  # column norms of the projector
-        pick = int(np.argmax(lengths > lengths.max() - 1e-9))
-        direction = remaining[pick] / lengths[pick]
-        columns.append(remaining @ direction)
-        if remaining.shape[1] > 1:  # the part of the subspace orthogonal to the new column
-            complement = np.linalg.svd(direction[None, :], full_matrices=True)[2][1:].T
-            remaining = remaining @ complement
-    result = np.linalg.qr(np.column_stack(columns))[0]
-    largest = np.argmax(np.abs(result) > np.abs(result).max(axis=0) - 1e-9, axis=0)
-    return frozen(result * np.where(result[largest, range(dimension)] < 0, -1.0, 1.0))
+        return frozen(np.zeros(basis.shape))
+    remaining = np.linalg.qr(basis.reshape(-1, size, dimension))[0]
+    stack, columns = np.arange(len(remaining)), np.zeros_like(remaining)
+    for k in range(dimension):
+        lengths = np.sqrt(np.sum(remaining**2, axis=-1))  # column norms of the projector
+        pick = np.argmax(lengths > lengths.max(axis=-1, keepdims=True) - 1e-9, axis=-1)
+        direction = remaining[stack, pick] / lengths[stack, pick, None]
+        columns[..., k] = (remaining @ direction[..., None])[..., 0]
+        remaining = remaining - columns[..., k, None] * direction[:, None]  # what is orthogonal to the new column
+    result = np.linalg.qr(columns)[0]
+    sizes = np.abs(result)
+    largest = np.argmax(sizes > sizes.max(axis=-2, keepdims=True) - 1e-9, axis=-2)
+    signs = np.where(result[stack[:, None], largest, np.arange(dimension)] < 0, -1.0, 1.0)
+    return frozen(result * signs[:, None], (*leading, size, dimension))
 
 
 def interpolated(times: Array, known: Array, values: Array) -> Array:
@@ -112,3 +178,17 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
         result[row : row + block.shape[0], column : column + block.shape[1]] = block
         row, column = row + block.shape[0], column + block.shape[1]
     return result
+
+
+def unit_vector(direction: Sequence[float]) -> tuple[float, ...]:
+    """Return a direction, which is not zero, with length 1; one that has it already stays as it is, to the digit."""
+    size = math.hypot(*direction)
+    if abs(size - 1.0) <= SAME_LENGTH:
+        return tuple(direction)
+    return tuple(part / size for part in direction)
+
+
+def cross(v: Array) -> Array:
+    """Return the skew matrix (3, 3) of a vector (3,): ``cross(v) @ u`` is v x u."""
+    x, y, z = v
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

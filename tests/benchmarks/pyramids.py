@@ -24,11 +24,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
+from made_kinds import made_kind
 from named_goals import goals
 from random_tasks import RADIUS, random_task_on_grasp
 
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
@@ -46,14 +46,28 @@ def free_task(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     for i in range(4):
         outward = rng.normal(size=3)
         outward /= np.linalg.norm(outward)
-        kind, frame = contact_kind("hard"), contact_frame(-outward)
-        contacts.append(Contact(f"C{i + 1}", kind, 0.5, 0.0, frozen(RADIUS * outward), frame))
+        kind, frame = "hard", contact_frame(-outward)
+        contacts.append(
+            Contact(name=f"C{i + 1}", kind=made_kind(kind, 0.5, 0.0), point=frozen(RADIUS * outward), frame=frame)
+        )
     size = 3 * len(contacts)
     names = tuple(f"q{i + 1}" for i in range(size))
     one, zero = frozen(np.eye(size)), frozen(np.zeros((size, size)))
     G = grasp_matrix(contacts)
-    grasp = Grasp("free", tuple(contacts), G, one, one, frozen(1e-3 * np.eye(size)), zero, zero, None,
-                  frozen(np.zeros(6)), names, names)  # fmt: skip
+    grasp = Grasp(
+        title="free",
+        contacts=tuple(contacts),
+        G=G,
+        J=one,
+        S=one,
+        C_s=frozen(1e-3 * np.eye(size)),
+        C_q=zero,
+        C_z=zero,
+        lambda_0=None,
+        w_0=frozen(np.zeros(6)),
+        joints=names,
+        synergies=names,
+    )
     force = rng.normal(size=3)
     wrench = np.r_[force / np.linalg.norm(force), 0.2 * RADIUS * rng.normal(size=3)][None]
     times = frozen(np.zeros(1))

@@ -79,7 +79,7 @@ def inaccurate(analysis: Analysis, error: float) -> Analysis:
 
 def test_what_is_inaccurate_is_said_and_decides_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = load_problem("pinch-soft")
-    found = analyse(problem.grasp, problem.task.wrench)
+    found = analyse(problem.grasp, problem.timed.wrench)
     assert list(accuracy_notes(inaccurate(found, 1e-9).response)) == []
     (note,) = accuracy_notes(inaccurate(found, 3e-7).response)
     assert note.startswith("inaccurate: what ")

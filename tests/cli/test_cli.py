@@ -456,7 +456,7 @@ def test_a_misspelt_problem_is_answered_with_a_suggestion(verb: str) -> None:
         (("plan", "barrett-ball-roll", "--set", "task.move[0].mode=2"), "task.move", "dimension 1"),
         (("plan", "tripod", "--set", "task.tracking=compliant"), "task.tracking", "tolerance"),
         (("plan", "tripod", "--set", "limits={}"), "goal.maximise", "nothing bounds the largest margin"),
-        (("plan", "tripod", "--set", "task.duration=2 s"), "task.wrench", "the file covers 0 s to 1 s"),
+        (("plan", "tripod", "--set", "task.duration=2 s"), "task.wrench", "the table covers 0 s to 1 s"),
         (("check", "nothing.csv", "tripod"), "PLAN", "there is no file 'nothing.csv'"),
     ],
 )

@@ -147,7 +147,7 @@ def test_forces_in_the_cones_stay_within_their_bounds_and_reach_them(seed: int) 
     for contact, rows in zip(formulation.response.grasp.contacts, formulation.response.grasp.rows, strict=True):
         rest = rng.normal(size=(2000, contact.n_rows - 1))
         rest /= np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-300)
-        sizes = np.diag(contact.cone)  # on the rim of the cone at the largest normal force
+        sizes = np.diag(contact.cones[0])  # on the rim of the cone at the largest normal force
         rim = np.column_stack([np.full(2000, 3.0), rest * sizes[0] * 3.0 / sizes[1:]])
         assert np.allclose(contact.slip_margin(rim), 0.0 if contact.n_rows > 1 else 3.0, atol=1e-12)
         reached = np.abs(rim).max(axis=0)

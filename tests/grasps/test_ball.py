@@ -127,7 +127,7 @@ def test_the_only_ball_between_four_round_pads_is_named(radius: float) -> None:
     points, pushing = CENTRE + (0.04 + pads)[:, None] * outward, -outward.mean(axis=0)
     with pytest.raises(InputError, match="the one through them has radius 40 mm") as caught:
         ball_centre(points, radius, pads, pushing)
-    assert caught.value.issues[0].key == "object.shape.sphere.radius"
+    assert caught.value.issues[0].key == "object.shape.radius"
 
 
 def test_a_ball_within_reach_of_all_pads_is_found_and_one_beyond_is_not() -> None:

@@ -49,7 +49,12 @@ def test_from_any_open_posture_the_first_touch_on_the_way_is_found(seed: int) ->
     rng = np.random.default_rng(seed)
     values = {"spread": rng.uniform(0.7, 1.2), **{name: rng.uniform(0.0, 0.6) for name in BENT}}
     start = posture(HAND, MOTORS, values)
-    ball = Object("ball", 0.2, frozen(BALL.position + rng.uniform(-4e-3, 4e-3, 3)), Sphere(rng.uniform(0.046, 0.054)))
+    ball = Object(
+        title="ball",
+        mass=0.2,
+        position=frozen(BALL.position + rng.uniform(-4e-3, 4e-3, 3)),
+        shape=Sphere(rng.uniform(0.046, 0.054)),
+    )
     q = closed(start, {name: rng.uniform(0.2, 1.0) for name in BENT}, ball)
     grasp = placed(q, ball)
     assert grasp.gaps == pytest.approx([0, 0, 0], abs=1e-9)
@@ -126,13 +131,13 @@ def test_a_name_that_begins_with_a_dash_is_a_name() -> None:
 @pytest.mark.parametrize(
     ("wish", "key", "fragment"),
     [
-        ("clsoe", "hand.close", "did you mean 'close'?"),
-        ("-clsoe", "hand.close", "did you mean 'close'?"),
-        ("-", "hand.close", "'-' is not one of 'spread'"),
-        ({"finger1": 1, "fingr2": 1}, "hand.close.fingr2", "did you mean 'finger2'?"),
-        ({"finger1": 1, "finger1_inner": 1}, "hand.close", "use one kind"),
-        ({"finger1": 1, "close": 1}, "hand.close", "two synergy sets"),
-        ({"finger1": 0}, "hand.close", "moves no joint"),
+        ("clsoe", "close", "did you mean 'close'?"),
+        ("-clsoe", "close", "did you mean 'close'?"),
+        ("-", "close", "'-' is not one of 'spread'"),
+        ({"finger1": 1, "fingr2": 1}, "close.fingr2", "did you mean 'finger2'?"),
+        ({"finger1": 1, "finger1_inner": 1}, "close", "use one kind"),
+        ({"finger1": 1, "close": 1}, "close", "two synergy sets"),
+        ({"finger1": 0}, "close", "moves no joint"),
     ],
 )
 def test_directions_that_cannot_be(wish: str | dict[str, float], key: str, fragment: str) -> None:

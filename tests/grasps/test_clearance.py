@@ -59,13 +59,15 @@ STRAIGHT = frozen([0.0, 0.0])
     ],
 )
 def test_the_line_that_runs_inside_is_named(centre: tuple[float, float, float], told: str) -> None:
-    notes = collision_notes(FINGER, STRAIGHT, Object("ball", 0.1, frozen(centre), Sphere(0.01)), ())
+    notes = collision_notes(
+        FINGER, STRAIGHT, Object(title="ball", mass=0.1, position=frozen(centre), shape=Sphere(0.01)), ()
+    )
     about = f"the hand may collide with the ball r 10 mm: its skeleton runs inside on {told}"
     assert notes == ((about,) if told else ())
 
 
 def test_every_line_inside_is_named_and_the_posture_counts() -> None:
-    ball = Object("ball", 0.1, frozen([0.02, 0.03, 0]), Sphere(0.012))
+    ball = Object(title="ball", mass=0.1, position=frozen([0.02, 0.03, 0]), shape=Sphere(0.012))
     assert collision_notes(FINGER, STRAIGHT, ball, ()) == ()
     (note,) = collision_notes(FINGER, frozen([np.pi / 2, -0.02]), ball, ())
     assert note.count("from link") == 2
@@ -73,14 +75,14 @@ def test_every_line_inside_is_named_and_the_posture_counts() -> None:
 
 
 def test_a_pad_that_touches_is_no_reason_and_a_place_on_a_link_counts() -> None:
-    ball = Object("ball", 0.1, frozen([0.08, 0.02, 0]), Sphere(0.01))
+    ball = Object(title="ball", mass=0.1, position=frozen([0.08, 0.02, 0]), shape=Sphere(0.01))
     assert collision_notes(FINGER, STRAIGHT, ball, touching(FINGER.pads["tip"])) == ()
     (note,) = collision_notes(FINGER, STRAIGHT, ball, touching(pad("nail", "end_link", (0, 0.03, 0))))
     assert "the line from link 'end_link' to pad 'nail' (10 mm deep)" in note
 
 
 def test_nothing_is_inside_an_object_without_a_shape() -> None:
-    assert collision_notes(FINGER, STRAIGHT, Object("mass", 0.1, ORIGIN, None), ()) == ()
+    assert collision_notes(FINGER, STRAIGHT, Object(title="mass", mass=0.1, position=ORIGIN, shape=None), ()) == ()
 
 
 def test_the_shipped_grasp_is_clear_and_a_ball_on_the_palm_is_not() -> None:

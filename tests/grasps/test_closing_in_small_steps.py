@@ -80,7 +80,7 @@ def test_a_hand_closes_as_it_would_in_small_steps(seed: int) -> None:
     limits = np.column_stack([[-0.3, -1.0, -1.0, rng.uniform(0.5, 1.5), -2.5], upper])
     hand = Plane.hand(limits, {"out0": Coupling({"in0": 0.3})})
     x, y, radius = rng.uniform([-0.004, 0.026, 0.026], [0.004, 0.034, 0.033])
-    body = Object("thing", 0.1, frozen([x, y, 0]), Cylinder(radius, 0.1))
+    body = Object(title="thing", mass=0.1, position=frozen([x, y, 0]), shape=Cylinder(radius, 0.1))
     start = np.array([0.0, 0.0, -0.4, math.pi, 0.1])
     rate = np.array([rng.choice([0.0, 0.1, -0.1]), 1.0, 0.3, *-rng.uniform([0.5, 0.1], [1.5, 0.5])])
     expected = Plane.crept(start, rate, complex(x, y), radius + 0.003, limits)

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_kinds import made_kind
 from random_grasps import random_contacts, random_grasp
 
 from synergrip.errors import InputError
 from synergrip.grasps.given import given, read_given
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.grasps.matrices import ContactData, Matrices
+from synergrip.grasps.matrices import GivenContact, Matrices
 from synergrip.linalg import Array, frozen
 
 INTACT = Path(__file__).parent.parent / "data" / "bad_inputs" / "grasp.json"
@@ -22,11 +23,20 @@ KINDS = ["hard", "soft", "frictionless", "hard"]
 
 def _matrices(grasp: Grasp, **changes: object) -> Matrices:
     contacts = tuple(
-        ContactData(c.name, c.kind.name, c.friction, c.spin_friction, c.point, frozen(c.frame[:, 0]))
-        for c in grasp.contacts
+        GivenContact(name=c.name, kind=c.kind, point=c.point, normal=frozen(c.frame[:, 0])) for c in grasp.contacts
     )
     matrices = Matrices(
-        grasp.title, contacts, grasp.G, grasp.J, grasp.S, grasp.C_s, grasp.C_q, grasp.C_z, None, None, {}
+        title=grasp.title,
+        contacts=contacts,
+        G=grasp.G,
+        J=grasp.J,
+        S=grasp.S,
+        C_s=grasp.C_s,
+        C_q=grasp.C_q,
+        C_z=grasp.C_z,
+        lambda_0=None,
+        w_0=None,
+        expect={},
     )
     return replace(matrices, **changes)  # type: ignore[arg-type]
 
@@ -55,9 +65,7 @@ def test_matrices_kinds_friction_and_names_are_passed_on() -> None:
     found = given(_matrices(grasp))
     for name in ("G", "J", "S", "C_s", "C_q", "C_z"):
         assert np.array_equal(getattr(found, name), getattr(grasp, name)), name
-    assert [(c.name, c.kind.name, c.friction, c.spin_friction) for c in found.contacts] == [
-        (c.name, c.kind.name, c.friction, c.spin_friction) for c in grasp.contacts
-    ]
+    assert [(c.name, c.kind) for c in found.contacts] == [(c.name, c.kind) for c in grasp.contacts]
     assert found.joints == tuple(f"q{i + 1}" for i in range(grasp.n_q))
     assert found.synergies == tuple(f"z{i + 1}" for i in range(grasp.n_z))
 
@@ -66,7 +74,7 @@ def test_a_left_handed_contact_frame_is_kept_as_it_is() -> None:
     contact = random_contacts(np.random.default_rng(0), ["hard"])[0]
     mirrored = replace(contact, frame=frozen(contact.frame * [1, 1, -1]))
     grasp = random_grasp(np.random.default_rng(0), kinds=["hard"])
-    bare = (ContactData("C1", "hard", 0.5, 0.0, None, None),)
+    bare = (GivenContact(name="C1", kind=made_kind("hard", 0.5, 0.0), point=None, normal=None),)
     found = given(_matrices(grasp, contacts=bare, G=grasp_matrix([mirrored])))
     assert found.contacts[0].frame == pytest.approx(mirrored.frame, abs=1e-12)
     assert found.contacts[0].point == pytest.approx(mirrored.point, abs=1e-12)
@@ -75,7 +83,7 @@ def test_a_left_handed_contact_frame_is_kept_as_it_is() -> None:
 def test_a_stretched_column_still_gives_the_normal_and_a_frame_of_unit_vectors() -> None:
     grasp = random_grasp(np.random.default_rng(1), kinds=["hard"])
     G = grasp.G * [2.0, 1.0, 1.0]
-    bare = (ContactData("C1", "hard", 0.5, 0.0, None, None),)
+    bare = (GivenContact(name="C1", kind=made_kind("hard", 0.5, 0.0), point=None, normal=None),)
     frame = given(_matrices(grasp, contacts=bare, G=frozen(G))).contacts[0].frame
     assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
     assert frame[:, 0] == pytest.approx(grasp.contacts[0].frame[:, 0], abs=1e-12)
@@ -170,6 +178,9 @@ def test_the_load_at_the_start_is_that_given_or_follows_from_the_forces_or_is_no
     assert given(_matrices(grasp)).lambda_0 is None
     assert np.array_equal(given(_matrices(grasp, w_0=load)).w_0, load)
     assert given(_matrices(grasp, lambda_0=forces)).w_0 == pytest.approx(-grasp.G @ forces, abs=1e-12)
-    both = given(_matrices(grasp, lambda_0=forces, w_0=load))
-    assert np.array_equal(both.w_0, load)
+    balanced = frozen(-grasp.G @ forces)
+    both = given(_matrices(grasp, lambda_0=forces, w_0=balanced))
+    assert np.array_equal(both.w_0, balanced)
     assert both.lambda_0 is forces
+    with pytest.raises(InputError, match=r"w_0 = -G lambda_0 does not hold"):
+        given(_matrices(grasp, lambda_0=forces, w_0=load))

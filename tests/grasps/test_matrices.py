@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from synergrip.errors import InputError
+from synergrip.grasps.contacts.frictionless import Frictionless
+from synergrip.grasps.contacts.hard_finger import HardFinger
+from synergrip.grasps.contacts.soft_finger import SoftFinger
 from synergrip.grasps.matrices import read_matrices
 
 INTACT = Path(__file__).parent.parent / "data" / "bad_inputs" / "grasp.json"
@@ -60,11 +63,11 @@ def test_contacts_of_all_kinds(data, read):
     data["G"] = [[row[i] for i in keep] for row in data["G"]]
     data["J"] = [data["J"][i] for i in keep]
     one, two, three = read(data).contacts
-    assert (one.kind, one.friction, one.spin_friction) == ("hard", 0.8, 0.0)
+    assert one.kind == HardFinger(friction=0.8)
     assert np.array_equal(one.point, [1, 2, 3])
     assert np.array_equal(one.normal, [1, 0, 0])
-    assert (two.kind, two.friction, two.spin_friction, two.point) == ("soft", 0.8, 0.01, None)
-    assert (three.name, three.kind, three.friction, three.normal) == ("C3", "frictionless", 0.0, None)
+    assert (two.kind, two.point) == (SoftFinger(friction=0.8, spin_friction=0.01), None)
+    assert (three.name, three.kind, three.normal) == ("C3", Frictionless(), None)
 
 
 def test_counts_say_what_they_follow_from(data, read):

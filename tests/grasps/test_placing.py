@@ -8,11 +8,13 @@ from typing import Literal
 
 import numpy as np
 import pytest
+from made_kinds import made_kind
 from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.contact import contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
+from synergrip.grasps.contacts.hard_finger import HardFinger
+from synergrip.grasps.contacts.kind import EXAMPLE_OF
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
 from synergrip.grasps.placing import Touch, place
@@ -22,7 +24,7 @@ from synergrip.linalg import Array, frozen
 FINGERS = 3
 Q = frozen([0.3, 0.7, -0.2, 0.5, 0.1, 0.9])
 SOMEWHERE = frozen([0.01, -0.02, 0.15])
-UNKNOWN = frozen(np.full(3, np.nan))
+UNKNOWN = None
 
 
 class Fingers:
@@ -57,17 +59,38 @@ class Standing:
 
 def _hand(kinematics: Kinematics, joints: int) -> tuple[Hand, SynergySet]:
     synergies = SynergySet(
-        "all", "", tuple(f"s{i}" for i in range(joints)), frozen(np.eye(joints)), frozen(np.zeros(joints)),
-        frozen(np.full(joints, np.inf)),
-    )  # fmt: skip
-    names = tuple(Joint(f"j{i}", "hinge", -3.0, 3.0, np.inf) for i in range(joints))
-    return Hand("fake", "Fake", names, frozen(np.eye(joints)), {}, {"all": synergies}, {}, kinematics), synergies
+        name="all",
+        title="",
+        synergies=tuple(f"s{i}" for i in range(joints)),
+        S=frozen(np.eye(joints)),
+        offset=frozen(np.zeros(joints)),
+        effort_limits=frozen(np.full(joints, np.inf)),
+    )
+    names = tuple(Joint(name=f"j{i}", kind="hinge", lower=-3.0, upper=3.0, torque_limit=np.inf) for i in range(joints))
+    return Hand(
+        name="fake",
+        title="Fake",
+        joints=names,
+        C_q=frozen(np.eye(joints)),
+        pads={},
+        synergy_sets={"all": synergies},
+        postures={},
+        kinematics=kinematics,
+    ), synergies
 
 
 def _touch(i: int, normal: Sequence[float] | Array, kind: str = "hard", point: Sequence[float] = (0, 0, 0)) -> Touch:
-    pad = Pad(f"pad{i}", str(i), frozen(point), frozen(np.asarray(normal) / np.linalg.norm(normal)))
-    rows = len(contact_kind(kind).components)
-    return Touch(f"C{i}", pad, contact_kind(kind), 0.7, 0.004, (1000.0,) * rows, "object", f"contacts.at[{i}]")
+    pad = Pad(
+        name=f"pad{i}", link=str(i), point=frozen(point), normal=frozen(np.asarray(normal) / np.linalg.norm(normal))
+    )
+    return Touch(
+        name=f"C{i}",
+        pad=pad,
+        kind=made_kind(kind, 0.7, 0.004),
+        stiffness=dict.fromkeys(EXAMPLE_OF, 1000.0),
+        normals="object",
+        key=f"contacts.at[{i}]",
+    )
 
 
 def _placed(
@@ -81,7 +104,9 @@ def _placed(
 
 def _ball_on(points: Array, radius: float, inward: Array, **changes: object) -> tuple[Grasp, Object]:
     touches = [replace(_touch(i, n), **changes) for i, n in enumerate(inward)]  # type: ignore[arg-type]
-    return _placed(Object("ball", 0.2, UNKNOWN, Sphere(radius)), touches, Standing(frozen(points)))
+    return _placed(
+        Object(title="ball", mass=0.2, position=UNKNOWN, shape=Sphere(radius)), touches, Standing(frozen(points))
+    )
 
 
 def _on_sphere(centre: Array, radius: float, directions: Sequence[Sequence[float]]) -> tuple[Array, Array]:
@@ -116,7 +141,7 @@ def test_a_ball_that_is_too_small_for_its_pads_is_refused_and_the_smallest_radiu
     with pytest.raises(InputError) as caught:
         _ball_on(points, 0.035, inward)
     (issue,) = caught.value.issues
-    assert issue.key == "object.shape.sphere.radius"
+    assert issue.key == "object.shape.radius"
     assert "radius 35 mm" in issue.message
     assert "radius 40 mm" in issue.message
 
@@ -131,7 +156,9 @@ def test_four_pads_leave_a_ball_only_one_radius(radius: float) -> None:
 def test_an_object_that_is_told_its_place_stays_there() -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04, ABOVE)
     touches = [_touch(i, n) for i, n in enumerate(inward)]
-    _, ball = _placed(Object("ball", 0.2, SOMEWHERE, Sphere(0.04)), touches, Standing(frozen(points)))
+    _, ball = _placed(
+        Object(title="ball", mass=0.2, position=SOMEWHERE, shape=Sphere(0.04)), touches, Standing(frozen(points))
+    )
     assert ball.position is SOMEWHERE
 
 
@@ -147,7 +174,7 @@ def test_normals_come_from_the_surface(
 ) -> None:
     tilted = [np.array(n) + 0.3 * np.ones(3) for n in normals]
     touches = [_touch(i, n) for i, n in enumerate(tilted)]
-    body = Object("thing", 0.1, SOMEWHERE, shape)
+    body = Object(title="thing", mass=0.1, position=SOMEWHERE, shape=shape)
     grasp, _ = _placed(body, touches, Standing(frozen(SOMEWHERE + np.array(points))))
     for contact, normal in zip(grasp.contacts, normals, strict=True):
         assert contact.frame[:, 0] == pytest.approx(np.array(normal), abs=1e-12)
@@ -158,14 +185,14 @@ def test_normals_come_from_the_pads_when_asked() -> None:
     tilted = inward + 0.2 * np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]])
     tilted /= np.linalg.norm(tilted, axis=1, keepdims=True)
     touches = [replace(_touch(i, n), normals="pad") for i, n in enumerate(tilted)]
-    body = Object("ball", 0.2, SOMEWHERE, Sphere(0.04))
+    body = Object(title="ball", mass=0.2, position=SOMEWHERE, shape=Sphere(0.04))
     grasp, _ = _placed(body, touches, Standing(frozen(points)))
     for contact, normal, toward in zip(grasp.contacts, tilted, inward, strict=True):
         assert contact.frame[:, 0] == pytest.approx(normal, abs=1e-12)
         assert contact.frame[:, 0] != pytest.approx(toward, abs=0.05)
 
 
-@pytest.mark.parametrize("body", [None, Object("lump", 0.3, UNKNOWN, None)])
+@pytest.mark.parametrize("body", [None, Object(title="lump", mass=0.3, position=UNKNOWN, shape=None)])
 def test_a_bare_object_sits_in_the_middle_of_its_contacts(body: Object | None) -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04, BELOW)
     touches = [_touch(i, n) for i, n in enumerate(inward)]
@@ -182,7 +209,7 @@ def test_a_bare_object_sits_in_the_middle_of_its_contacts(body: Object | None) -
 def test_a_pad_off_the_surface_is_refused_by_name(gap: float, word: str) -> None:
     points = np.array([[0.02, 0, 0], [-0.02 - gap, 0, 0]])
     touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0))]
-    body = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    body = Object(title="box", mass=0.1, position=frozen(np.zeros(3)), shape=Box((0.04, 0.04, 0.04)))
     if not word:
         assert _placed(body, touches, Standing(frozen(points)))[0].n_c == 2
         return
@@ -199,7 +226,7 @@ def test_a_pad_that_faces_away_is_refused_by_name(shape: Shape | None, normals: 
     inward[2] = -inward[2]
     touches = [replace(_touch(i, n), normals=normals) for i, n in enumerate(inward)]
     with pytest.raises(InputError) as caught:
-        _placed(Object("ball", 0.2, SOMEWHERE, shape), touches, Standing(frozen(points)))
+        _placed(Object(title="ball", mass=0.2, position=SOMEWHERE, shape=shape), touches, Standing(frozen(points)))
     (issue,) = caught.value.issues
     assert issue.key == "contacts.at[2]"
     assert "pad 'pad2' faces away from the object (180 deg" in issue.message
@@ -208,7 +235,7 @@ def test_a_pad_that_faces_away_is_refused_by_name(shape: Shape | None, normals: 
 def test_every_pad_off_the_surface_or_facing_away_is_named_with_its_place() -> None:
     points = np.array([[0.02, 0, 0], [-0.023, 0.001, -1e-18], [0, 0.02, 0.0123]])
     touches = [_touch(0, (-1, 0, 0)), _touch(1, (1, 0, 0)), _touch(2, (0, 1, 0))]
-    body = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    body = Object(title="box", mass=0.1, position=frozen(np.zeros(3)), shape=Box((0.04, 0.04, 0.04)))
     with pytest.raises(InputError) as caught:
         _placed(body, touches, Standing(frozen(points)))
     away, facing = caught.value.issues
@@ -264,7 +291,7 @@ def test_a_joint_that_carries_object_and_fingers_alike_deforms_nothing() -> None
     """Ties the signs of J and G: fingertips that move with the object see no relative motion."""
     grasp, _ = _mixed()
     twist = np.array([0.3, -0.2, 0.5, 1.0, -2.0, 0.7])
-    contacts = [replace(c, kind=contact_kind("hard")) for c in grasp.contacts]
+    contacts = [replace(c, kind=HardFinger(friction=0.7)) for c in grasp.contacts]
     tips = np.concatenate([c.frame.T @ (twist[:3] + np.cross(twist[3:], c.point)) for c in contacts])
     seen = np.concatenate([tips[:3], tips[3:6], [contacts[1].frame[:, 0] @ twist[3:]], tips[6:7]])
     assert grasp.G.T @ twist == pytest.approx(seen, abs=1e-12)
@@ -272,18 +299,20 @@ def test_a_joint_that_carries_object_and_fingers_alike_deforms_nothing() -> None
 
 def test_compliances_friction_and_names_reach_the_grasp() -> None:
     touches = [_touch(i, (-0.8, 0.1, 0.6), kind, (-0.01, 0.004, 0.03)) for i, kind in enumerate(MIXED)]
-    touches[1] = replace(touches[1], stiffness=(2000.0, 500.0, np.inf, 2.0))
+    touches[0] = replace(touches[0], stiffness={"stiffness": 1000.0, "tangential_stiffness": np.inf})
+    three = {"stiffness": 2000.0, "tangential_stiffness": 500.0, "spin_stiffness": 2.0}
+    touches[1] = replace(touches[1], stiffness=three)
     hand, synergies = _hand(Fingers(), 6)
-    synergies = replace(synergies, S=frozen(np.ones((6, 1))), synergies=("close",))
+    synergies = replace(synergies, S=frozen(np.ones((6, 1))), synergies=("close",), effort_limits=None)
     C_q, C_z = frozen(np.diag(np.arange(6.0))), frozen([[0.3]])
     grasp = place("a title", hand, synergies, Q, None, touches, C_q, C_z).grasp
-    assert np.diag(grasp.C_s) == pytest.approx([1e-3, 1e-3, 1e-3, 5e-4, 2e-3, 0, 0.5, 1e-3])
+    assert np.diag(grasp.C_s) == pytest.approx([1e-3, 0, 0, 5e-4, 2e-3, 2e-3, 0.5, 1e-3])
     assert np.array_equal(grasp.C_q, C_q)
     assert np.array_equal(grasp.C_z, C_z)
     assert (grasp.title, grasp.joints, grasp.synergies) == ("a title", hand.joint_names, ("close",))
     assert grasp.S.shape == (6, 1)
-    assert [(c.name, c.kind.name, c.friction, c.spin_friction) for c in grasp.contacts] == [
-        (f"C{i}", kind, 0.7, 0.004) for i, kind in enumerate(MIXED)
+    assert [(c.name, c.kind) for c in grasp.contacts] == [
+        (f"C{i}", made_kind(kind, 0.7, 0.004)) for i, kind in enumerate(MIXED)
     ]
     assert grasp.lambda_0 is None
     assert np.array_equal(grasp.w_0, np.zeros(6))
@@ -307,7 +336,7 @@ def test_a_round_pad_touches_where_the_ball_is_nearest_and_carries_the_contact_t
     touches = [replace(t, pad=replace(t.pad, radius=radius)) for t in touches]
     tips = np.array([m.position for m in fingers.at(Q, [(t.pad.link, t.pad.point) for t in touches])])
     size = float(np.linalg.norm(tips - tips.mean(axis=0), axis=1).max())
-    grasp, ball = _placed(Object("ball", 0.2, UNKNOWN, Sphere(1.2 * size)), touches, fingers)
+    grasp, ball = _placed(Object(title="ball", mass=0.2, position=UNKNOWN, shape=Sphere(1.2 * size)), touches, fingers)
     for i, (contact, rows, tip) in enumerate(zip(grasp.contacts, grasp.rows, tips, strict=True)):
         inward = (ball.position - tip) / np.linalg.norm(ball.position - tip)
         assert np.linalg.norm(ball.position - tip) == pytest.approx(1.2 * size + radius, abs=1e-9)
@@ -328,9 +357,9 @@ def test_gaps_are_those_between_the_pads_and_the_surface() -> None:
     touches[1] = replace(touches[1], pad=replace(touches[1].pad, radius=0.005))
     hand, synergies = _hand(Standing(frozen(points)), 6)
     none = frozen(np.zeros((6, 6)))
-    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    cube = Object(title="box", mass=0.1, position=frozen(np.zeros(3)), shape=Box((0.04, 0.04, 0.04)))
     assert place("", hand, synergies, Q, cube, touches, none, none).gaps == pytest.approx((3e-4, -1e-4, 0), abs=1e-15)
-    bare = Object("mass", 0.1, frozen(np.zeros(3)), None)
+    bare = Object(title="mass", mass=0.1, position=frozen(np.zeros(3)), shape=None)
     assert place("", hand, synergies, Q, bare, touches, none, none).gaps == (None, None, None)
 
 
@@ -344,7 +373,9 @@ def _unaimed(i: int, radius: float = 0.0) -> Touch:
 def test_a_pad_without_a_normal_pushes_into_the_object_from_any_side(shape: Shape | None, radius: float) -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04 + radius, ABOVE)
     touches = [_unaimed(i, radius) for i in range(3)]
-    grasp, _ = _placed(Object("ball", 0.2, SOMEWHERE, shape), touches, Standing(frozen(points)))
+    grasp, _ = _placed(
+        Object(title="ball", mass=0.2, position=SOMEWHERE, shape=shape), touches, Standing(frozen(points))
+    )
     for contact, point, normal in zip(grasp.contacts, points, inward, strict=True):
         assert contact.frame[:, 0] == pytest.approx(normal, abs=1e-12)
         assert contact.point + SOMEWHERE == pytest.approx(point + radius * normal, abs=1e-12)
@@ -353,22 +384,26 @@ def test_a_pad_without_a_normal_pushes_into_the_object_from_any_side(shape: Shap
 def test_a_pad_without_a_normal_at_the_centre_of_a_bare_mass_pushes_nowhere() -> None:
     points = SOMEWHERE + np.array([[0, 0, 0], [0.01, 0, 0]])
     with pytest.raises(InputError, match="pad 'pad0' is at the centre of the object; give the contact's normal"):
-        _placed(Object("mass", 0.2, SOMEWHERE, None), [_unaimed(0), _unaimed(1)], Standing(frozen(points)))
+        _placed(
+            Object(title="mass", mass=0.2, position=SOMEWHERE, shape=None),
+            [_unaimed(0), _unaimed(1)],
+            Standing(frozen(points)),
+        )
 
 
 def test_the_normals_that_are_known_put_a_ball_on_its_side() -> None:
     points, inward = _on_sphere(SOMEWHERE, 0.04, ABOVE)
     touches = [_unaimed(0), _unaimed(1), _touch(2, inward[2])]
-    assert _placed(Object("ball", 0.2, UNKNOWN, Sphere(0.04)), touches, Standing(frozen(points)))[1].position == (
-        pytest.approx(SOMEWHERE, abs=1e-9)
-    )
+    assert _placed(
+        Object(title="ball", mass=0.2, position=UNKNOWN, shape=Sphere(0.04)), touches, Standing(frozen(points))
+    )[1].position == (pytest.approx(SOMEWHERE, abs=1e-9))
 
 
 @pytest.mark.parametrize(("apart", "refused"), [(0.0, True), (0.09e-3, True), (0.11e-3, False)])
 def test_two_contacts_on_the_same_spot_are_refused_with_both_names(apart: float, refused: bool) -> None:
     points = np.array([[-0.02, 0, 0], [0.02, 0, 0], [0.02, 0.0, apart]])
     touches = [_touch(0, (1, 0, 0)), _touch(1, (-1, 0, 0)), _touch(2, (-1, 0, 0))]
-    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    cube = Object(title="box", mass=0.1, position=frozen(np.zeros(3)), shape=Box((0.04, 0.04, 0.04)))
     if not refused:
         assert _placed(cube, touches, Standing(frozen(points)))[0].n_c == 3
         return
@@ -384,6 +419,6 @@ def test_round_pads_meet_on_the_spot_where_they_touch_and_not_at_their_centres()
     points = np.array([[-0.02, 0, 0], [0.025, 0, 0], [0.03, 0, 0]])
     touches = [_touch(0, (1, 0, 0)), _touch(1, (-1, 0, 0)), _touch(2, (-1, 0, 0))]
     touches[1:] = [replace(t, pad=replace(t.pad, radius=r)) for t, r in zip(touches[1:], (0.005, 0.01), strict=True)]
-    cube = Object("box", 0.1, frozen(np.zeros(3)), Box((0.04, 0.04, 0.04)))
+    cube = Object(title="box", mass=0.1, position=frozen(np.zeros(3)), shape=Box((0.04, 0.04, 0.04)))
     with pytest.raises(InputError, match="contacts 'C1' and 'C2' are on the same spot, 0 mm apart"):
         _placed(cube, touches, Standing(frozen(points)))

@@ -89,7 +89,7 @@ def test_the_forces_on_the_box_are_the_closed_form():
     outcome = plan(problem.grasp, problem.task)
     assert outcome.verdict == "feasible"
     mu, nu, margin, weight = 0.6, 0.005, 0.5, 0.2 * 9.81
-    share = problem.task.times / problem.task.times[-1]
+    share = problem.timed.times / problem.timed.times[-1]
     angle = math.pi * (10 * share**3 - 15 * share**4 + 6 * share**5)
     force_y, force_z = -weight * np.sin(angle), -weight * np.cos(angle)
     height = 0.020 + 0.060 * math.cos(5 * DEG) + 0.042 * math.cos(16.9 * DEG)

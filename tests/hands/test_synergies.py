@@ -176,15 +176,25 @@ def test_postures_the_hand_cannot_take_are_refused(barrett, wish, key, fragment)
 
 
 def test_limits_are_told_in_the_unit_of_the_joint_and_reached_exactly():
-    slide = Joint("rail", "slide", 0.0, 0.02, math.inf)
-    hinge = Joint("turn", "hinge", -1.0, 1.0, math.inf)
+    slide = Joint(name="rail", kind="slide", lower=0.0, upper=0.02, torque_limit=math.inf)
+    hinge = Joint(name="turn", kind="hinge", lower=-1.0, upper=1.0, torque_limit=math.inf)
     assert outside_limits((slide, hinge), np.array([0.02, -1.0]), "k") == []
     (issue,) = outside_limits((slide, hinge), np.array([0.03, 0.0]), "k")
     assert issue.message == "joint 'rail' would be at 30 mm, outside 0 to 20 mm"
 
 
 def test_at_rest_a_hand_is_at_the_offset_of_the_set_inside_its_ranges():
-    joints = (Joint("a", "hinge", -1.0, 1.0, math.inf), Joint("b", "hinge", 0.5, math.inf, math.inf))
+    joints = (
+        Joint(name="a", kind="hinge", lower=-1.0, upper=1.0, torque_limit=math.inf),
+        Joint(name="b", kind="hinge", lower=0.5, upper=math.inf, torque_limit=math.inf),
+    )
     for offset, expected in (([0.2, 0.7], [0.2, 0.7]), ([3, 0], [1, 0.5]), ([-3, 1e9], [-1, 1e9])):
-        chosen = SynergySet("s", "", ("z",), np.ones((2, 1)), np.array(offset), np.full(1, math.inf))
+        chosen = SynergySet(
+            name="s",
+            title="",
+            synergies=("z",),
+            S=np.ones((2, 1)),
+            offset=np.array(offset),
+            effort_limits=np.full(1, math.inf),
+        )
         np.testing.assert_array_equal(resting(joints, chosen), expected)

@@ -112,10 +112,10 @@ def test_a_posture_by_name_is_judged_by_what_each_name_moves(tmp_path: Path) -> 
     np.testing.assert_allclose(posture(made, chosen, {"push": metre, "turn": radian}), [0.01, 0.01, 0.007])
     np.testing.assert_allclose(posture(made, chosen, {"shove": metre, "both": radian})[0], 0.004 + 0.01 + 0.0001)
     assert [key for key, _ in refused(made, {"push": radian, "turn": metre})] == [
-        "hand.posture.push", "hand.posture.turn",
+        "posture.push", "posture.turn",
     ]  # fmt: skip
     assert [key for key, _ in refused(made, {"shove": radian, "both": metre})] == [
-        "hand.posture.shove", "hand.posture.both",
+        "posture.shove", "posture.both",
     ]  # fmt: skip
 
 
@@ -129,7 +129,9 @@ def test_plain_numbers_are_not_judged(tmp_path: Path) -> None:
 def test_a_synergy_slides_if_all_that_it_moves_slides() -> None:
     S = frozen([[1.0, 0.0, 2.0, 0.0], [0.0, 3.0, 1e-9, 0.0], [4.0, 0.0, 0.0, 0.0]])
     names = ("slides", "turns", "both", "nothing")
-    chosen = SynergySet("", "", names, S, frozen(np.zeros(3)), frozen(np.full(4, np.inf)))
+    chosen = SynergySet(
+        name="", title="", synergies=names, S=S, offset=frozen(np.zeros(3)), effort_limits=frozen(np.full(4, np.inf))
+    )
     kinds = synergy_kinds(chosen, ["slide", "hinge", "slide"])
     assert kinds == {"slides": "slide", "turns": "hinge", "both": "hinge", "nothing": "hinge"}
 

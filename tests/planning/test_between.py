@@ -93,7 +93,7 @@ def test_limits_that_are_held_between_the_knots_hold_at_every_instant(goal: str)
 def test_a_straight_load_needs_no_reserve() -> None:
     for name in ("tripod", "barrett-ball-roll"):
         problem = load_problem(name)
-        report, hold = (plan(problem.grasp, replace(problem.task, between=way)) for way in ("report", "hold"))
+        report, hold = (plan(problem.grasp, replace(problem.timed, between=way)) for way in ("report", "hold"))
         assert isinstance(report, Plan)
         assert isinstance(hold, Plan)
         assert report.between is not None

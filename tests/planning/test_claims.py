@@ -80,7 +80,7 @@ def test_a_small_entry_beside_a_large_one_is_compared_with_itself(small: float, 
 def test_what_was_not_compared_is_named(tmp_path: Path) -> None:
     problem, document = _written("tripod")
     (tmp_path / "plan.json").write_text(json.dumps(document | {"my_key": 3}), encoding="utf-8")
-    claims = judge_references(problem.grasp, problem.task, read_references(tmp_path, 4)).claims
+    claims = judge_references(problem.grasp, problem.timed, read_references(tmp_path, problem.grasp)).claims
     assert {"programs", "certificate", "notes", "my_key"} <= set(claims.skipped)
     assert {"lambda", "alpha", "margin", "largest_margin_N", "between", "verdict"} <= set(claims.right)
 
@@ -93,7 +93,7 @@ def test_every_plan_of_ours_claims_what_is_right(name: str, tmp_path: Path) -> N
         return
     write_outcome(tmp_path, outcome_document("", problem.grasp, outcome), outcome, ("json", "csv", "npz"))
     for form in ("plan.json", "plan.csv", "plan.npz"):
-        judgement = judge_references(problem.grasp, problem.task, read_references(tmp_path / form, problem.grasp.n_z))
+        judgement = judge_references(problem.grasp, problem.timed, read_references(tmp_path / form, problem.grasp))
         assert [check.name for check in judgement.checks if not check.passed] == [], form
         assert judgement.claims.right
 
@@ -101,7 +101,7 @@ def test_every_plan_of_ours_claims_what_is_right(name: str, tmp_path: Path) -> N
 def test_the_largest_margin_with_a_reserve_is_compared_too() -> None:
     problem = load_problem("barrett-ball-hold", ["goal={maximise='margin'}"])
     document = document_of(problem)
-    assert problem.task.between == "hold"
+    assert problem.timed.between == "hold"
     assert accepted(problem, document, by_digest=True)
     for factor in (0.999, 1.001):
         other = altered(document, ("largest_margin_N",), factor * document["largest_margin_N"])
@@ -124,7 +124,7 @@ def test_altered_arrays_of_other_files_are_seen(form: str, tmp_path: Path) -> No
         cells = lines[8].split(",")
         cells[3] = repr(1.05 * float(cells[3]))
         path.write_text("\n".join([*lines[:8], ",".join(cells), *lines[9:]]), encoding="utf-8")
-    judgement = judge_references(problem.grasp, problem.task, read_references(path, problem.grasp.n_z))
+    judgement = judge_references(problem.grasp, problem.timed, read_references(path, problem.grasp))
     failed = [check.name for check in judgement.checks if not check.passed]
     assert failed == ["claimed sigma" if form == "npz" else "claimed columns"]
 
@@ -134,7 +134,7 @@ def test_a_file_of_a_no_says_that_there_is_nothing_to_check(tmp_path: Path) -> N
     outcome = plan(problem.grasp, problem.task)
     write_outcome(tmp_path, outcome_document("", problem.grasp, outcome), outcome, ("json",))
     with pytest.raises(InputError) as caught:
-        read_references(tmp_path, 4)
+        read_references(tmp_path, problem.grasp)
     message = caught.value.issues[0].message
     assert "its verdict is 'infeasible' (stage: direction)" in message
     assert "synergrip plan PROBLEM" in message

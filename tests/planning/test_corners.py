@@ -78,7 +78,7 @@ def test_a_spike_between_the_knots_is_kept_when_it_is_to_be_held(knots: int, tmp
     assert outcome.between.exact
     assert outcome.between.corners == (0.3331, 0.3341, 0.3351)
     times = np.union1d(np.linspace(0, 1, 2001), [0.3331, 0.3341, 0.3351])
-    course_of = problem.task.course
+    course_of = problem.timed.course
     assert course_of is not None
     load = course_of.load_at(times)
     assert load is not None
@@ -97,12 +97,12 @@ def test_a_spike_is_told_when_it_is_only_to_be_reported(tmp_path: Path) -> None:
     told = " ".join(" ".join(between_lines(outcome)).split())
     assert "3 corners between the knots and straight lines from one to the next" in told
     assert "at t = 0.334 s, past its limit of 0.3 N" in told
-    judged = judge_references(problem.grasp, problem.task, References(problem.task.times, outcome.motion.dz_r, {}))
+    judged = judge_references(problem.grasp, problem.timed, References(problem.timed.times, outcome.motion.dz_r, {}))
     assert judged.verdict == "feasible"
     assert judged.between is not None
     assert judged.between.excess == pytest.approx(outcome.between.excess)
     problem = spiked(tmp_path, 6.0, 5)
-    strict = judge_references(problem.grasp, problem.task, References(problem.task.times, outcome.motion.dz_r, {}))
+    strict = judge_references(problem.grasp, problem.timed, References(problem.timed.times, outcome.motion.dz_r, {}))
     assert [check.name for check in strict.checks if not check.passed] == ["between the knots"]
 
 
@@ -137,7 +137,7 @@ WEIGHT = "wrench = [0, 0, -1, 0, 0, 0]"
 
 def test_a_step_is_off_just_before_it_begins_and_just_after_it_ends(tmp_path: Path) -> None:
     problem = held(tmp_path, f"knots = 6\n{WEIGHT}\npush = [{STEP.format(5, 0.4, 0.6)}]")
-    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    intersample = intersample_of(problem.timed, analyse(problem.grasp))
     assert intersample is not None
     assert intersample.exact
     near = np.abs(intersample.grid.times - 0.5) < 0.11
@@ -172,7 +172,7 @@ class Bumped:
 def test_a_no_that_only_the_reserve_makes_is_no_proof(cap: float, verdict: type, tmp_path: Path) -> None:
     problem = held(tmp_path, f"knots = 5\n{WEIGHT}", limits=f"normal_force = '{cap} N'")
     bump = Bumped()
-    task = replace(problem.task, wrench=frozen(bump.load_at(problem.task.times)), course=bump)
+    task = replace(problem.timed, wrench=frozen(bump.load_at(problem.timed.times)), course=bump)
     outcome = plan(problem.grasp, task)
     assert isinstance(outcome, verdict)
     if isinstance(outcome, Unknown):
@@ -184,7 +184,7 @@ def test_flat_lines_of_a_table_are_no_corners_and_lines_on_the_knots_neither(tmp
     forces[42, 0] = 3.0
     written(tmp_path / "load.csv", np.linspace(0, 1, 101), forces)
     problem = held(tmp_path, "knots = 11\nwrench = 'load.csv'")
-    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    intersample = intersample_of(problem.timed, analyse(problem.grasp))
     assert intersample is not None
     assert intersample.corners.times == pytest.approx([0.41, 0.42, 0.43])
 
@@ -204,7 +204,7 @@ def test_jumps_that_meet_are_seen_from_both_sides(tmp_path: Path) -> None:
     """One push ends where another begins: before, both at once, after."""
     push = f"push = [{STEP.format(2, 0.2, 0.4)}, {STEP.format(3, 0.4, 0.8)}]"
     problem = held(tmp_path, f"knots = 6\n{WEIGHT}\n{push}")
-    intersample = intersample_of(problem.task, analyse(problem.grasp))
+    intersample = intersample_of(problem.timed, analyse(problem.grasp))
     assert intersample is not None
     assert intersample.grid.wrench[np.abs(intersample.grid.times - 0.4) < 1e-9, 0].tolist() == [2, 5, 3]
 
@@ -214,9 +214,9 @@ def test_normal_forces_are_those_of_the_statics(tmp_path: Path) -> None:
     outcome = plan(problem.grasp, problem.task)
     assert isinstance(outcome, Plan)
     assert outcome.between is not None
-    looks = intersample_of(problem.task, outcome.analysis)
+    looks = intersample_of(problem.timed, outcome.analysis)
     assert looks is not None
-    dz_r = np.column_stack([np.interp(looks.all.times, problem.task.times, z) for z in outcome.motion.dz_r.T])
+    dz_r = np.column_stack([np.interp(looks.all.times, problem.timed.times, z) for z in outcome.motion.dz_r.T])
     normal = normal_forces(problem.grasp, course(problem.grasp, looks.all.times, dz_r, looks.all.wrench).forces)
     assert outcome.between.usages[1].value == pytest.approx(normal, abs=1e-9)
 

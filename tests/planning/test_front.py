@@ -24,7 +24,7 @@ from synergrip.problems.problem import load_problem
 @pytest.mark.parametrize("name", ["barrett-ball-hold", "utah-mit-ball"])
 def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> None:
     problem = load_problem(name)
-    best = largest(problem.grasp, problem.task)
+    best = largest(problem.grasp, problem.timed)
     assert isinstance(best, Plan)
     points = list(front(best, 5))
     assert len(points) == 5
@@ -33,7 +33,7 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert np.all(np.diff(peaks) > -1e-6 * peaks.max())
     assert np.all(np.diff(peaks, 2) > -1e-5 * peaks.max())  # the trade is convex
     assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.formulation.force_unit)
-    least = plan(problem.grasp, replace(problem.task, goals=goals("peak_force", "effort")))
+    least = plan(problem.grasp, replace(problem.timed, goals=goals("peak_force", "effort")))
     assert isinstance(least, Plan)
     assert peaks[0] == pytest.approx(least.motion.forces[:, problem.grasp.normal_rows].max(), rel=1e-6)
     middle = points[2]
@@ -41,13 +41,13 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     capped = f"limits.normal_force={middle.peak * (1 - 1e-4)} N"
     short = load_problem(name, [capped, f"limits.margin={middle.margin} N"])
     # no less force gives that margin; where curved loads take a reserve, which asks for more, that is not proven
-    assert plan(short.grasp, short.task).verdict == ("unknown" if short.task.between == "hold" else "infeasible")
+    assert plan(short.grasp, short.task).verdict == ("unknown" if short.timed.between == "hold" else "infeasible")
 
 
 def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:
     """Two opposed fingers: margin mu n - load / 2, so the peak is (margin + load / 2) / mu."""
     problem = load_problem("pinch-soft")
-    best = largest(problem.grasp, problem.task)
+    best = largest(problem.grasp, problem.timed)
     assert isinstance(best, Plan)
     points = list(front(best, 4))
     slopes = np.diff([point.peak for point in points]) / np.diff([point.margin for point in points])

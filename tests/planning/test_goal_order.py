@@ -33,6 +33,9 @@ ORDERS = [
     ("travel", "effort"),
     ("references",),
     ("weighted", "travel"),
+    ("steady", "references"),
+    ("margin", "steady", "smooth"),
+    ("smooth", "steady", "torque"),
 ]
 WEIGHTS = {"effort": 1.0, "torque": 0.3, "smooth": 1e-3}
 
@@ -72,6 +75,7 @@ def values(outcome: Plan) -> dict[str, float]:
         "references": squares(motion.dz_r),
         "travel": squares(rates * np.sqrt(h)),
         "smooth": smooth,
+        "steady": squares(np.diff(motion.forces * scale.force, axis=0) / np.sqrt(h)),
         "weighted": weighted,
         **({"centred": _off_centre(outcome)} if "centred" in names_of(outcome.task.goals) else {}),
     }

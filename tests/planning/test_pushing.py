@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from driven_grasp import driven, touch
+from made_kinds import made_kind
 from named_goals import goals
 from random_tasks import random_task_on_grasp
 
@@ -28,9 +29,9 @@ def slippery(rng: np.random.Generator, grasp: Grasp) -> Grasp:
     """The grasp with one contact of next to no friction, its load that which a push of the others leaves."""
     i = int(rng.integers(grasp.n_c))
     mu = float(10 ** rng.uniform(-9, -2))
-    spin = grasp.contacts[i].spin_friction
-    contacts = [replace(c, friction=mu, spin_friction=spin and 0.01 * mu) if c is grasp.contacts[i] else c
-                for c in grasp.contacts]  # fmt: skip
+    one = grasp.contacts[i]
+    kind = made_kind(one.kind.name, mu, 0.01 * mu)
+    contacts = [replace(c, kind=kind) if c is one else c for c in grasp.contacts]
     return replace(grasp, contacts=tuple(contacts))
 
 
@@ -61,7 +62,7 @@ def needle(mu: float) -> tuple[Grasp, Contact]:
 def test_a_contact_that_would_have_to_pull_holds_nothing(mu: float) -> None:
     """A weight hangs on a pull of the top, as no squeeze of 100 N holds it by a friction of 1e-9; or is pushed up."""
     grasp, _ = needle(mu)
-    sides = tuple(replace(c, friction=1e-9) if c.kind.name == "soft" else c for c in grasp.contacts)
+    sides = tuple(replace(c, kind=c.kind.with_friction(1e-9)) if c.kind.name == "soft" else c for c in grasp.contacts)
     grasp = replace(grasp, contacts=sides)
     _, task = random_task_on_grasp(np.random.default_rng(0))
     for weight, verdict in ((-0.69, "infeasible"), (0.69, "feasible")):

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from made_kinds import made_kind
 from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
@@ -166,7 +166,9 @@ def test_reversed_normals_are_the_same_grasp_with_other_signs(seed: int) -> None
     rng = np.random.default_rng(seed)
     grasp = hand_like_grasp(rng)
     root = rng.normal(size=(grasp.n_l, grasp.n_l))
-    grasp = replace(grasp, C_s=frozen(grasp.C_s + 1e-5 * root @ root.T), lambda_0=frozen(rng.normal(size=grasp.n_l)))
+    forces = rng.normal(size=grasp.n_l)
+    start = {"lambda_0": forces, "w_0": -grasp.G @ forces}
+    grasp = replace(grasp, C_s=frozen(grasp.C_s + 1e-5 * root @ root.T), **start)
     grasp = replace(grasp, w_0=frozen(-grasp.G @ grasp.lambda_0))
     chosen = tuple(rng.permutation(grasp.n_c)[:2].tolist())
     other = reversed_normals(grasp, chosen)
@@ -188,7 +190,7 @@ def test_some_of_many_contacts_are_found_by_where_they_point(chosen: tuple[int, 
     contacts = [{"name": f"C{i}", "kind": "hard", "friction": 0.05, "point_m": (-0.03 * n).tolist(),
                  "normal": n.tolist()} for i, n in enumerate(normals)]  # fmt: skip
     made = tuple(
-        Contact(c["name"], contact_kind("hard"), 0.05, 0.0, frozen(-0.03 * n), contact_frame(n))
+        Contact(name=c["name"], kind=made_kind("hard", 0.05, 0.0), point=frozen(-0.03 * n), frame=contact_frame(n))
         for c, n in zip(contacts, normals, strict=True)
     )
     S = np.zeros((18, 6))

@@ -121,7 +121,7 @@ def test_a_finger_with_its_own_linkage_needs_only_what_ties_it_to_the_other_one(
     lines = "\n".join(re.findall(r"\w+ = \{ joint = .*?rigid = false \}", message))
     (tmp_path / "hand.toml").write_text(f"{HAND_TOML}\n[couplings]\n{lines}\n", encoding="utf-8")
     (tmp_path / "off.toml").write_text(problem("hand.toml", off=2), encoding="utf-8")
-    assert plan(*(lambda p: (p.grasp, p.task))(load_problem(tmp_path / "off.toml"))).verdict == "feasible"
+    assert plan(*(lambda p: (p.grasp, p.timed))(load_problem(tmp_path / "off.toml"))).verdict == "feasible"
 
 
 def test_a_finger_that_its_own_pad_stops_is_told_nothing_of_couplings(tmp_path):
@@ -132,4 +132,4 @@ def test_a_finger_that_its_own_pad_stops_is_told_nothing_of_couplings(tmp_path):
     (message,) = messages(tmp_path / "ball.toml")
     assert "'near' does not reach" in message
     assert "rigid" not in message
-    assert "start from another hand.posture" in message
+    assert "start from another posture" in message

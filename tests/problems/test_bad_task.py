@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from task_tables import loads
 
 from synergrip.errors import InputError
-from synergrip.problems.loads import loads
 from synergrip.problems.problem_file import read_problem_file
 from synergrip.reports.text.refusal_text import error_text
 

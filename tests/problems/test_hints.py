@@ -215,7 +215,7 @@ def test_a_goal_set_over_the_files_own_says_how_to_replace_it() -> None:
     issue = refused(HOLD, "goal.maximise=margin")
     assert "drop 'minimise' to keep maximise = \"margin\"" in issue.message
     assert "--set goal={...} replaces the whole table" in issue.message
-    assert load_problem(HOLD, ['goal={maximise="margin"}']).task.goals == (LargestMargin(),)
+    assert load_problem(HOLD, ['goal={maximise="margin"}']).timed.goals == (LargestMargin(),)
 
 
 # gravity and wrench with units
@@ -223,7 +223,7 @@ def test_a_goal_set_over_the_files_own_says_how_to_replace_it() -> None:
 
 def weight(*overrides: str) -> np.ndarray:
     problem: Problem = load_problem(HOLD, overrides)
-    return problem.task.wrench[0]
+    return problem.timed.wrench[0]
 
 
 @pytest.mark.parametrize(

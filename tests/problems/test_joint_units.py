@@ -64,7 +64,7 @@ def place(tmp_path: Path, request: pytest.FixtureRequest) -> Path:
 
 
 def torque(problem: Problem) -> JointTorque:
-    (limit,) = (limit for limit in problem.task.limits if isinstance(limit, JointTorque))
+    (limit,) = (limit for limit in problem.timed.limits if isinstance(limit, JointTorque))
     return limit
 
 
@@ -82,7 +82,7 @@ def test_each_joint_has_its_own_units(place: Path) -> None:
     np.testing.assert_allclose(np.diag(problem.grasp.C_q), [1e-4, 0.02])
     np.testing.assert_array_equal(torque(problem).limit, [3, 2])
     assert torque(problem).unit(problem.grasp) == ""
-    (effort,) = (limit for limit in problem.task.limits if isinstance(limit, ActuatorEffort))
+    (effort,) = (limit for limit in problem.timed.limits if isinstance(limit, ActuatorEffort))
     np.testing.assert_array_equal(effort.limit, [4, 5])
 
 
@@ -92,7 +92,7 @@ def test_slides_have_lengths_and_forces(place: Path) -> None:
     np.testing.assert_allclose(np.diag(problem.grasp.C_q), [1e-4, 1e-4])
     np.testing.assert_array_equal(torque(problem).limit, [3, 3])
     assert torque(problem).unit(problem.grasp) == "N"
-    assert [limit.unit(problem.grasp) for limit in problem.task.limits if isinstance(limit, JointRange)] == ["m"]
+    assert [limit.unit(problem.grasp) for limit in problem.timed.limits if isinstance(limit, JointRange)] == ["m"]
 
 
 @pytest.mark.parametrize(

@@ -21,9 +21,10 @@ from synergrip.problems.problem_file import read_problem_file
 
 HAND = Path(__file__).parents[1] / "data" / "bad_inputs" / "hand.toml"
 AXES = ("x", "y", "z", "rx", "ry", "rz")
-ALL_SQUARES = "{effort=1, torque=2, actuator=3, references=4, travel=5, smooth=6, centred=0.5}"
+ALL_SQUARES = "{effort=1, torque=2, actuator=3, references=4, travel=5, smooth=6, centred=0.5, steady=0.2}"
 SQUARES = {
     "effort": 1.0, "torque": 2.0, "actuator": 3.0, "references": 4.0, "travel": 5.0, "smooth": 6.0, "centred": 0.5,
+    "steady": 0.2,
 }  # fmt: skip
 
 
@@ -147,7 +148,7 @@ def test_limits_on_motion_reach_the_task_with_the_ranges_of_the_hand() -> None:
         "barrett-ball-hold",
         ["limits.synergy_acceleration=[1, 2, 3, 4]", "limits.joint_range=hand", "limits.elastic_motion=1 mm",
          "limits.drift=2 mm", "goal={order=['effort', 'centred']}"],
-    ).task  # fmt: skip
+    ).timed  # fmt: skip
     found = {limit.key: limit for limit in task.limits}
     acceleration, ranges = found["limits.synergy_acceleration"], found["limits.joint_range"]
     assert isinstance(acceleration, SynergyAcceleration)
@@ -167,7 +168,7 @@ def test_tracking_reaches_the_task_and_adds_its_own_limits() -> None:
         "barrett-ball-roll",
         ["task.tracking=compliant", "task.tolerance=0.4 mm", "task.axes=['rx']", "task.drift=3 mm",
          "goal={minimise={effort=1, travel=0.1}}"],
-    ).task  # fmt: skip
+    ).timed  # fmt: skip
     assert (task.tracking, task.tolerance, task.axes, task.drift) == ("compliant", 4e-4, ("rx",), 3e-3)
     assert (names_of(task.goals), weights_of(task.goals)) == (("weighted",), {"effort": 1.0, "travel": 0.1})
     added = {limit.key: limit for limit in task.kept if limit not in task.limits}
@@ -207,7 +208,7 @@ def refused_goal(*overrides: str) -> str:
 
 def test_a_margin_in_an_order_needs_something_that_bounds_it() -> None:
     bounded = ["limits={joint_torque=3}", "goal={order=['margin', 'smooth']}"]
-    assert load_problem("pinch-soft", bounded).task.goals == goals("margin", "smooth")
+    assert load_problem("pinch-soft", bounded).timed.goals == goals("margin", "smooth")
     assert refused_goal("limits={synergy_rate=3}", "goal={order=['margin', 'smooth']}") == "goal.order[0]"
     assert refused_goal("limits={}", "goal={maximise='margin'}") == "goal.maximise"
 

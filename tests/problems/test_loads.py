@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from task_tables import Loads, loads
 
 from synergrip.errors import InputError
-from synergrip.problems.instants import MOVING_KNOTS
-from synergrip.problems.loads import Loads, loads
 from synergrip.problems.task_file import TaskTable
+from synergrip.tasks.knots import MOVING_KNOTS
 
 WRENCH = "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm"
 MOTION = "t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad"
@@ -103,7 +103,7 @@ def test_a_csv_file_must_cover_the_task(
         _loads(tmp_path, **{key: name}, **keys)
     (issue,) = caught.value.issues
     assert issue.key == f"task.{key}"
-    assert f"the file covers {times[0]:g} s to {times[-1]:g} s" in issue.message
+    assert f"the table covers {times[0]:g} s to {times[-1]:g} s" in issue.message
 
 
 def test_two_csv_files_must_both_cover_the_task(tmp_path: Path) -> None:

@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from synergrip.errors import InputError
-from synergrip.problems.contact_list import LinkPlace
+from synergrip.grasps.contact_at import LinkPlace
+from synergrip.grasps.contacts.frictionless import Frictionless
+from synergrip.grasps.contacts.soft_finger import SoftFinger
 from synergrip.problems.problem_file import problem_schema, read_problem_file
 
 DATA = Path(__file__).parent.parent / "data" / "bad_inputs"
@@ -108,7 +110,7 @@ def test_contacts_take_the_defaults_and_may_differ():
         "contact=[{at='finger2/tip', name='thumb', friction=0.3, stiffness='rigid'},"
         "{at='palm', model='soft', spin_friction='5 mm', spin_stiffness='2 N m/rad', normals='pad'}]",
     ).contact_list()
-    assert [(c.name, c.at, c.model, c.friction) for c in contacts] == [
+    assert [(c.name, c.at, c.kind.name, c.kind.least_friction) for c in contacts] == [
         ("finger1/tip", "finger1/tip", "hard", 0.6),
         ("thumb", "finger2/tip", "hard", 0.3),
         ("finger3/tip", "finger3/tip", "hard", 0.6),
@@ -116,7 +118,8 @@ def test_contacts_take_the_defaults_and_may_differ():
     ]
     assert [c.stiffness for c in contacts] == [8000.0, math.inf, 8000.0, 8000.0]
     assert [c.tangential_stiffness for c in contacts] == [4000.0] * 4
-    assert [(c.spin_friction, c.spin_stiffness) for c in contacts] == [(0.0, 0.0)] * 3 + [(0.005, 2.0)]
+    assert [(c.kind.name, c.spin_stiffness) for c in contacts] == [("hard", None)] * 3 + [("soft", 2.0)]
+    assert contacts[3].kind == SoftFinger(friction=0.6, spin_friction=0.005)
     assert [c.normals for c in contacts] == ["object"] * 3 + ["pad"]
     assert contacts[1].key == "contacts.at[1]"
     assert contacts[3].key == "contact[1].at"
@@ -131,7 +134,7 @@ def test_a_contact_on_a_link_has_a_place_of_its_own():
     assert [c.name for c in contacts] == ["finger1/tip", "palm", "again"]
     assert contacts[1].at == LinkPlace("palm", (0.001, -0.02, 0.0), (0.0, 0.6, -0.8), 0.005)
     assert contacts[2].at == LinkPlace("palm", (0.0, 0.0, 0.0), None, 0.0)
-    assert [c.friction for c in contacts] == [0.6, 0.2, 0.6]
+    assert [c.kind.least_friction for c in contacts] == [0.6, 0.2, 0.6]
     assert [c.key for c in contacts] == ["contacts.at[0]", "contact[0].link", "contact[1].link"]
 
 
@@ -141,7 +144,7 @@ def test_the_stiffness_across_follows_the_stiffness_along():
 
 def test_a_frictionless_contact_ignores_the_default_friction_but_has_none_of_its_own():
     palm = "contact=[{at='palm', model='frictionless'%s}]"
-    assert read(palm % "").contact_list()[3].friction == 0.0
+    assert read(palm % "").contact_list()[3].kind == Frictionless()
     assert issues(palm % ", friction=1") == [("contact[0].friction", "a frictionless contact has no friction")]
 
 

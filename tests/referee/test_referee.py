@@ -10,6 +10,7 @@ import pytest
 from named_goals import goals
 from random_grasps import random_grasp
 from random_tasks import hand_like_grasp, random_task_on_grasp
+from scipy import sparse
 
 from synergrip.conic.decide import decide, judge
 from synergrip.conic.formulation import Formulation, formulate
@@ -27,6 +28,7 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, SelfCheckError, SynergripError
+from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
@@ -86,7 +88,8 @@ def test_redundancy_is_settled_alike(seed: int) -> None:
     formulation = outcome.formulation
     v = np.hstack([outcome.alpha / formulation.force_unit, np.zeros_like(outcome.gamma)])
     n_alpha = outcome.alpha.shape[1]
-    formulation = formulation.around(v, np.eye(formulation.n_v)[:, n_alpha:])
+    open_ = sparse.kron(sparse.eye_array(len(v)), np.eye(formulation.n_v)[:, n_alpha:], format="csc")
+    formulation = formulation.around(v, sparse.csc_matrix(open_))
     watching = [limit for limit in outcome.task.limits if isinstance(limit, SynergyReference | SynergyRate)]
     loosened = tuple(limit.loosened(LOOSE) for limit in watching)
     question = Question(formulation, loosened, LeastReconfiguration())
@@ -164,11 +167,8 @@ class _Strange:
     key: str = "limits.strange"
 
 
-@dataclass(frozen=True)
-class _Sticky:
-    name: str = "sticky"
-    components: tuple[str, ...] = ("n", "t", "o")
-    selection = frozen(np.eye(3, 6))
+class _Sticky(HardFinger):
+    name = "sticky"
 
 
 def test_what_has_no_formula_is_refused_by_name() -> None:
@@ -183,8 +183,8 @@ def test_what_has_no_formula_is_refused_by_name() -> None:
 def test_a_contact_kind_without_formula_is_refused_by_name() -> None:
     grasp, task = random_task_on_grasp(np.random.default_rng(0))
     analysis = analyse(grasp)
-    odd = replace(grasp, contacts=(replace(grasp.contacts[0], kind=_Sticky()), *grasp.contacts[1:]))
-    with pytest.raises(SynergripError, match="'sticky'"):
+    odd = replace(grasp, contacts=(replace(grasp.contacts[0], kind=_Sticky(friction=0.5)), *grasp.contacts[1:]))
+    with pytest.raises(SynergripError, match="contact kind _Sticky"):
         referee(replace(analysis, response=replace(analysis.response, grasp=odd)), task)
 
 

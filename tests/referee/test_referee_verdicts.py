@@ -11,7 +11,7 @@ from random_tasks import hand_like_grasp, random_task_on_grasp
 
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.grasps.contacts.contact import contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
+from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.planning.planning import plan
@@ -38,7 +38,7 @@ def test_the_referee_equals_a_closed_form() -> None:
     angles = [0.0, 2 * np.pi / 3, 4 * np.pi / 3]
     contacts = tuple(
         replace(
-            grasp.contacts[0], name=f"C{i}", friction=0.5, kind=contact_kind("hard"),
+            grasp.contacts[0], name=f"C{i}", kind=HardFinger(friction=0.5),
             point=frozen([0.02 * np.cos(a), 0.02 * np.sin(a), 0.0]),
             frame=contact_frame(np.array([-np.cos(a), -np.sin(a), 0.0])),
         )

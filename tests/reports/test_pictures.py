@@ -32,7 +32,7 @@ from synergrip.reports.pictures.motions import motions
 from synergrip.reports.pictures.scene import arrows, spin_arcs
 from synergrip.reports.pictures.sheet import Sheet, write_picture
 from synergrip.reports.pictures.skeleton import skeleton
-from synergrip.reports.pictures.solids import lines, outline
+from synergrip.reports.pictures.solids import outline
 from synergrip.reports.pictures.steps import DEGREE, LARGEST_TURN, MILLIMETRE, PLAIN, SHARE, steps, unit_of
 from synergrip.reports.pictures.synergies import draw_synergies
 from synergrip.reports.pictures.variance import draw_variance
@@ -133,7 +133,14 @@ def test_steps_are_in_the_units_of_the_joints_they_move(barrett: Hand) -> None:
 
 def columns(S: Array) -> SynergySet:
     names = tuple(f"s{i + 1}" for i in range(S.shape[1]))
-    return SynergySet("made", "", names, frozen(S), frozen(np.zeros(len(S))), frozen(np.full(S.shape[1], math.inf)))
+    return SynergySet(
+        name="made",
+        title="",
+        synergies=names,
+        S=frozen(S),
+        offset=frozen(np.zeros(len(S))),
+        effort_limits=frozen(np.full(S.shape[1], math.inf)),
+    )
 
 
 def test_a_turn_in_place_has_a_largest_step_and_nothing_has_none(barrett: Hand) -> None:
@@ -214,7 +221,7 @@ def test_outlines_have_the_area_of_the_shadow(name: str) -> None:
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_lines_run_on_the_surface_within_the_outline(name: str) -> None:
-    shape, drawn = SHAPES[name], lines(SHAPES[name])
+    shape, drawn = SHAPES[name], SHAPES[name].lines()
     assert drawn
     edge = outline(shape, VIEW)
     for angle in np.linspace(0, 2 * np.pi, 73):  # no point is farther out than the outline, in any direction

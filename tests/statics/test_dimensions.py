@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made_kinds import made_kind
 from random_grasps import random_grasp
 
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.problems.problem import Problem, load_problem
@@ -59,7 +59,7 @@ def test_table_two_of_the_paper() -> None:
 
 @pytest.mark.parametrize(("name", "model"), [("table2-hard-motors", SOFT), ("table2-soft-motors", HARD)])
 def test_contacts_of_another_kind_have_the_rows_of_a_problem_that_has_them(name: str, model: list[str]) -> None:
-    kind = contact_kind(model[0].split("=")[1])
+    kind = made_kind(model[0].split("=")[1], 0.5, 0.01)
     formed, expected = with_kind(load_problem(name).grasp, kind), load_problem(name, model).grasp
     assert formed is not None
     assert formed.components == expected.components
@@ -70,7 +70,7 @@ def test_contacts_of_another_kind_have_the_rows_of_a_problem_that_has_them(name:
 @pytest.mark.parametrize("kind", ["hard", "soft"])
 def test_the_force_map_is_the_contact_motion_that_no_rigid_motion_follows(kind: str) -> None:
     """With the compliances of the table, in coordinates without units: nothing but geometry decides."""
-    grasp = with_kind(load_problem("barrett-ball-hold").grasp, contact_kind(kind))
+    grasp = with_kind(load_problem("barrett-ball-hold").grasp, made_kind(kind, 0.5, 0.01))
     assert grasp is not None
     response = respond(grasp)
     JS = (grasp.J @ grasp.S) / response.scale.force[:, None]

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made_kinds import made_kind, spin_of
 from random_grasps import compliance, random_grasp
 
 from synergrip.errors import NotRestrainedError, RigidContactError
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.statics import coordinates, respond, subspaces
@@ -97,17 +97,26 @@ def test_internal_forces_need_no_load_and_the_reaction_balances_it(seed: int) ->
 
 def moved_frame(grasp: Grasp, shift: np.ndarray, length: float, force: float) -> Grasp:
     """The same grasp with another origin of B and other units of length and force."""
-    contacts = tuple(replace(c, point=frozen(length * (c.point + shift)), spin_friction=length * c.spin_friction)
-                     for c in grasp.contacts)  # fmt: skip
+    contacts = tuple(
+        replace(
+            c, point=frozen(length * (c.point + shift)), kind=made_kind(c.kind.name, c.friction, length * spin_of(c))
+        )
+        for c in grasp.contacts
+    )
     unit = np.array(
         [1.0 if c != "m" else 1.0 / length for _, c in grasp.components]
     )  # spin rows turn, they do not move
     J = length * unit[:, None] * grasp.J
     size = length / force * np.outer(unit, unit)
     return replace(
-        grasp, contacts=contacts, G=grasp_matrix(contacts), J=frozen(J), C_s=frozen(size * grasp.C_s),
-        C_q=frozen(grasp.C_q / (force * length)), C_z=frozen(grasp.C_z / (force * length)),
-    )  # fmt: skip
+        grasp,
+        contacts=contacts,
+        G=grasp_matrix(contacts),
+        J=frozen(J),
+        C_s=frozen(size * grasp.C_s),
+        C_q=frozen(grasp.C_q / (force * length)),
+        C_z=frozen(grasp.C_z / (force * length)),
+    )
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -139,14 +148,30 @@ def test_references_do_not_depend_on_where_the_object_frame_is(seed: int) -> Non
 
 def pinch(kind: str) -> Grasp:
     contacts = tuple(
-        Contact(name, contact_kind(kind), 0.5, 0.005 if kind == "soft" else 0.0, frozen(point), contact_frame(normal))
+        Contact(
+            name=name,
+            kind=made_kind(kind, 0.5, 0.005 if kind == "soft" else 0.0),
+            point=frozen(point),
+            frame=contact_frame(normal),
+        )
         for name, point, normal in (("left", [-0.02, 0, 0], [1, 0, 0]), ("right", [0.02, 0, 0], [-1, 0, 0]))
     )
     G = grasp_matrix(contacts)
     n = G.shape[1]
-    return Grasp("pinch", contacts, G, frozen(np.eye(n)), frozen(np.eye(n)), frozen(1e-3 * np.eye(n)),
-                 frozen(np.zeros((n, n))), frozen(np.zeros((n, n))), None, frozen([0, 0, -1, 0.1, 0, 0]),
-                 tuple(f"q{i}" for i in range(n)), tuple(f"z{i}" for i in range(n)))  # fmt: skip
+    return Grasp(
+        title="pinch",
+        contacts=contacts,
+        G=G,
+        J=frozen(np.eye(n)),
+        S=frozen(np.eye(n)),
+        C_s=frozen(1e-3 * np.eye(n)),
+        C_q=frozen(np.zeros((n, n))),
+        C_z=frozen(np.zeros((n, n))),
+        lambda_0=None,
+        w_0=frozen([0, 0, -1, 0.1, 0, 0]),
+        joints=tuple(f"q{i}" for i in range(n)),
+        synergies=tuple(f"z{i}" for i in range(n)),
+    )
 
 
 def test_two_hard_fingers_leave_the_rotation_about_their_line() -> None:

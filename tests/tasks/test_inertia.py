@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from task_tables import Loads, loads
 
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
 from synergrip.linalg import Array, frozen
-from synergrip.problems.loads import Loads, loads, palm_motion
+from synergrip.problems.loads import palm_of
 from synergrip.problems.motion_tables import PalmTable
 from synergrip.problems.task_file import TaskTable
-from synergrip.tasks.inertia import uniform_tensor
 from synergrip.tasks.profiles import Rise
 
 AXIS = np.array([1.0, -2.0, 0.5]) / np.linalg.norm([1.0, -2.0, 0.5])
@@ -27,7 +27,7 @@ BOX = Turned(Box((0.02, 0.06, 0.15)), turn(tuple(AXIS[::-1]), 0.7))
 
 
 def _thing(mass: float = 0.4, shape: Shape | None = None) -> Object:
-    return Object("thing", mass, frozen(CENTRE), shape)
+    return Object(title="thing", mass=mass, position=frozen(CENTRE), shape=shape)
 
 
 def _loads(body: Object | None, mass: float = 0.4, **keys: Any) -> Loads:
@@ -55,7 +55,7 @@ def _second_difference(position: Any, time: float, step: float = 1e-3) -> Array:
 
 @pytest.mark.parametrize("name", ["min-jerk", "cubic"])
 def test_the_acceleration_of_a_point_of_the_palm_is_that_of_its_way_through_the_world(name: Any) -> None:
-    motion = palm_motion(PalmTable.model_validate({**PALM, "profile": name}), 0.0, 0.8)
+    motion = palm_of(PalmTable.model_validate({**PALM, "profile": name})).motion(0.0, 0.8)
     found = motion.acceleration(CENTRE, TIMES)
 
     def position(time: float) -> Array:
@@ -71,7 +71,7 @@ def test_the_acceleration_of_a_point_of_the_palm_is_that_of_its_way_through_the_
 def test_force_and_moment_are_the_rates_of_momentum(name: Any) -> None:
     """Newton and Euler in the world: f = -m p'', m = -dL/dt, L = R I R' omega; seen from the palm."""
     body = _thing(shape=BOX)
-    tensor = body.mass * uniform_tensor(BOX)
+    tensor = body.mass * BOX.inertia
     wrench = _load(_loads(body, palm={**PALM, "profile": name}), TIMES)
 
     def angular_momentum(time: float) -> Array:
@@ -102,7 +102,7 @@ def test_a_shift_alone_gives_minus_mass_times_acceleration_in_closed_form() -> N
 
 def test_a_palm_that_swings_presses_the_object_outward() -> None:
     """At the middle of a min-jerk turn by 2 rad in 1 s: omega = 1.875 * 2, no tangential force."""
-    body = Object("thing", 0.5, frozen([0.0, 0.2, 0.0]), None)
+    body = Object(title="thing", mass=0.5, position=frozen([0.0, 0.2, 0.0]), shape=None)
     palm = {"axis": "z", "turn": "2 rad", "inertia": True}
     wrench = _load(_loads(body, palm=palm, duration="1 s"), np.array([0.5]))
     assert wrench == pytest.approx(np.array([[0, 0.5 * 3.75**2 * 0.2, 0, 0, 0, 0]]), abs=1e-12)
@@ -136,8 +136,8 @@ def test_tensors_are_the_second_moments_of_points_inside(shape: Shape) -> None:
         [p for p in np.stack(np.meshgrid(line, line, line), -1).reshape(-1, 3) if shape.surface(p)[0] < 0]
     )
     expected = np.mean((points**2).sum(axis=1)) * np.eye(3) - points.T @ points / len(points)
-    assert uniform_tensor(shape) == pytest.approx(expected, abs=0.05 * np.trace(expected))
-    assert np.trace(uniform_tensor(shape)) == pytest.approx(np.trace(expected), rel=0.02)
+    assert shape.inertia == pytest.approx(expected, abs=0.05 * np.trace(expected))
+    assert np.trace(shape.inertia) == pytest.approx(np.trace(expected), rel=0.02)
 
 
 def test_without_a_shape_the_object_is_a_point_mass() -> None:

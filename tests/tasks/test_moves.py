@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,12 @@ from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.problems.loads import moved, palm_motion
+from synergrip.problems.loads import move_of, palm_of, task_of
 from synergrip.problems.motion_tables import MoveTable, PalmTable
+from synergrip.problems.task_file import TaskTable
 from synergrip.tasks.moves import Moves
 from synergrip.tasks.profiles import PROFILES, Rise
+from synergrip.tasks.stated import Setting
 
 TIMES = np.linspace(0.0, 2.0, 401)
 
@@ -24,11 +27,15 @@ def rise(name: Any, times: Array) -> Array:
 
 
 def turned(gravity: Array, palm: PalmTable, times: Array) -> Array:
-    return palm_motion(palm, float(times[0]), float(times[-1])).seen(gravity, times)
+    return palm_of(palm).motion(float(times[0]), float(times[-1])).seen(gravity, times)
 
 
 def _palm(**keys: Any) -> PalmTable:
     return PalmTable.model_validate(keys)
+
+
+def _at(wanted: Moves, times: Array) -> Array:
+    return wanted.over(Setting(float(times[0]), float(times[-1]))).at(times)
 
 
 def _moves(*tables: dict[str, Any]) -> tuple[MoveTable, ...]:
@@ -36,7 +43,7 @@ def _moves(*tables: dict[str, Any]) -> tuple[MoveTable, ...]:
 
 
 def _moved(*tables: dict[str, Any]) -> Moves:
-    return moved(_moves(*tables), float(TIMES[0]), float(TIMES[-1]))
+    return Moves(tuple(map(move_of, _moves(*tables))))
 
 
 @pytest.mark.parametrize("name", list(PROFILES))
@@ -93,7 +100,7 @@ def test_a_profile_depends_on_the_share_of_the_time_that_has_passed(name: str) -
 
 def test_min_jerk_is_the_default() -> None:
     default = _moved({"axis": "x", "lift": "1 m"})
-    assert default.at(TIMES)[:, 0] == pytest.approx(rise("min-jerk", TIMES))
+    assert _at(default, TIMES)[:, 0] == pytest.approx(rise("min-jerk", TIMES))
 
 
 @pytest.mark.parametrize("name", list(PROFILES))
@@ -116,11 +123,11 @@ def test_moves_along_axes_add_up() -> None:
         {"axis": "z", "lift": "10 mm", "profile": "linear"},
         {"axis": [0, 3, 4], "lift": "5 mm", "roll": "90 deg", "profile": "cubic"},
     )
-    assert not wanted.along_modes
+    assert wanted.kind == "motion"
     linear, cubic = rise("linear", TIMES), rise("cubic", TIMES)
     expected = np.outer(linear, [0, 0, 0.01, 0, 0, 0])
     expected += np.outer(cubic, [0, 0.003, 0.004, 0, 0.6 * np.pi / 2, 0.8 * np.pi / 2])
-    assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
+    assert _at(wanted, TIMES) == pytest.approx(expected, abs=1e-15)
 
 
 def test_moves_along_modes_fill_their_columns_and_add_up() -> None:
@@ -129,15 +136,16 @@ def test_moves_along_modes_fill_their_columns_and_add_up() -> None:
         {"mode": 1, "amplitude": "-1 mm", "profile": "cubic"},
         {"mode": 3, "amplitude": "1 mm", "profile": "linear"},
     )
-    assert wanted.along_modes
+    assert wanted.kind == "mode moves"
     expected = np.column_stack([-0.001 * rise("cubic", TIMES), np.zeros(len(TIMES)), 0.003 * rise("linear", TIMES)])
-    assert wanted.at(TIMES) == pytest.approx(expected, abs=1e-15)
+    assert _at(wanted, TIMES) == pytest.approx(expected, abs=1e-15)
 
 
 @pytest.mark.parametrize("turned_round", [False, True])
 def test_moves_along_axes_and_modes_do_not_mix(turned_round: bool) -> None:
     moves = _moves({"axis": "z", "lift": "1 mm"}, {"mode": 1, "amplitude": "1 mm"})
+    table = TaskTable(move=moves[::-1] if turned_round else moves)
     with pytest.raises(InputError) as caught:
-        moved(moves[::-1] if turned_round else moves, 0.0, 1.0)
+        task_of(table, Path())
     assert caught.value.issues[0].key == "task.move"
     assert "cannot be mixed" in caught.value.issues[0].message

@@ -23,15 +23,14 @@ from palm_paths import (
     write_path,
 )
 from scipy.spatial.transform import Rotation
+from task_tables import loads
 
-from synergrip.documents.time_table import MOTION, Table, read_table
+from synergrip.documents.time_table import MOTION, read_table
 from synergrip.files import bundled
 from synergrip.grasps.objects import Sphere
-from synergrip.linalg import Array, frozen
-from synergrip.problems.loads import loads
+from synergrip.linalg import Array
 from synergrip.problems.task_file import TaskTable
-from synergrip.tasks.inertia import uniform_tensor
-from synergrip.tasks.palm_path import PalmPath, palm_path
+from synergrip.tasks.palm_path import PalmSpline, spline
 from synergrip.tasks.profiles import Rise
 
 
@@ -50,9 +49,8 @@ def _course_load(name: Any, **keys: Any) -> Array:
     return load_at(loads(task, Path(), thing_of().mass, thing_of()))
 
 
-def _path(times: Array, positions: Array, rotations: Rotation) -> PalmPath:
-    table = Table(frozen(times), frozen(np.hstack([positions, rotations.as_rotvec()])))
-    return palm_path(table, float(times[0]), float(times[-1]))
+def _path(times: Array, positions: Array, rotations: Rotation) -> PalmSpline:
+    return spline(times, np.hstack([positions, rotations.as_rotvec()]), float(times[0]), float(times[-1]))
 
 
 @pytest.mark.parametrize("name", ["min-jerk", "cubic"])
@@ -85,7 +83,7 @@ def test_a_palm_on_a_circle_presses_the_object_outward(tmp_path: Path) -> None:
     times, rate, radius = np.linspace(0.0, 0.8, 401), 3.0, np.array([0.5, 0.0, 0.0])
     spin = Rotation.from_rotvec(np.outer(rate * times, [0, 0, 1]))
     write_path(tmp_path, times, spin.apply(radius), spin.as_rotvec())
-    omega, tensor = np.array([0, 0, rate]), 0.4 * uniform_tensor(BOX)
+    omega, tensor = np.array([0, 0, rate]), 0.4 * BOX.inertia
     expected = [*(0.4 * rate**2 * (radius + CENTRE)[:2]), 0, *-np.cross(omega, tensor @ omega)]
     assert load_at(path_loads(tmp_path)) == pytest.approx(np.tile(expected, (len(TIMES), 1)), abs=6e-5)
 
@@ -164,5 +162,5 @@ def test_the_bundled_path_is_the_formula_that_it_states() -> None:
     times, step = np.linspace(0.01, 1.49, 200), 1e-4
     behind, here, ahead = (poses(times + shift) for shift in (-step, 0.0, step))
     second = here[1].inv().apply((behind[0] - 2 * here[0] + ahead[0]) / step**2)
-    found = palm_path(table, 0.0, 1.5).acceleration(np.zeros(3), times)
+    found = spline(table.times, table.values, 0.0, 1.5).acceleration(np.zeros(3), times)
     assert found == pytest.approx(second, abs=0.02 * np.abs(second).max())

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from synergrip.documents.time_table import MOTION
 from synergrip.errors import InputError
-from synergrip.problems.instants import MOVING_KNOTS
+from synergrip.tasks.knots import MOVING_KNOTS
 
 
 def test_what_counts_is_the_motion_from_the_start_of_the_task(tmp_path: Path) -> None:
@@ -59,12 +59,12 @@ LINES = np.linspace(0, 1, 6)
 @pytest.mark.parametrize(
     ("times", "turns", "keys", "fragment"),
     [
-        ([0.0], [0], {"inertia": False}, "a path takes at least 2 lines below the header, got 1"),
-        ([0, 0.5, 1], [0, 0, 0], {}, "accelerations, which take at least 4 lines below the header, got 3"),
+        ([0.0], [0], {"inertia": False}, "a path takes at least 2 lines of a pose each, got 1"),
+        ([0, 0.5, 1], [0, 0, 0], {}, "accelerations, which take at least 4 lines of a pose each, got 3"),
         ([0, 0.4, 0.4 + 1e-7, 1], [0] * 4, {}, "at least 1 us apart; after 0.4 s it is 0.1 us"),
         (LINES, [0, 0.1, 0.2, 2.0, 2.1, 2.2], {}, "turns by 103 deg from 0.4 s to 0.6 s, and which way is not clear"),
-        (LINES, LINES, {"duration": "2 s"}, "the file covers 0 s to 1 s, the task 0 s to 2 s"),
-        (LINES + 0.5, LINES, {"knots": 7}, "the file covers 0.5 s to 1.5 s, the task 0 s to 1.5 s"),
+        (LINES, LINES, {"duration": "2 s"}, "the table covers 0 s to 1 s, the task 0 s to 2 s"),
+        (LINES + 0.5, LINES, {"knots": 7}, "the table covers 0.5 s to 1.5 s, the task 0 s to 1.5 s"),
     ],
 )
 def test_a_path_that_does_not_tell_the_motion_is_refused(

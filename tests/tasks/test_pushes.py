@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from task_tables import Loads, loads
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.problems.loads import Loads, loads
 from synergrip.problems.task_file import TaskTable
 
 PUSH = {"force": "3 N", "direction": [0, 3, -4], "at": ["10 mm", "-20 mm", "5 cm"]}

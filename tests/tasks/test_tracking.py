@@ -34,7 +34,7 @@ def _task(values: object, kind: str = "motion", tolerance: float = 0.0) -> Timed
     """A task whose knots are the rows of `values`, under no load."""
     wanted = frozen(values)
     count = len(wanted)
-    task = _tripod()[0].task
+    task = _tripod()[0].timed
     return replace(
         task, times=frozen(np.linspace(0, 1, count)), wrench=frozen(np.zeros((count, 6))), tolerance=tolerance,
         target=Target(kind, wanted, "task.motion"),  # type: ignore[arg-type]
@@ -54,7 +54,7 @@ def test_a_lift_and_a_twist_of_the_tripod_are_read_off() -> None:
 def test_a_motion_made_of_gamma_ucs_gives_its_coordinates_back(seed: int) -> None:
     rng = np.random.default_rng(seed)
     grasp = hand_like_grasp(rng)
-    grasp = replace(grasp, S=frozen(np.eye(grasp.n_q)), C_z=frozen(np.zeros((grasp.n_q, grasp.n_q))))
+    grasp = replace(grasp, S=frozen(np.eye(grasp.n_q)), C_z=0.0, synergies=grasp.joints)
     analysis = analyse(grasp)
     basis = analysis.spaces.Gamma_ucs
     assert basis.shape[1] > 0

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from task_tables import Loads, loads
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array
-from synergrip.problems.instants import MOVING_KNOTS
-from synergrip.problems.loads import Loads, loads
 from synergrip.problems.task_file import TaskTable
+from synergrip.tasks.knots import MOVING_KNOTS
 from synergrip.tasks.profiles import Rise
 
 WAY = [

@@ -55,7 +55,7 @@ def analyse(
         loaded = load_problem(problem, overrides or [])
         found: Analysis | NotRestrainedError
         try:
-            found = work_out(loaded.grasp, loaded.task.wrench)
+            found = work_out(loaded.grasp, loaded.timed.wrench)
         except NotRestrainedError as refusal:
             found = refusal
         except SynergripError as error:

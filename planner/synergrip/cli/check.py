@@ -11,7 +11,7 @@ from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOpti
 
 
 def check(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="A plan folder, .json, .npz, or CSV with t_s,zr_1,...")],
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="A plan folder, .json, .npz, or CSV with t_s,zr_...")],
     problem: ProblemArgument,
     form: FormatOption = Format.TEXT,
     overrides: SetOption = None,
@@ -27,7 +27,7 @@ def check(
 
         loaded = load_problem(problem, overrides or [])
         try:
-            judgement = judge_references(loaded.grasp, loaded.task, read_references(plan, loaded.grasp.n_z))
+            judgement = judge_references(loaded.grasp, loaded.timed, read_references(plan, loaded.grasp))
             code = judgement.exit_code
             show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
         except Refusal as error:

@@ -31,7 +31,7 @@ def front(
         solver, loaded = telling(SOLVERS["clarabel"]), load_problem(problem, overrides or [])
         try:
             with heard():
-                best = largest(loaded.grasp, loaded.task, solver)
+                best = largest(loaded.grasp, loaded.timed, solver)
         except SynergripError as error:
             raise located(loaded, error) from None
         if not isinstance(best, Plan):

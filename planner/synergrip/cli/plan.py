@@ -62,11 +62,12 @@ def plan(
     with answering(form):
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
+        from synergrip.planning.answer import FORMATS
         from synergrip.planning.planning import plan as make
         from synergrip.planning.solvers import answerer
         from synergrip.problems.problem import load_problem
         from synergrip.reports.data.json_plan import outcome_document
-        from synergrip.reports.data.plan_files import FORMATS, refuse_place, write_outcome
+        from synergrip.reports.data.plan_files import refuse_place, write_outcome
         from synergrip.reports.text.text_plan import outcome_text
         from synergrip.signals import held_back
 
@@ -106,7 +107,7 @@ def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) ->
 
     try:
         with heard():
-            return make(problem.grasp, problem.task, answers)
+            return make(problem.grasp, problem.timed, answers)
     except SynergripError as error:
         raise located(problem, error) from None
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import fields, is_dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -98,20 +97,6 @@ def told(value: Any) -> str:
     return f"{float(value):g}" if isinstance(value, np.number) else shown(value)
 
 
-class ByContent:
-    """Values that are equal when they are of one class and all their fields are, arrays number by number."""
-
-    def __eq__(self, other: object) -> bool:
-        """Compare class and fields; what has no fields is equal to itself alone."""
-        if type(self) is not type(other) or not is_dataclass(self):
-            return self is other
-        return _content(self) == _content(other)
-
-    def __hash__(self) -> int:
-        """Return what equal values share."""
-        return hash((type(self), _content(self))) if is_dataclass(self) else object.__hash__(self)
-
-
 class Complete:
     """Classes that say at once, and by name, which of their methods are still to be written."""
 
@@ -125,9 +110,3 @@ class Complete:
         if missing:
             raise InputError.at(cls.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
         return super().__new__(cls)
-
-
-def _content(value: Any) -> tuple[Any, ...]:
-    """Return the fields of a value, arrays as their shape and numbers."""
-    each = (getattr(value, field.name) for field in fields(value))
-    return tuple((part.shape, tuple(part.ravel().tolist())) if isinstance(part, np.ndarray) else part for part in each)

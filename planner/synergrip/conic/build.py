@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 
 from synergrip.conic.assembly import Band, stacked, without_rounding
+from synergrip.conic.basis import in_basis, inverse
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import Limit
@@ -27,38 +27,24 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     rows = _rows(formulation, limits, goal)
     cost = goal.objective(formulation)
     extra = 0 if cost.epigraph is None else 1
-    T, n_v = formulation.knots, formulation.n_v
-    P, linear = _quadratic(cost.squares, T, n_v, extra)
+    T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
+    worth = worth if extra else worth * formulation.divisor
+    P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
     P.data, linear = P.data / worth, linear / worth
-    A = _matrix(rows, T, n_v, extra)
+    A = in_basis(_matrix(rows, T, n_v, extra), basis, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
-    bounds = np.concatenate([np.tile(variable_bounds(formulation, limits), T), np.full(extra, farthest(formulation))])
+    bounds = np.tile(variable_bounds(formulation, limits), T)
+    if basis is not None:
+        bounds = np.asarray(abs(inverse(basis)) @ bounds)
+    bounds = np.concatenate([bounds, np.full(extra, farthest(formulation))])
     blocks = tuple(_block(part, T) for part in rows)
-    program = Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), constant=_constant(cost) / worth)
-    if formulation.time_basis is None:
-        return program
-    return _of_time_basis(program, formulation.time_basis, 1.0 if extra else formulation.divisor)
+    return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), basis, _constant(cost) / worth)
 
 
 def _constant(cost: Objective) -> float:
     return sum(float((part.constant**2).sum()) / 2 for part in cost.squares)
-
-
-def _of_time_basis(program: Program, time_basis: Array, divisor: float) -> Program:
-    """Return the program whose unknowns are coefficients of time_basis in time (T, f), its squares over `divisor`."""
-    extra = len(program.q) - program.knots * program.n_v
-    N = sparse.block_diag(
-        [sparse.kron(time_basis, sparse.eye_array(program.n_v)), sparse.eye_array(extra)], format="csc"
-    )
-    # the coefficients that make v are the pseudo-inverse of the time_basis times v
-    sizes = np.abs(np.linalg.pinv(time_basis)) @ program.unknowns(program.variable_bounds)
-    bounds = np.concatenate([sizes.ravel(), program.variable_bounds[len(program.variable_bounds) - extra :]])
-    P, A = sparse.csc_matrix(N.T @ program.P @ N), sparse.csc_matrix(program.A @ N)
-    P.data /= divisor
-    q, constant = frozen(np.asarray(N.T @ program.q) / divisor), program.constant / divisor
-    return replace(program, P=P, q=q, A=A, variable_bounds=frozen(bounds), time_basis=time_basis, constant=constant)
 
 
 def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.csc_matrix:
@@ -96,12 +82,14 @@ def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list
     return sorted(rows, key=lambda part: part.inside is not None)
 
 
-def _quadratic(squares: Sequence[Squares], knots: int, n_v: int, extra: int) -> tuple[sparse.csc_matrix, Array]:
+def _quadratic(
+    squares: Sequence[Squares], knots: int, n_v: int, extra: int, basis: sparse.csc_matrix | None
+) -> tuple[sparse.csc_matrix, Array]:
     """Return P (n, n) and q (n,) of half the sum of squares, constants left out."""
-    n = knots * n_v + extra
+    n = (knots * n_v if basis is None else basis.shape[1]) + extra
     P, q = sparse.csc_matrix((n, n)), np.zeros(n)
     for part in squares:
         band = Band(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
-        B = stacked([band], knots, n_v, extra)
+        B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
         P, q = P + sparse.csc_matrix(B.T @ B), q + B.T @ part.constant.ravel()
     return P, q

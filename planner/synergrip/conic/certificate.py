@@ -16,6 +16,7 @@ import numpy as np
 from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 PRIMAL_TOLERANCE = 5e-7
 """Largest violation of a cone, in the program's normalised units (1 is the size of the load)."""
@@ -33,8 +34,8 @@ ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
 
-@dataclass(frozen=True)
-class Certificate:
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Value):
     """A claim about a program with the numbers that bear it out, or do not."""
 
     kind: str

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from synergrip.conic.certificate import TIGHT, Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.values import Value
 
 Solver = Callable[[Program, Settings], Solution]
 
@@ -21,8 +22,8 @@ ATTEMPTS = (
 """The retry chain. The first nearly always settles it: programs come normalised, equilibration does more harm."""
 
 
-@dataclass(frozen=True)
-class Decision:
+@dataclass(frozen=True, eq=False, repr=False)
+class Decision(Value):
     """A solver's last claim with its certificate; the verdict is the certificate's."""
 
     goal: str

@@ -11,36 +11,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.conic.affine import Affine as Affine  # limits and goals speak of it beside the formulation
+from synergrip.conic.basis import longest, moves
 from synergrip.conic.intersample import Intersample
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.motion import forces_at_start
+from synergrip.values import Value
 
-ROUNDING = 1e-12
-"""An entry this small beside its row's largest, after a change of directions, is 0."""
-
-
-@dataclass(frozen=True)
-class Affine:
-    """``y_k = matrix @ v_k + constant[k]``."""
-
-    matrix: Array  # (m, n_v)
-    constant: Array  # (T, m)
-
-    def after(self, linear: Array) -> Affine:
-        """Return ``linear @ y`` for linear (p, m)."""
-        return Affine(frozen(linear @ self.matrix), frozen(self.constant @ linear.T))
-
-    def plus(self, known: Array) -> Affine:
-        """Return ``y_k + known[k]`` for known (T, m)."""
-        return replace(self, constant=frozen(self.constant + known))
-
-    def at(self, v: Array) -> Array:
-        """Return y (T, m) at unknowns v (T, n_v)."""
-        return np.asarray(self.constant + v @ self.matrix.T)
+if TYPE_CHECKING:
+    from scipy import sparse
 
 
 @dataclass(frozen=True)
@@ -52,8 +36,8 @@ class Units:
     motion: float = 1.0  # [m]
 
 
-@dataclass(frozen=True)
-class Formulation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Formulation(Value):
     """What the program's unknowns mean."""
 
     response: Response
@@ -74,8 +58,8 @@ class Formulation:
     when that is more."""
     intersample: Intersample | None = None
     """What happens between the knots, when the program is to allow for it."""
-    time_basis: Array | None = None
-    """(T, f) the time_basis in time that the unknowns are made of; None when each knot has its own."""
+    free_basis: sparse.csc_matrix | None = None
+    """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
@@ -90,19 +74,27 @@ class Formulation:
         return int(self.alpha.matrix.shape[1])
 
     @property
+    def unknowns(self) -> int:
+        """Unknowns of all knots."""
+        return self.knots * self.n_v if self.free_basis is None else int(self.free_basis.shape[1])
+
+    @cached_property
     def frees_alpha(self) -> bool:
         """Whether the internal force is an unknown, or a part of it."""
-        return bool(np.any(self.alpha.matrix))
+        return self._frees(self.alpha)
 
-    @property
+    @cached_property
     def frees_beta(self) -> bool:
         """Whether the rigid motion is an unknown, or a part of it."""
-        return bool(np.any(self.beta.matrix))
+        return self._frees(self.beta)
 
-    @property
+    @cached_property
     def frees_gamma(self) -> bool:
         """Whether the redundancy is an unknown, or a part of it."""
-        return bool(np.any(self.gamma.matrix))
+        return self._frees(self.gamma)
+
+    def _frees(self, part: Affine) -> bool:
+        return bool(part.matrix.any()) and (self.free_basis is None or moves(self.free_basis, part.matrix))
 
     @property
     def whole(self) -> Formulation:
@@ -115,13 +107,13 @@ class Formulation:
         matrix = self.whole.beta.matrix
         return frozen(matrix[:, np.any(matrix, axis=0)] / self.whole.units.motion)
 
-    @property
+    @cached_property
     def divisor(self) -> float:
-        """What sums of squares over the knots are divided by when one unknown speaks of all of them.
+        """What sums of squares over the knots are divided by when one unknown speaks of many of them.
 
         As sums they would drown the limits, as averages the limits them; the root between the two was found by trying.
         """
-        return 1.0 if self.time_basis is None else float(np.cbrt(self.knots))
+        return 1.0 if self.free_basis is None else float(np.cbrt(longest(self.free_basis, self.n_v)))
 
     @property
     def force_unit(self) -> float:
@@ -198,24 +190,19 @@ class Formulation:
         sizes = [units.force] * n_alpha + [units.reference] * n_gamma
         return np.array(sizes + [units.motion] * (self.n_v - len(sizes)))
 
-    def around(self, v: Array, free_directions: Array, time_basis: Array | None = None) -> Formulation:
-        """Return what is left of it when all plans are alike but for some directions and time_basis.
+    def around(self, v: Array, free_basis: sparse.csc_matrix) -> Formulation:
+        """Return what is left of it when all plans are alike but for multiples of some changes of the whole plan.
 
-        The unknowns are then what is added to v, as coordinates of the directions.
+        The knots' unknowns are then what is added to v, and they are made of the columns of the basis.
 
         Args:
             v: (T, n_v) one of the plans.
-            free_directions: (n_v, m) orthonormal: in which the unknowns of a knot may still differ.
-            time_basis: (T, f) how the difference may vary in time; None when it may be any at each knot.
+            free_basis: (T n_v, m) orthogonal columns, each a change of the stacked unknowns.
         """
-
-        def left(part: Affine) -> Affine:
-            matrix = part.matrix @ free_directions
-            size = np.abs(part.matrix).max(axis=1, keepdims=True, initial=0.0)
-            return Affine(frozen(np.where(np.abs(matrix) > ROUNDING * size, matrix, 0.0)), frozen(part.at(v)))
-
-        alpha, beta, gamma = (left(part) for part in (self.alpha, self.beta, self.gamma))
-        return replace(self, alpha=alpha, beta=beta, gamma=gamma, time_basis=time_basis, unreduced=self.whole)
+        alpha, beta, gamma = (
+            replace(part, constant=frozen(part.at(v))) for part in (self.alpha, self.beta, self.gamma)
+        )
+        return replace(self, alpha=alpha, beta=beta, gamma=gamma, free_basis=free_basis, unreduced=self.whole)
 
     def parts(self, v: Array) -> tuple[Array, Array, Array]:
         """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.linalg import Array, frozen, interpolated
+from synergrip.values import Value
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -21,8 +22,8 @@ MOST_SAMPLES, LEAST_SAMPLES, SAMPLES_IN_ALL = 16, 4, 4_000
 """Instants looked at in each piece that is curved: fewer in a task of many pieces, which bend less."""
 
 
-@dataclass(frozen=True)
-class Looks:
+@dataclass(frozen=True, eq=False, repr=False)
+class Looks(Value):
     """Load and wish at some instants."""
 
     times: Array  # (J,) [s]
@@ -34,8 +35,8 @@ class Looks:
         return Looks(*(frozen(values[chosen]) for values in (self.times, self.wrench, self.target)))
 
 
-@dataclass(frozen=True)
-class Intersample:
+@dataclass(frozen=True, eq=False, repr=False)
+class Intersample(Value):
     """Loads and wishes at and between the knots."""
 
     grid: Looks

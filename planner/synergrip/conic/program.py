@@ -12,10 +12,12 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.archives import NoArchiveError, read_arrays
+from synergrip.conic.basis import inverse
 from synergrip.conic.rows import Item, Kind
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 
 @dataclass(frozen=True)
@@ -45,12 +47,12 @@ class Block:
         return self.cones * self.dim
 
 
-@dataclass(frozen=True)
-class Program:
+@dataclass(frozen=True, eq=False, repr=False)
+class Program(Value):
     """A second-order cone program with a quadratic objective, and what its rows mean.
 
-    The unknowns are the knots' v_k one after the other, or the coefficients of their time_basis in time one after the
-    other, and then the goal's scalar when it has one.
+    The unknowns are the knots' v_k one after the other, or the coefficients of a basis of these, and then the goal's
+    scalar when it has one.
     """
 
     P: sparse.csc_matrix  # (n, n) symmetric, whole
@@ -63,10 +65,15 @@ class Program:
     """Unknowns at each knot."""
     variable_bounds: Array
     """(n,) every unknown is also bounded by |x| <= these, which the limits imply or no plan exceeds."""
-    time_basis: Array | None = None
-    """(T, f) the time_basis in time that the unknowns of the knots are made of; None when each knot has its own."""
+    basis: sparse.csc_matrix | None = None
+    """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
     constant: float = 0.0
     """Of the objective, so that its value is the goal's: gaps are measured against it."""
+
+    def __repr__(self) -> str:
+        """Return the sizes."""
+        cones, limits = sum(block.cones for block in self.blocks), len({block.limit for block in self.blocks})
+        return f"Program({len(self.q)} unknowns, {len(self.b)} rows in {cones} cones of {limits} limits)"
 
     def slices(self) -> Iterator[tuple[Block, slice]]:
         """Yield each block with its rows."""
@@ -77,16 +84,14 @@ class Program:
 
     def unknowns(self, x: Array) -> Array:
         """Return v (T, n_v) of a solution x (n,)."""
-        if self.time_basis is None:
-            return np.asarray(x[: self.knots * self.n_v]).reshape(self.knots, self.n_v)
-        f = self.time_basis.shape[1]
-        return np.asarray(self.time_basis @ x[: f * self.n_v].reshape(f, self.n_v))
+        stacked = x[: self.knots * self.n_v] if self.basis is None else self.basis @ x[: self.basis.shape[1]]
+        return np.asarray(stacked).reshape(self.knots, self.n_v)
 
     def solution(self, v: Array, scalar: float | None = None) -> Array:
-        """Return x (n,) of unknowns v (T, n_v), the nearest when they are none of the time_basis."""
-        of_knots = v if self.time_basis is None else np.linalg.lstsq(self.time_basis, v, rcond=None)[0]
+        """Return x (n,) of unknowns v (T, n_v), the nearest when they are none of the basis."""
+        stacked = v.ravel() if self.basis is None else inverse(self.basis) @ v.ravel()
         x = np.zeros(len(self.q))
-        x[: of_knots.size] = of_knots.ravel()
+        x[: stacked.size] = stacked
         if scalar is not None:
             x[-1] = scalar
         return x
@@ -105,9 +110,8 @@ class Program:
             "variable_bounds": self.variable_bounds,
             "header": np.array(json.dumps(header)),
         }
-        if self.time_basis is not None:
-            arrays["time_basis"] = self.time_basis
-        for name, matrix in (("P", self.P), ("A", self.A)):
+        matrices = {"P": self.P, "A": self.A} | ({} if self.basis is None else {"basis": self.basis})
+        for name, matrix in matrices.items():
             arrays |= {f"{name}_data": matrix.data, f"{name}_indices": matrix.indices, f"{name}_indptr": matrix.indptr}
         with atomic_path(Path(path)) as temporary, temporary.open("wb") as stream:
             np.savez_compressed(stream, **arrays)  # type: ignore[arg-type]
@@ -140,12 +144,14 @@ class Program:
             )
             for b in header["blocks"]
         )  # fmt: skip
-        matrices = [
-            sparse.csc_matrix((stored[f"{k}_data"], stored[f"{k}_indices"], stored[f"{k}_indptr"]), shape=shape)
-            for k, shape in (("P", (n, n)), ("A", (m, n)))
-        ]
+
+        def matrix(name: str, rows: int, columns: int) -> sparse.csc_matrix:
+            parts = (stored[f"{name}_data"], stored[f"{name}_indices"], stored[f"{name}_indptr"])
+            return sparse.csc_matrix(parts, shape=(rows, columns))
+
+        knots, n_v = header["knots"], header["n_v"]
+        basis = matrix("basis", knots * n_v, len(stored["basis_indptr"]) - 1) if "basis_indptr" in stored else None
         return cls(
-            matrices[0], frozen(stored["q"]), matrices[1], frozen(stored["b"]), blocks,
-            header["knots"], header["n_v"], frozen(stored["variable_bounds"]),
-            frozen(stored["time_basis"]) if "time_basis" in stored else None, header.get("constant", 0.0),
+            matrix("P", n, n), frozen(stored["q"]), matrix("A", m, n), frozen(stored["b"]), blocks,
+            knots, n_v, frozen(stored["variable_bounds"]), basis, header.get("constant", 0.0),
         )  # fmt: skip

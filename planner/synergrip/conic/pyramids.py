@@ -28,6 +28,8 @@ def pyramid(facets: int, dim: int) -> Array:
     ``||(t, o)||``: inscribed. The edges, at the angles j 2 pi / F, lie on the cone; in the middle of a facet only
     ``cos(pi / F)`` of the tangential force is left.
 
+    dim 2: the cone ``|x_1| <= x_0`` is a pyramid itself, whatever `facets` says.
+
     dim 4 (soft finger): the right side above, r, is at least ``||(t, o)||``. The half plane of (r, m), r >= 0, gets
     the right half of a second polygon with M sides, M the least multiple of 4 from F on:
     ``x_0 >= (r cos(phi_k) + m sin(phi_k)) / cos(pi / M)`` for phi_k = (k + 1/2) 2 pi / M with cos(phi_k) > 0. Some
@@ -39,13 +41,15 @@ def pyramid(facets: int, dim: int) -> Array:
 
     Args:
         facets: F, 3 or more.
-        dim: 3 or 4.
+        dim: 2, 3 or 4.
 
     Raises:
         ValueError: fewer facets, another dimension.
     """
-    if facets < FEWEST or dim not in (3, 4):
+    if facets < FEWEST or dim not in (2, 3, 4):
         raise ValueError(f"no pyramid of {facets} facets is inscribed in a cone of dimension {dim}")
+    if dim == 2:
+        return frozen([[1.0, -1.0], [1.0, 1.0]])
     tangential = _normals(facets)
     if dim == 3:
         return frozen(np.column_stack([np.ones(facets), -tangential]))
@@ -70,11 +74,11 @@ def inscribed(rows: Rows, facets: int) -> Rows:
         rows: of a limit or a goal.
         facets: of the pyramid of a hard finger (see `pyramid`).
     """
-    if not rows.friction or rows.kind is not Kind.SECOND_ORDER or rows.dim not in (3, 4):
+    if not rows.friction or rows.kind is not Kind.SECOND_ORDER or rows.dim not in (2, 3, 4):
         return rows
     H = pyramid(facets, rows.dim)
     whole = np.kron(np.eye(len(rows.items)), H)
-    items = tuple(Item(item.name, f"facet {i + 1}") for item in rows.items for i in range(len(H)))
+    items = tuple(Item(item.name, f"{item.side} facet {i + 1}".strip()) for item in rows.items for i in range(len(H)))
     earlier = tuple(replace(part, matrix=frozen(whole @ part.matrix)) for part in rows.earlier)
     return Rows(
         rows.limit, Kind.NONNEGATIVE, 1, items, frozen(whole @ rows.matrix), frozen(rows.constant @ whole.T),

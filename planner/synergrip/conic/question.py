@@ -10,10 +10,11 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Program
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Question:
+@dataclass(frozen=True, eq=False, repr=False)
+class Question(Value):
     """What is asked, in the terms in which a program is built."""
 
     formulation: Formulation

@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.affine import Affine
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Intersample, Looks, knots_in
 from synergrip.conic.rows import Kind, Rows
 from synergrip.linalg import Array, frozen, interpolated

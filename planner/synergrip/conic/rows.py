@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine
+from synergrip.conic.affine import Affine
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -47,8 +48,8 @@ def items_of(names: Iterable[str], side: str = "") -> tuple[Item, ...]:
     return tuple(Item(name, side) for name in names)
 
 
-@dataclass(frozen=True)
-class Earlier:
+@dataclass(frozen=True, eq=False, repr=False)
+class Earlier(Value):
     """What an earlier knot adds to a row: ``weights[k] matrix v_(k-lag)``."""
 
     lag: int
@@ -57,8 +58,8 @@ class Earlier:
     """(K,) one for each of the K knots that have rows."""
 
 
-@dataclass(frozen=True)
-class Rows:
+@dataclass(frozen=True, eq=False, repr=False)
+class Rows(Value):
     """``matrix v_k + epigraph s + constant[k]``, and what earlier knots add, lies in a cone, for each item and knot."""
 
     limit: str

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from synergrip.linalg import Array
+from synergrip.values import Value
 
 
 class Claim(StrEnum):
@@ -17,8 +18,8 @@ class Claim(StrEnum):
     NOTHING = "nothing"
 
 
-@dataclass(frozen=True)
-class Solution:
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(Value):
     """A solver's claim with its numbers."""
 
     claim: Claim

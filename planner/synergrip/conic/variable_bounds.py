@@ -10,8 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
+from synergrip.conic.affine import Affine
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
 from synergrip.conic.limits.limit import Limit
 from synergrip.linalg import Array, split
 
@@ -35,7 +36,7 @@ def variable_bounds(formulation: Formulation, limits: Sequence[Limit]) -> Array:
 
 def farthest(formulation: Formulation) -> float:
     """Return the bound where no limit gives one: `LARGEST`, over the least friction where that is small."""
-    return LARGEST / min(cone_unit(contact.friction) for contact in formulation.response.grasp.contacts)
+    return LARGEST / least_cone_unit(formulation.response.grasp.contacts)
 
 
 def _implied(value: Affine, limit: Array) -> Array:

@@ -40,6 +40,11 @@ class Document:
         """Where each key stands."""
         return positions(self.text, self.path.suffix.lower())
 
+    @property
+    def in_a_file(self) -> bool:
+        """False for values that somebody made in code: they are told by key alone."""
+        return self.path != Path()
+
     @cached_property
     def placed(self) -> bool:
         """Whether places are told by line, and not by key alone."""
@@ -58,11 +63,13 @@ class Document:
         """
         if issue.file:
             return issue
-        found = self.positions.nearest(issue.key) if self.placed else None
+        found = self.positions.nearest(issue.key) if self.placed and self.in_a_file else None
         for override in reversed(self.overrides):
             shared = override.shares(issue.key)
             if shared == override.key or len(shared) > len(found[0] if found else ""):
                 return replace(issue, file=f"--set {override.text}")
+        if not self.in_a_file:
+            return issue
         if found is None:
             return at(self.path, self.lines, issue, 1, 1) if self.placed else replace(issue, file=str(self.path))
         key, place = found
@@ -135,6 +142,19 @@ def parse(document: Document, model: type[Model]) -> Model:
     except ValidationError as error:
         found = [document.locate(issue) for issue in translate(error, model)]
     raise InputError(sorted(found, key=lambda issue: (issue.file, issue.line, issue.column)))
+
+
+def judged(document: Document) -> Document:
+    """Return a document whose values are usable.
+
+    Raises:
+        InputError: numbers that are not finite or too large, tables inside each other without end.
+    """
+    try:
+        _check_values(document)
+    except RecursionError:
+        raise InputError([Issue(TOO_DEEP)]) from None
+    return document
 
 
 def _check_values(document: Document) -> None:

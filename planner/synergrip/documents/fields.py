@@ -25,6 +25,7 @@ from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
 from synergrip.documents.validation import MOST_JUDGED, refusing, shown
 from synergrip.errors import InputError, Issue, raise_issues
+from synergrip.linalg import unit_vector
 
 Schema = dict[str, Any]
 
@@ -205,10 +206,9 @@ def _axis(value: object) -> tuple[float, ...]:
             raise InputError.at("", f"{value!r} is not 'x', 'y', 'z' or a list of 3 numbers")
         return tuple(float(value == name) for name in "xyz")
     direction: tuple[float, ...] = listed(number, value, 3)
-    size = math.hypot(*direction)
-    if size == 0:
+    if not any(direction):
         raise InputError.at("", "an axis needs a direction; all 3 numbers are 0")
-    return tuple(part / size for part in direction)
+    return unit_vector(direction)
 
 
 def _version(value: object) -> int:

@@ -10,6 +10,7 @@ from pathlib import Path
 from synergrip.documents.csv_cells import Cell, CellReader, cells_of
 from synergrip.errors import InputError, shortened, suggest
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 TIME = "t_s"
 WRENCH = ("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")
@@ -20,8 +21,8 @@ SHOWN = 12
 """Names of columns that a message lists."""
 
 
-@dataclass(frozen=True, eq=False)
-class Table:
+@dataclass(frozen=True, eq=False, repr=False)
+class Table(Value):
     """Values at increasing times."""
 
     times: Array  # s

@@ -16,7 +16,7 @@ FLAT = 1e-6
 SETTLED = 1e-15  # [m]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Spread:
     """Pads of distance ``R + r_i`` from the centre: what these equations say within the space the pads span.
 
@@ -99,7 +99,7 @@ def ball_centre(points: Array, radius: float, pads: Array, pushing: Array) -> Ar
     if _miss(points, reach, middle) <= REACH:  # a ball that the pads hold by its equator
         return frozen(middle)
     if rivals or (not len(sides) and flat.height(radius) > 0):
-        message = "the pads do not say on which side of them the ball is; give object.position"
+        message = "the pads do not say on which side of them the ball is; give its position"
         raise InputError.at("object.position", message, on_key=True)
     raise _unfit(points, radius, pads)
 
@@ -131,6 +131,6 @@ def _unfit(points: Array, radius: float, pads: Array) -> InputError:
     named = f": {which} has radius {1e3 * fitting:.4g} mm" if fitting else ""
     message = (
         f"a ball of radius {1e3 * radius:.4g} mm cannot touch all pads in this posture{named}; "
-        "change the radius or the posture, or let hand.close close the hand"
+        "change the radius or the posture, or let the hand close on it (close)"
     )
-    return InputError.at("object.shape.sphere.radius", message)
+    return InputError.at("object.shape.radius", message)

@@ -17,7 +17,7 @@ DEEP = 0.5e-3
 """A line of the skeleton that runs deeper inside the object is told [m]."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _End:
     """An end of a line of the skeleton."""
 

@@ -26,9 +26,7 @@ AT_LIMIT = 1e-12
 """A joint this close to its limit is at it [rad or m, relative to a limit larger than 1]."""
 
 
-def close(
-    hand: Hand, q: Array, direction: Array, body: Object, touches: Sequence[Touch], key: str = "hand.close"
-) -> Array:
+def close(hand: Hand, q: Array, direction: Array, body: Object, touches: Sequence[Touch], key: str = "close") -> Array:
     """Return the joint values (n_q,) at which every pad that `direction` moves touches the object.
 
     All joints follow the direction with one common parameter. When a pad touches, the joints between its link and
@@ -68,9 +66,11 @@ def close(
 def unknown_surface(body: Object) -> Iterator[Issue]:
     """Yield what is missing of an object to close a hand on it: its shape, its position."""
     if body.shape is None:
-        yield Issue("missing; hand.close closes the hand on a shape", key="object.shape", on_key=True)
-    if not np.all(np.isfinite(body.position)):
-        message = "missing; hand.close needs to know where the object is: its centre in the palm frame, 3 lengths"
+        yield Issue("missing; a hand closes on a shape", key="object.shape", on_key=True)
+    if not body.placed:
+        message = (
+            "missing; to close the hand, it must be known where the object is: its centre in the palm frame, 3 lengths"
+        )
         yield Issue(message, key="object.position", on_key=True)
 
 
@@ -129,7 +129,7 @@ class _Closing:
                 touch = self.gaps.touches[pad]
                 yield Issue(
                     f"pad '{touch.pad.name}' is {-1e3 * gap:.3g} mm inside the {self.gaps.shape.title} before the hand "
-                    "closes; start from a more open hand.posture, or move the object",
+                    "closes; start from a more open posture, or move the object",
                     key=touch.key,
                 )
 

@@ -12,9 +12,7 @@ from synergrip.hands.synergies.matrix import coupling_map, joint_vector, names_k
 from synergrip.linalg import Array, frozen
 
 
-def closing_direction(
-    hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "hand.close"
-) -> Array:
+def closing_direction(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "close") -> Array:
     """Return the joint motion (n_q,) of closing by 1.
 
     Args:

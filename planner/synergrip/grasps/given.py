@@ -10,10 +10,9 @@ import numpy as np
 from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import contact_kind
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.matrices import ContactData, Matrices, read_matrices
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.matrices import GivenContact, Matrices, read_matrices
+from synergrip.linalg import Array, cross, frozen
 
 AGREEMENT = 1e-6
 """Relative difference up to which given points and frames agree with G."""
@@ -60,15 +59,20 @@ def given(matrices: Matrices) -> Grasp:
         for k, (data, column, point) in enumerate(zip(matrices.contacts, columns, points, strict=True))
     )
     return Grasp(
-        matrices.title, contacts, matrices.G, matrices.J, matrices.S,
-        matrices.C_s, matrices.C_q, matrices.C_z, matrices.lambda_0, frozen(w_0),
-        tuple(f"q{i + 1}" for i in range(matrices.J.shape[1])), tuple(f"z{i + 1}" for i in range(matrices.S.shape[1])),
+        title=matrices.title, contacts=contacts, G=matrices.G, J=matrices.J, S=matrices.S,
+        C_s=matrices.C_s, C_q=matrices.C_q, C_z=matrices.C_z, lambda_0=matrices.lambda_0, w_0=frozen(w_0),
+        joints=numbered("q", matrices.J.shape[1]), synergies=numbered("z", matrices.S.shape[1]),
     )  # fmt: skip
+
+
+def numbered(letter: str, count: int) -> tuple[str, ...]:
+    """Return the names ``q1, q2, ...`` of joints, or ``z1, z2, ...`` of synergies, that have none."""
+    return tuple(f"{letter}{i + 1}" for i in range(count))
 
 
 def _columns(matrices: Matrices) -> list[Array]:
     """Return the columns of G of each contact."""
-    widths = [len(contact_kind(data.kind).components) for data in matrices.contacts]
+    widths = [len(data.kind.components) for data in matrices.contacts]
     return [np.asarray(part) for part in np.split(matrices.G, np.cumsum(widths)[:-1], axis=1)]
 
 
@@ -133,13 +137,12 @@ def _points(matrices: Matrices, columns: list[Array]) -> list[Array]:
 
 def _moment_system(columns: Array) -> tuple[Array, Array]:
     """Return matrix and right-hand side of ``p x f = m`` for all force columns (f, m) of a contact."""
-    blocks = [[[0.0, f[2], -f[1]], [-f[2], 0.0, f[0]], [f[1], -f[0], 0.0]] for f in columns[:3].T]
-    return np.vstack(blocks), columns[3:].T.ravel()
+    return np.vstack([-cross(f) for f in columns[:3].T]), columns[3:].T.ravel()
 
 
 def _normal_at(matrices: Matrices, k: int) -> str:
     """Return everything in the file whose sign goes with the normal of contact `k`."""
-    row = sum(len(contact_kind(data.kind).components) for data in matrices.contacts[:k])
+    row = sum(len(data.kind.components) for data in matrices.contacts[:k])
     coupled = np.any(np.delete(matrices.C_s[row], row))
     places = [
         *([f"contacts[{k}].normal"] if matrices.contacts[k].normal is not None else []),
@@ -150,7 +153,7 @@ def _normal_at(matrices: Matrices, k: int) -> str:
     return f"{', '.join(places[:-1])} and {places[-1]}"
 
 
-def _contact(data: ContactData, columns: Array, point: Array, normal_at: str) -> Contact:
+def _contact(data: GivenContact, columns: Array, point: Array, normal_at: str) -> Contact:
     """Return a contact; its frame, where not given, is read from its columns of G."""
     force = columns[:3, :3]
     normal = np.array([0.0, 0.0, 1.0])
@@ -160,5 +163,4 @@ def _contact(data: ContactData, columns: Array, point: Array, normal_at: str) ->
         normal = force[:, 0]
     square = force.shape[1] == 3 and np.allclose(force.T @ force, np.eye(3), atol=AGREEMENT)
     frame = frozen(force) if square else contact_frame(normal)
-    kind = contact_kind(data.kind)
-    return Contact(data.name, kind, data.friction, data.spin_friction, frozen(point), frame, normal_at)
+    return Contact(name=data.name, kind=data.kind, point=frozen(point), frame=frame, normal_at=normal_at)

@@ -2,40 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from synergrip.errors import raise_issues
 from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp_judging import Judge
-from synergrip.linalg import Array, block_diagonal, frozen
+from synergrip.grasps.matrix_reading import unbalanced
+from synergrip.linalg import Array, block_diagonal, cross, frozen
+from synergrip.values import ByContent
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
 
+MOST_SHOWN = 6
+"""Contacts that a repr names."""
 
-@dataclass(frozen=True)
-class Grasp:
-    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moment about n]).
 
-    A number in the place of a compliance stands for that times the identity, as in a grasp file.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Grasp(ByContent):
+    """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moments about them]).
+
+    `make_grasp` and `grasp_from_matrices` make one. A number in the place of a compliance stands for that times the
+    identity, as in a grasp file.
     """
 
-    title: str
+    title: str = ""
     contacts: tuple[Contact, ...]
     G: Array  # (6, n_l) grasp matrix about B, axes of N
     J: Array  # (n_l, n_q) hand Jacobian in the contact frames
     S: Array  # (n_q, n_z) synergy matrix
     C_s: Array  # (n_l, n_l) contact compliance [m/N]
-    C_q: Array  # (n_q, n_q) joint compliance [rad/(N m)]
-    C_z: Array  # (n_z, n_z) synergy compliance
-    lambda_0: Array | None
+    C_q: Array = 0.0  # type: ignore[assignment]  # (n_q, n_q) joint compliance [rad/(N m)]
+    C_z: Array = 0.0  # type: ignore[assignment]  # (n_z, n_z) synergy compliance
+    lambda_0: Array | None = None
     """(n_l,) contact forces at the start; None for the elastic reaction to w_0."""
-    w_0: Array
-    """(6,) external wrench on the object at the start."""
+    w_0: Array = field(default_factory=lambda: frozen(np.zeros(6)))
+    """(6,) external wrench on the object at the start: -G lambda_0 where lambda_0 is given."""
     joints: tuple[str, ...]
     synergies: tuple[str, ...]
     held: Held | None = None
@@ -45,11 +51,20 @@ class Grasp:
         """Judge the values as those of a grasp file; a number as a compliance stands for that times the identity.
 
         Raises:
-            InputError: shapes that do not fit each other, numbers that are not finite, names that stand twice.
+            InputError: contacts that are none, shapes that do not fit each other, numbers that are not finite, names
+                that stand twice, forces at the start that w_0 contradicts.
         """
-        judge, n_l = Judge("Grasp"), sum(contact.n_rows for contact in self.contacts)
+        judge = Judge("Grasp")
+        contacts = judge.several("contacts", self.contacts, Contact, "Contact(...)")
+        if not judge.issues and not contacts:
+            judge.refuse("contacts", "expected at least one contact")
+        judge.finish()  # all that follows goes by their components
+        n_l = sum(contact.n_rows for contact in contacts)
         n_q, n_z = (np.shape(matrix)[-1] if np.ndim(matrix) == 2 else 0 for matrix in (self.J, self.S))
+        judge.names("contacts", [contact.name for contact in contacts])
         kept = {
+            "title": judge.text("title", self.title),
+            "contacts": contacts,
             "G": judge.array("G", self.G, (6, n_l), ": a column for each force component of the contacts"),
             "J": judge.array("J", self.J, (n_l, n_q), ": a row for each force component of the contacts"),
             "S": judge.array("S", self.S, (n_q, n_z), ": a row for each joint, as J has columns"),
@@ -58,13 +73,50 @@ class Grasp:
             "C_z": judge.compliance("C_z", self.C_z, n_z),
             "lambda_0": None if self.lambda_0 is None else judge.array("lambda_0", self.lambda_0, (n_l,)),
             "w_0": judge.array("w_0", self.w_0, (6,)),
+            "joints": judge.named("joints", self.joints, n_q, "joint"),
+            "synergies": judge.named("synergies", self.synergies, n_z, "synergy"),
         }
-        judge.names("contacts", [contact.name for contact in self.contacts])
-        judge.names("joints", self.joints)
-        judge.names("synergies", self.synergies)
-        raise_issues(judge.issues)
+        if not judge.issues and self.lambda_0 is not None:
+            G, lambda_0, w_0 = (np.asarray(kept[name]) for name in ("G", "lambda_0", "w_0"))
+            if message := unbalanced(G, lambda_0, w_0):
+                judge.refuse("w_0", f"{message}; give w_0 = -G @ lambda_0, or leave lambda_0 out")
+        judge.finish()
         for name, value in kept.items():
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        """Return title, contacts and sizes, in one line."""
+        contacts = ", ".join(f"{contact.name} ({contact.kind.name})" for contact in self.contacts[:MOST_SHOWN])
+        more = f" and {self.n_c - MOST_SHOWN} more" if self.n_c > MOST_SHOWN else ""
+        sizes = f"n_l x n_q x n_z = {self.n_l} x {self.n_q} x {self.n_z}"
+        return f"<Grasp {self.title!r}: contacts {contacts}{more}; {sizes}>"
+
+    def replace(
+        self,
+        *,
+        friction: float | None = None,
+        contact: Mapping[str, ContactKind] | None = None,
+        mass: float | None = None,
+        **others: Any,
+    ) -> Grasp:
+        """Return the grasp with something changed.
+
+        Args:
+            friction: coefficient of friction of all contacts that have one.
+            contact: the kind of some contacts, by name.
+            mass: of the object [kg].
+            **others: ``title``, ``C_s``, ``C_q``, ``C_z``, ``w_0``, ``lambda_0``, ``S`` and other fields.
+
+        Raises:
+            InputError: a name or value that is none, a mass where there is no object, a kind of other components than
+                the matrices have.
+
+        Example:
+            >>> slippery = grasp.replace(friction=0.3, contact={"thumb": HardFinger(friction=0.6)})  # doctest: +SKIP
+        """
+        from synergrip.grasps.variations import varied
+
+        return varied(self, friction=friction, contact=contact, mass=mass, others=others)
 
     @property
     def n_c(self) -> int:
@@ -114,7 +166,7 @@ def grasp_matrix(contacts: Sequence[Contact]) -> Array:
     The contact twist of an object that moves with (v, omega) about B is
     ``R' (v + omega x p)``, ``R' omega`` with R = (n, t, o).
     """
-    complete = [_to_contact_frame(c.frame) @ np.block([[np.eye(3), -_cross(c.point)], [np.zeros((3, 3)), np.eye(3)]])
+    complete = [_to_contact_frame(c.frame) @ np.block([[np.eye(3), -cross(c.point)], [np.zeros((3, 3)), np.eye(3)]])
                 for c in contacts]  # fmt: skip
     return frozen((selection_matrix(contacts) @ np.vstack(complete)).T)
 
@@ -127,7 +179,3 @@ def hand_jacobian(contacts: Sequence[Contact], jacobians: Sequence[Array]) -> Ar
 
 def _to_contact_frame(frame: Array) -> Array:
     return block_diagonal([frame.T, frame.T])
-
-
-def _cross(p: Array) -> Array:
-    return np.array([[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]])

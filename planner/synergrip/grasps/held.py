@@ -14,10 +14,11 @@ from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies.matrix import ranges_of_followers
 from synergrip.hands.undriven import undriven_notes
 from synergrip.linalg import Array
+from synergrip.values import ByContent
 
 
-@dataclass(frozen=True)
-class Held:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Held(ByContent):
     """What holds the object: a hand in a posture."""
 
     hand: Hand

@@ -4,51 +4,72 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, create_model
 
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
+from synergrip.documents.judging import Arguments
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
-from synergrip.grasps.contacts.kinds import KINDS
-from synergrip.grasps.matrix_reading import Count, MatrixReader
+from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS, described_parameter
+from synergrip.grasps.matrix_reading import Count, MatrixReader, unbalanced
 from synergrip.linalg import Array, frozen
+from synergrip.values import ByContent
 
 MOST_CONTACTS = 250
 UNIT = 1e-6  # how far the length of a normal may be from 1
-NO_LOAD = 1e-12  # N: a wrench that counts as none
-BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative
 
 
-@dataclass(frozen=True, eq=False)
-class ContactData:
-    """One contact of a grasp given as matrices."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GivenContact(ByContent):
+    """One contact of a grasp given as matrices; place and normal are in G, too, and may be left out.
+
+    Args:
+        name: of the contact.
+        kind: such as ``SoftFinger(friction=0.8, spin_friction=0.01)``.
+        point: (3,) position, if known [m].
+        normal: (3,) unit vector toward the object, if known.
+
+    Raises:
+        InputError: a value that is none.
+    """
 
     name: str
-    kind: str
-    """A name of `grasps.kinds.KINDS`."""
-    friction: float
-    """Coulomb coefficient; 0 for a frictionless contact."""
-    spin_friction: float  # m
-    """Spin moment carried for each newton of normal force; 0 unless soft."""
-    point: Array | None  # m
-    """(3,) position, if known."""
-    normal: Array | None
-    """(3,) unit vector toward the object, if known."""
+    kind: ContactKind
+    point: Array | None = None
+    normal: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Judge the values."""
+        judge = Arguments("GivenContact")
+        judge.text("name", self.name, empty=False)
+        judge.one("kind", self.kind, ContactKind, "HardFinger(friction=0.6)")
+        for name in ("point", "normal"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, judge.array(name, getattr(self, name), (3,)))
+        if self.normal is not None and not judge.issues and abs(np.linalg.norm(self.normal) - 1) > UNIT:
+            judge.refuse("normal", f"expected a unit vector, got length {np.linalg.norm(self.normal):.9g}")
+        judge.finish()
+
+    @property
+    def friction(self) -> float:
+        """Coulomb coefficient; 0 for a frictionless contact."""
+        return self.kind.least_friction
 
 
-@dataclass(frozen=True, eq=False)
-class Matrices:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Matrices(ByContent):
     """The statics of a grasp, in SI units; contact rows (n, t, o [, moment about n]), normals toward the object."""
 
     title: str
-    contacts: tuple[ContactData, ...]
+    contacts: tuple[GivenContact, ...]
     G: Array
     """(6, n_l) grasp matrix."""
     J: Array
@@ -61,11 +82,11 @@ class Matrices:
     """(n_q, n_q) joint compliance."""
     C_z: Array
     """(n_z, n_z) synergy compliance."""
-    lambda_0: Array | None
+    lambda_0: Array | None = None
     """(n_l,) initial contact forces of the hand on the object, if given."""
-    w_0: Array | None
+    w_0: Array | None = None
     """(6,) initial external wrench, if given."""
-    expect: dict[str, Any]
+    expect: Mapping[str, Any] = field(default_factory=dict)
     """The expected answers, as they stand in the file."""
 
 
@@ -77,40 +98,53 @@ def _kind(value: object) -> str:
     return value
 
 
-class ContactFile(Table):
-    """A contact as it stands in the file."""
+class ContactFileBasics(Table):
+    """What a contact of any kind has in the file."""
 
     name: Name = Field(description="name of the contact")
-    kind: Annotated[str, Written(_kind, {"enum": list(KINDS)})] = Field(description="hard, soft or frictionless")
-    friction: Number | None = Field(default=None, description="coefficient of friction; not for a frictionless contact")
-    spin_friction_m: Positive | None = Field(
-        default=None, description="moment about the normal per normal force, for soft contacts, in metres"
-    )
+    kind: Annotated[str, Written(_kind, {"enum": list(KINDS)})] = Field(description=f"kind: {', '.join(KINDS)}")
     point_m: Vector | None = Field(default=None, description="position in metres")
     normal: Vector | None = Field(default=None, description="unit normal toward the object")
 
     def issues(self) -> Iterable[Issue]:
-        """Refuse a friction that the kind of contact cannot have, and a normal that is no unit vector."""
-        if self.friction is None and self.kind != "frictionless":
-            yield Issue(f"missing key 'friction' (a {self.kind} contact needs it)", key="friction", on_key=True)
-        elif self.friction is not None and (self.friction < 0 or (self.friction == 0 and self.kind != "frictionless")):
-            hint = "; for no friction use kind 'frictionless'" if self.kind != "frictionless" else ""
-            yield Issue(f"must be greater than 0, got {self.friction:g}{hint}", key="friction")
-        if self.kind == "soft" and self.spin_friction_m is None:
-            yield Issue("missing key 'spin_friction_m' (a soft contact needs it)", key="spin_friction_m", on_key=True)
+        """Refuse parameters that the kind of contact cannot have or lacks, and a normal that is no unit vector."""
+        parameters = KINDS[self.kind].parameters
+        friction = getattr(self, "friction", None)
+        if friction is not None and (friction < 0 or (friction == 0 and parameters)):
+            hint = "; for no friction use kind 'frictionless'" if parameters else ""
+            yield Issue(f"must be greater than 0, got {friction:g}{hint}", key="friction")
+        for each in parameters:
+            if getattr(self, each.key) is None:
+                yield Issue(f"missing key '{each.key}' (a {self.kind} contact needs it)", key=each.key, on_key=True)
         if self.normal is not None and abs(math.hypot(*self.normal) - 1) > UNIT:
             yield Issue(f"expected a unit vector, got length {math.hypot(*self.normal):.9g}", key="normal")
 
-    def data(self) -> ContactData:
-        """Return the contact as plain values."""
-        return ContactData(
+    def data(self) -> GivenContact:
+        """Return the contact as a value."""
+        kind = KINDS[self.kind]
+        return GivenContact(
             name=self.name,
-            kind=self.kind,
-            friction=0.0 if self.kind == "frictionless" else self.friction or 0.0,
-            spin_friction=(self.spin_friction_m or 0.0) if self.kind == "soft" else 0.0,
+            kind=kind.taking({each.name: getattr(self, each.key) for each in kind.parameters}),
             point=None if self.point_m is None else frozen(self.point_m),
             normal=None if self.normal is None else frozen(self.normal),
         )
+
+
+if TYPE_CHECKING:
+    ContactFile = ContactFileBasics
+else:  # the parameters are those that the kinds say they have
+    ContactFile = create_model(
+        "ContactFile",
+        __base__=ContactFileBasics,
+        __doc__="A contact as it stands in the file.",
+        **{
+            each.key: (
+                (Number if each.name == "friction" else Positive) | None,
+                Field(default=None, description=described_parameter(each) + (", in metres" if each.length else "")),
+            )
+            for each in PARAMETERS.values()
+        },
+    )
 
 
 Raw = Annotated[Any, Written(lambda value: value, array_of(array_of(NUMBER)))]
@@ -192,8 +226,10 @@ def _read(document: Document, contacts: tuple[ContactFile, ...] | None, reader: 
         return None
     if lambda_0 is not None and w_0 is not None:
         _judge_balance(G, lambda_0, w_0, reader)
-    touching = tuple(contact.data() for contact in contacts)
-    return Matrices(data.get("title", ""), touching, G, J, S, C_s, C_q, C_z, lambda_0, w_0, data.get("expect", {}))
+    return Matrices(
+        title=data.get("title", ""), contacts=tuple(contact.data() for contact in contacts), G=G, J=J, S=S,
+        C_s=C_s, C_q=C_q, C_z=C_z, lambda_0=lambda_0, w_0=w_0, expect=data.get("expect", {}),
+    )  # fmt: skip
 
 
 def _rows(contacts: tuple[ContactFile, ...]) -> Count:
@@ -205,10 +241,5 @@ def _rows(contacts: tuple[ContactFile, ...]) -> Count:
 
 
 def _judge_balance(G: Array, lambda_0: Array, w_0: Array, reader: MatrixReader) -> None:
-    residual = w_0 + G @ lambda_0
-    size = np.linalg.norm(w_0) + np.linalg.norm(np.abs(G) @ np.abs(lambda_0))
-    if np.linalg.norm(residual) > BALANCE * size + NO_LOAD:
-        worst = int(np.argmax(np.abs(residual)))
-        name = ("f_x", "f_y", "f_z", "m_x", "m_y", "m_z")[worst]
-        unit = "N" if worst < 3 else "N m"
-        reader.refuse("w_0", f"w_0 = -G lambda_0 does not hold: {name} is off by {residual[worst]:.6g} {unit}")
+    if message := unbalanced(G, lambda_0, w_0):
+        reader.refuse("w_0", message)

@@ -12,6 +12,8 @@ from synergrip.documents.validation import shown
 from synergrip.errors import Issue
 from synergrip.linalg import Array, frozen
 
+NO_LOAD = 1e-12  # N: a wrench that counts as none
+BALANCE = 1e-6  # how far w_0 may be from -G lambda_0, relative
 LARGEST_SIDE = 1000  # rows or columns
 MOST_ISSUES = 20  # of one matrix
 LARGEST_COMPLIANCE = 1e9  # m/N, rad/(N m): nothing that yields more holds anything
@@ -160,3 +162,15 @@ def least_scaled_eigenvalue(matrix: Array) -> float:
         return 0.0
     scale = np.sqrt(np.where(diagonal > 0, diagonal, np.abs(matrix).max() or 1.0))
     return float(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0])
+
+
+def unbalanced(G: Array, lambda_0: Array, w_0: Array) -> str:
+    """Return how far w_0 is from the ``-G lambda_0`` that contact forces at the start balance; empty when it is not."""
+    residual = w_0 + G @ lambda_0
+    size = np.linalg.norm(w_0) + np.linalg.norm(np.abs(G) @ np.abs(lambda_0))
+    if np.linalg.norm(residual) <= BALANCE * size + NO_LOAD:
+        return ""
+    worst = int(np.argmax(np.abs(residual)))
+    name = ("f_x", "f_y", "f_z", "m_x", "m_y", "m_z")[worst]
+    unit = "N" if worst < 3 else "N m"
+    return f"w_0 = -G lambda_0 does not hold: {name} is off by {residual[worst]:.6g} {unit}"

@@ -1,101 +1,57 @@
-"""What is grasped: a mass, a centre, and optionally a shape with a surface."""
+"""What is grasped: a mass, a centre, and optionally a shape with a surface, which may be turned."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
+from synergrip.documents.judging import Arguments
+from synergrip.grasps.shapes.box import Box as Box
+from synergrip.grasps.shapes.cylinder import Cylinder as Cylinder
+from synergrip.grasps.shapes.shape import Shape as Shape
+from synergrip.grasps.shapes.shape import Size
+from synergrip.grasps.shapes.sphere import Sphere as Sphere
+from synergrip.linalg import Array, cross, frozen
+from synergrip.values import ByContent
 
-
-class Shape(Protocol):
-    """A solid centred on the object frame B, with its axes."""
-
-    @property
-    def title(self) -> str:
-        """Short text, for example ``ball r 45.8 mm``."""
-
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return the signed distance of `point` (3,) [m] to the surface (> 0 outside) and the unit outward normal."""
-
-
-@dataclass(frozen=True)
-class Sphere:
-    """A ball."""
-
-    radius: float  # [m]
-
-    @property
-    def title(self) -> str:
-        """Short text."""
-        return f"ball r {self.radius * 1e3:.3g} mm"
-
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and outward normal; at the centre itself the normal is z."""
-        length = float(np.linalg.norm(point))
-        normal = point / length if length > 0 else np.array([0.0, 0.0, 1.0])
-        return length - self.radius, normal
-
-
-@dataclass(frozen=True)
-class Box:
-    """A box with faces normal to the axes."""
-
-    size: tuple[float, float, float]  # edge lengths [m]
-
-    @property
-    def title(self) -> str:
-        """Short text."""
-        return "box " + " x ".join(f"{edge * 1e3:.3g}" for edge in self.size) + " mm"
-
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and the normal of the nearest face (of the corner direction outside an edge)."""
-        over = np.abs(point) - np.array(self.size) / 2
-        outside = np.maximum(over, 0.0)
-        distance = float(np.linalg.norm(outside))
-        if distance > 0:
-            return distance, np.sign(point) * outside / distance
-        face = int(np.argmax(over))
-        normal = np.zeros(3)
-        normal[face] = 1.0 if point[face] >= 0 else -1.0
-        return float(over[face]), normal
-
-
-@dataclass(frozen=True)
-class Cylinder:
-    """A cylinder about z."""
-
-    radius: float  # [m]
-    height: float  # [m]
-
-    @property
-    def title(self) -> str:
-        """Short text."""
-        return f"cylinder r {self.radius * 1e3:.3g} x {self.height * 1e3:.3g} mm"
-
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and the normal of the nearest of side and caps."""
-        across = float(np.hypot(point[0], point[1]))
-        side = np.array([point[0] / across, point[1] / across, 0.0]) if across > 0 else np.array([1.0, 0.0, 0.0])
-        cap = np.array([0.0, 0.0, 1.0 if point[2] >= 0 else -1.0])
-        over = np.array([across - self.radius, abs(point[2]) - self.height / 2])
-        outside = np.maximum(over, 0.0)
-        distance = float(np.linalg.norm(outside))
-        if distance > 0:
-            return distance, (outside[0] * side + outside[1] * cap) / distance
-        return (float(over[0]), side) if over[0] >= over[1] else (float(over[1]), cap)
+ROTATION = 1e-9
+"""How far the products of the columns of a rotation may be from those of unit vectors normal to each other."""
 
 
 @dataclass(frozen=True, eq=False)
-class Turned:
-    """A shape turned about its centre."""
+class Turned(Shape, ByContent):
+    """A shape turned about its centre.
+
+    Args:
+        shape: what is turned.
+        rotation: (3, 3) columns: the shape's own axes in those of B.
+
+    Raises:
+        InputError: a shape that is none, a matrix that is no rotation.
+
+    Example:
+        >>> Turned(Cylinder(radius=0.02, height=0.08), turn((1, 0, 0), np.pi / 2)).title
+        'cylinder r 20 x 80 mm (turned)'
+    """
 
     shape: Shape
     rotation: Array
-    """(3, 3) columns: the shape's own axes in those of B."""
+
+    name: ClassVar[str] = "turned"
+    sizes: ClassVar[tuple[Size, ...]] = ()
+
+    def __post_init__(self) -> None:
+        """Judge shape and rotation."""
+        judge = Arguments("Turned")
+        judge.one("shape", self.shape, Shape, "Box(size=(0.04, 0.06, 0.1))")
+        R = judge.array("rotation", self.rotation, (3, 3))
+        if not judge.issues and (not np.allclose(R.T @ R, np.eye(3), rtol=0, atol=ROTATION) or np.linalg.det(R) < 0):
+            judge.refuse("rotation", "is no rotation matrix; turn(axis, angle) makes one")
+        judge.finish()
+        object.__setattr__(self, "rotation", R)
 
     @property
     def title(self) -> str:
@@ -107,21 +63,64 @@ class Turned:
         distance, normal = self.shape.surface(self.rotation.T @ point)
         return distance, self.rotation @ normal
 
+    @property
+    def inertia(self) -> Array:
+        """That of the shape, turned."""
+        return np.asarray(self.rotation @ self.shape.inertia @ self.rotation.T)
+
+    def farthest(self, direction: Array) -> Array:
+        """Return that of the shape, turned."""
+        return np.asarray(self.rotation @ self.shape.farthest(self.rotation.T @ direction))
+
+    def lines(self) -> list[Array]:
+        """Return those of the shape, turned."""
+        return [np.asarray(line @ self.rotation.T) for line in self.shape.lines()]
+
 
 def turn(axis: Sequence[float], angle: float) -> Array:
     """Return the rotation matrix (3, 3) about a unit vector (3,) by `angle` [rad]: the exponential of its cross."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return frozen(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
+    skew = cross(np.asarray(axis, dtype=float))
+    return frozen(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
 
 
-@dataclass(frozen=True)
-class Object:
-    """The grasped object. Its frame B sits at `position`, with the axes of the palm."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Object(ByContent):
+    """The grasped object. Its frame B sits at `position`, with the axes of the palm.
 
-    title: str
-    mass: float  # [kg]
-    position: Array
-    """(3,) centre of mass, and origin of B, in the palm frame [m]."""
-    shape: Shape | None
-    """None for a bare mass and frame."""
+    Args:
+        mass: [kg]; 0 when nothing is said of it, and no gravity and no inertia can be.
+        shape: None for a bare mass and frame.
+        position: (3,) centre of mass, and origin of B, in the palm frame [m]; None while it is unknown, to be found
+            from the contacts.
+        title: for people; that of the shape when absent.
+
+    Raises:
+        InputError: a negative mass, a shape that is none, a position of other than three finite numbers.
+
+    Example:
+        >>> Object(mass=0.2, shape=Sphere(radius=0.05)).title
+        'ball r 50 mm'
+    """
+
+    mass: float = 0.0
+    shape: Shape | None = None
+    position: Array = None  # type: ignore[assignment]  # known wherever a grasp has been made
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        """Judge the values."""
+        judge = Arguments("Object")
+        mass = judge.number("mass", self.mass, at_least=0, unit="kg")
+        if self.shape is not None:
+            judge.one("shape", self.shape, Shape, "Sphere(radius=0.05)")
+        position = None if self.position is None else judge.array("position", self.position, (3,))
+        title = judge.text("title", self.title)
+        judge.finish()
+        object.__setattr__(self, "mass", mass)
+        object.__setattr__(self, "position", position)
+        object.__setattr__(self, "title", title or (self.shape.title if self.shape else "object"))
+
+    @property
+    def placed(self) -> bool:
+        """Whether it is known where it is."""
+        return self.position is not None

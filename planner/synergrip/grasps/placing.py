@@ -2,43 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.ball import REACH, ball_centre
-from synergrip.grasps.contacts.contact import Contact, ContactKind, contact_frame
+from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.objects import Object, Sphere
 from synergrip.hands.hand import Hand, Pad, PointMotion, SynergySet
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, block_diagonal, frozen
+from synergrip.values import ByContent
 
+ALONG = 1e-3
+"""Sine of the angle to the normal below which a direction says nothing of the tangents."""
 SAME_SPOT = 0.1e-3
 """Contacts closer than this are one contact told twice [m]."""
 
 
-@dataclass(frozen=True)
-class Touch:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Touch(ByContent):
     """A pad that touches the object, and how."""
 
     name: str
     pad: Pad
     kind: ContactKind
-    friction: float
-    spin_friction: float  # [m]
-    stiffness: tuple[float, ...]
-    """One for each force component of the kind [N/m, N m/rad]; infinity when rigid."""
+    stiffness: Mapping[str, float]
+    """The entries that the kind takes [N/m, N m/rad]; infinity when rigid."""
     normals: Literal["object", "pad"]
     """Contact normal from the object (its surface, or its centre) or from the pad."""
-    key: str
-    """Key in the problem file, for errors."""
+    key: str = field(default="", compare=False)
+    """Where it stands, for errors: an argument, or a key of the problem file."""
+    tangent: tuple[float, ...] | None = None
+    """(3,) direction that t of the contact follows, in the frame of the link; None for any."""
     aimed: bool = True
     """False for a pad without a normal of its own: it pushes toward the object, and its `normal` is 0."""
 
-    normal_at: str = ""
+    normal_at: str = field(default="", compare=False)
     """Where the normal of the pad is stated, for advice."""
 
     def alone(self, body: Object) -> bool:
@@ -82,11 +86,12 @@ def place(
     moved = [
         moved_to(motion, contact.point + placed.position) for motion, contact in zip(motions, contacts, strict=True)
     ]
-    C_s = np.diag([1.0 / k for touch in touches for k in touch.stiffness])
+    C_s = block_diagonal([touch.kind.compliance(touch.stiffness) for touch in touches])
+    J = hand_jacobian(contacts, [motion.jacobian for motion in moved])
     grasp = Grasp(
-        title, contacts, grasp_matrix(contacts), hand_jacobian(contacts, [m.jacobian for m in moved]),
-        frozen(synergies.S), frozen(C_s), frozen(C_q), frozen(C_z), None, frozen(np.zeros(6)),
-        hand.joint_names, synergies.synergies,
+        title=title, contacts=contacts, G=grasp_matrix(contacts), J=J,
+        S=frozen(synergies.S), C_s=frozen(C_s), C_q=frozen(C_q), C_z=frozen(C_z),
+        joints=hand.joint_names, synergies=synergies.synergies,
     )  # fmt: skip
     return Placed(grasp, placed, gaps)
 
@@ -110,8 +115,8 @@ def same_spots(names: Sequence[str], points: Sequence[Array]) -> Iterator[tuple[
 
 def _position(body: Object | None, touches: Sequence[Touch], motions: Sequence[PointMotion]) -> Object:
     """Return the object where it is said to be, or where the contacts put it."""
-    body = body or Object("object", 0.0, frozen(np.full(3, np.nan)), None)
-    if np.all(np.isfinite(body.position)):
+    body = body or Object()
+    if body.placed:
         return body
     points = np.array([motion.position for motion in motions])
     radii = np.array([touch.pad.radius for touch in touches])
@@ -162,8 +167,23 @@ def _contact(body: Object, touch: Touch, motion: PointMotion) -> tuple[Contact, 
         raise InputError.at(touch.key, message)
     spot = frozen(point + touch.pad.radius * to_surface)
     stated = touch.normal_at if touch.alone(body) and not touch.pad.radius else ""  # a round one would touch elsewhere
-    frame = contact_frame(normal)
-    return Contact(touch.name, touch.kind, touch.friction, touch.spin_friction, spot, frame, stated), gap
+    frame = contact_frame(normal, _tangent(touch, motion, normal))
+    return Contact(name=touch.name, kind=touch.kind, point=spot, frame=frame, normal_at=stated), gap
+
+
+def _tangent(touch: Touch, motion: PointMotion, normal: Array) -> Array | None:
+    """Return the direction (3,) that t follows, in the palm frame; None for any.
+
+    Raises:
+        InputError: it is along the normal, which says nothing of t.
+    """
+    if touch.tangent is None:
+        return None
+    found = motion.rotation @ np.array(touch.tangent)
+    if np.linalg.norm(np.cross(found, normal)) < ALONG * np.linalg.norm(normal):
+        message = f"the tangent of contact '{touch.name}' is along its normal; give a direction across it"
+        raise InputError.at(touch.key, message)
+    return np.asarray(found)
 
 
 def _reached(title: str, touch: Touch, gap: float) -> float:

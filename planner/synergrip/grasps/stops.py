@@ -17,7 +17,7 @@ from synergrip.linalg import Array
 
 Flags = NDArray[np.bool_]
 
-ELSE = "start from another hand.posture, close along something else, or move the object"
+ELSE = "start from another posture, close along something else, or move the object"
 
 
 @dataclass(frozen=True)

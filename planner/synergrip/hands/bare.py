@@ -41,7 +41,15 @@ def bare_hand(
         InputError: couplings that leave no joint, that follow each other in a circle, or whose ratios are too large.
     """
     joints = tuple(
-        Joint(joint.name, joint.kind, joint.lower, joint.upper, joint.torque_limit, joint.child, joint.place)
+        Joint(
+            name=joint.name,
+            kind=joint.kind,
+            lower=joint.lower,
+            upper=joint.upper,
+            torque_limit=joint.torque_limit,
+            link=joint.child,
+            place=joint.place,
+        )
         for joint in tree.joints.values()
         if joint.kind != "fixed"
     )
@@ -91,7 +99,8 @@ def _free(joints: Sequence[Joint], couplings: Mapping[str, Coupling], drives: Dr
     )
     limits = frozen(_efforts([joints[index].torque_limit for index in free], free, S, drives))
     offset = E @ [resting.get(name, 0.0) for name in names] + e
-    return SynergySet(FREE, title, tuple(names[index] for index in free), frozen(S), frozen(offset), limits)
+    free_names = tuple(names[index] for index in free)
+    return SynergySet(name=FREE, title=title, synergies=free_names, S=S, offset=offset, effort_limits=limits)
 
 
 def _efforts(torques: list[float], free: Sequence[int], S: Array, drives: Drives | None) -> Array:

@@ -212,7 +212,8 @@ def _joint(tree: LinkTree, table: JointTable) -> Joint:
         limit = quantity(table.torque_limit, "torque" if joint.kind == "hinge" else "force", "torque_limit")
     if not limit > 0:
         raise InputError.at("torque_limit", f"must be greater than 0, got {table.torque_limit!r}")
-    return Joint(joint.name, joint.kind, joint.lower, joint.upper, limit, joint.child, joint.place)
+    range_ = {"lower": joint.lower, "upper": joint.upper}
+    return Joint(name=joint.name, kind=joint.kind, torque_limit=limit, link=joint.child, place=joint.place, **range_)
 
 
 def _compliance(tree: LinkTree, table: JointTable) -> float:
@@ -228,7 +229,9 @@ def _compliance(tree: LinkTree, table: JointTable) -> float:
 def _pad(tree: LinkTree, name: str, table: PadTable) -> Pad:
     if table.link not in tree.links:
         raise InputError.at("link", one_of(table.link, tree.links))
-    return Pad(name, table.link, frozen(table.point), frozen(table.normal), table.radius or 0.0)
+    return Pad(
+        name=name, link=table.link, point=frozen(table.point), normal=frozen(table.normal), radius=table.radius or 0.0
+    )
 
 
 def _posture(

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
+
+from synergrip.documents.judging import Arguments
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
+from synergrip.values import ByContent, same
+
+UNIT = 1e-6
+"""How far the length of the normal of a pad may be from 1."""
 
 
-@dataclass(frozen=True)
-class PointMotion:
+@dataclass(frozen=True, eq=False)
+class PointMotion(ByContent):
     """Where a point of a link is, and how it moves with the joints, in the palm frame."""
 
     position: Array
@@ -29,25 +37,43 @@ class Kinematics(Protocol):
         """Return the motion of each (link name, point in link coordinates [m]) at joint values `q` (n_q,)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Joint:
     """One joint, in the order of q."""
 
     name: str
     kind: str
     """"hinge" (rad, N m) or "slide" (m, N)."""
-    lower: float  # [rad] or [m]
-    upper: float  # [rad] or [m]
-    torque_limit: float
+    lower: float = -math.inf  # [rad] or [m]
+    upper: float = math.inf  # [rad] or [m]
+    torque_limit: float = math.inf
     """|tau| allowed [N m] or [N]; infinity when the hand states none."""
     link: str = ""
     """The link that it turns or shifts."""
     place: str = field(default="", compare=False)
     """File and line that state the range, for messages."""
 
+    def __post_init__(self) -> None:
+        """Judge the values.
 
-@dataclass(frozen=True)
-class Pad:
+        Raises:
+            InputError: a name that is none, an unknown kind, a range that is none, a limit not above 0.
+        """
+        judge = Arguments("Joint")
+        judge.text("name", self.name, empty=False)
+        if self.kind not in ("hinge", "slide"):
+            judge.refuse("kind", one_of(self.kind, ("hinge", "slide")))
+        lower, upper = (judge.number(end, getattr(self, end), infinite=True) for end in ("lower", "upper"))
+        limit = judge.number("torque_limit", self.torque_limit, above=0, infinite=True)
+        if not judge.issues and lower > upper:
+            judge.refuse("upper", f"must not be below lower, got {upper:g} and {lower:g}")
+        judge.finish()
+        for name, value in (("lower", lower), ("upper", upper), ("torque_limit", limit)):
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pad(ByContent):
     """A place on a link that is made to touch things."""
 
     name: str
@@ -55,28 +81,65 @@ class Pad:
     point: Array
     """(3,) in link coordinates [m]."""
     normal: Array
-    """(3,) unit outward normal in link coordinates: the direction in which the pad pushes."""
+    """(3,) unit outward normal in link coordinates: the direction in which the pad pushes; 0 for toward the object."""
     radius: float = 0.0
     """[m] of a round pad with its centre at `point`, which touches where the object is nearest; 0 for the point."""
 
+    def __post_init__(self) -> None:
+        """Judge the values.
 
-@dataclass(frozen=True)
-class SynergySet:
+        Raises:
+            InputError: names that are none, a point or normal of other than three finite numbers, a negative radius.
+        """
+        judge = Arguments("Pad")
+        for name in ("name", "link"):
+            judge.text(name, getattr(self, name), empty=False)
+        point, normal = (judge.array(name, getattr(self, name), (3,)) for name in ("point", "normal"))
+        radius, size = judge.number("radius", self.radius, at_least=0, unit="m"), float(np.linalg.norm(normal))
+        if not judge.issues and size and abs(size - 1) > UNIT:
+            judge.refuse("normal", f"expected a unit vector, or zeros for toward the object; got length {size:.9g}")
+        judge.finish()
+        for name, value in (("point", point), ("normal", normal), ("radius", radius)):
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SynergySet(ByContent):
     """A named synergy matrix S (9)."""
 
     name: str
-    title: str
+    title: str = ""
     synergies: tuple[str, ...]
     """Name of each column."""
     S: Array  # (n_q, n_z)
-    offset: Array
-    """(n_q,) joint values at z = 0: q = S z + offset."""
-    effort_limits: Array
+    offset: Array = None  # type: ignore[assignment]
+    """(n_q,) joint values at z = 0: q = S z + offset; 0 when absent."""
+    effort_limits: Array = None  # type: ignore[assignment]
     """(n_z,) |sigma| allowed; infinity where the hand states none."""
 
+    def __post_init__(self) -> None:
+        """Judge the values.
 
-@dataclass(frozen=True)
-class Coupling:
+        Raises:
+            InputError: names that are none or stand twice, shapes that do not fit, numbers that are not finite.
+        """
+        judge = Arguments("SynergySet")
+        judge.text("name", self.name)
+        n_q, n_z = np.shape(self.S) if np.ndim(self.S) == 2 else (0, 0)
+        S = judge.array("S", self.S, (n_q, n_z), ": a row for each joint, a column for each synergy")
+        names = judge.named("synergies", self.synergies, n_z, "column of S")
+        offset = judge.array("offset", np.zeros(n_q) if self.offset is None else self.offset, (n_q,))
+        limits = np.full(n_z, np.inf) if self.effort_limits is None else self.effort_limits
+        limits = judge.array("effort_limits", limits, (n_z,), infinite=True)
+        if not judge.issues and np.any(limits <= 0):
+            judge.refuse("effort_limits", f"must be greater than 0, got {limits.min():g}")
+        judge.finish()
+        for name, value in (("synergies", names), ("S", S), ("offset", offset), ("effort_limits", limits)):
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling(ByContent):
     """A joint moved by other joints: q_follower = sum of ratio q_driver, + offset."""
 
     ratios: Mapping[str, float]
@@ -89,7 +152,7 @@ class Coupling:
 
 
 @dataclass(frozen=True, eq=False)
-class Drives:
+class Drives(ByContent):
     """What a model file says of motors and springs, for the joints that no motor moves."""
 
     compliance: Array
@@ -111,20 +174,21 @@ class Drives:
         return (*self.sprung, *self.loose)
 
 
-@dataclass(frozen=True)
-class Hand:
-    """A robot hand as data."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Hand(ByContent):
+    """A robot hand as data; `load_hand` makes one."""
 
     name: str
-    title: str
+    title: str = ""
     joints: tuple[Joint, ...]
-    C_q: Array  # (n_q, n_q) [rad/(N m)]
-    pads: Mapping[str, Pad]
+    C_q: Array = 0.0  # type: ignore[assignment]  # (n_q, n_q) [rad/(N m)]
+    """A number or one for each joint stand for a diagonal."""
+    pads: Mapping[str, Pad] = field(default_factory=dict)
     synergy_sets: Mapping[str, SynergySet]
     """The first one is the default; every hand also has "joints" (S = I)."""
-    postures: Mapping[str, Array]
+    postures: Mapping[str, Array] = field(default_factory=dict)
     """Named joint values (n_q,)."""
-    kinematics: Kinematics
+    kinematics: Kinematics = field(compare=False)
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
     """Follower -> its drivers; already in every synergy set but "joints"."""
     parents: Mapping[str, str] = field(default_factory=dict)
@@ -133,6 +197,54 @@ class Hand:
     """None when no file says what drives what."""
     still: tuple[str, ...] = ()
     """Links and joints of its file that stand still, because the palm is a link that they carry, or hang beside it."""
+
+    def __post_init__(self) -> None:
+        """Judge the values.
+
+        Raises:
+            InputError: joints, pads or synergy sets that are none, names that stand twice, shapes that do not fit.
+        """
+        judge = Arguments("Hand")
+        judge.text("name", self.name)
+        joints = judge.several("joints", self.joints, Joint, 'Joint(name="j1", kind="hinge")')
+        judge.names("joints", [joint.name for joint in joints])
+        C_q = judge.numbers("C_q", self.C_q, "a number, one for each joint, or a matrix")
+        if not self.synergy_sets:
+            judge.refuse("synergy_sets", "expected at least one; joint_set(names) has every joint by itself")
+        judge.finish()
+        n_q = len(joints)
+        if C_q is not None and C_q.ndim < 2:
+            C_q = np.diag(np.broadcast_to(C_q, (n_q,))) if C_q.shape in ((), (n_q,)) else C_q
+        C_q = judge.array("C_q", C_q, (n_q, n_q))
+        for name, chosen in self.synergy_sets.items():
+            known = judge.one(f"synergy_sets[{name!r}]", chosen, SynergySet, "SynergySet(...)")
+            if known is not None and len(known.S) != n_q:
+                judge.refuse(f"synergy_sets[{name!r}]", f"S has {len(known.S)} rows for {n_q} joints")
+        for name, pad in self.pads.items():
+            judge.one(f"pads[{name!r}]", pad, Pad, "Pad(...)")
+        postures = {name: judge.array(f"postures[{name!r}]", q, (n_q,)) for name, q in self.postures.items()}
+        judge.finish()
+        for each, value in (("joints", joints), ("C_q", C_q), ("postures", postures)):
+            object.__setattr__(self, each, value)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare by content, and by where all links are and move at zero, which tells all that kinematics can."""
+        if self is other or not isinstance(other, Hand):
+            return self is other
+        return super().__eq__(other) and same(self._home(), other._home())
+
+    __hash__ = ByContent.__hash__
+
+    def _home(self) -> tuple[PointMotion, ...]:
+        origin = np.zeros(3)
+        return self.kinematics.at(np.zeros(len(self.joints)), [(link, origin) for link in self.links])
+
+    def __repr__(self) -> str:
+        """Return name, joints, synergy sets and pads, in one line."""
+        sets = ", ".join(f"{name} ({len(chosen.synergies)})" for name, chosen in self.synergy_sets.items())
+        pads, postures = (", ".join(named) or "none" for named in (self.pads, self.postures))
+        shown = f"{len(self.joints)} joints; synergies {sets}; postures {postures}; pads {pads}"
+        return f"<Hand {self.name!r}: {shown if len(shown) < 600 else shown[:597] + '...'}>"
 
     @property
     def joint_names(self) -> tuple[str, ...]:

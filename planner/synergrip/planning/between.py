@@ -13,13 +13,14 @@ from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
 
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""
 
 
-@dataclass(frozen=True)
-class Between:
+@dataclass(frozen=True, eq=False, repr=False)
+class Between(Value):
     """A plan between its knots, its references linear there and its loads as they are."""
 
     samples: int

@@ -24,13 +24,14 @@ from synergrip.statics.motion import Motion, forward
 from synergrip.tasks.marks import SAME_TIME, distinct
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
+from synergrip.values import Value
 
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
 
 
-@dataclass(frozen=True)
-class Judgement:
+@dataclass(frozen=True, eq=False, repr=False)
+class Judgement(Value):
     """What becomes of given references in a task."""
 
     task: TimedTask

@@ -14,13 +14,15 @@ from typing import Any
 import numpy as np
 
 KEY = "digest"
+ASIDE = ("provenance",)
+"""Keys of a document that are left out: they differ from run to run."""
 UNCERTAIN = ("seconds",)
 """Keys at any depth that are left out."""
 
 
 def with_digest(document: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a document with the digest of all that is in it."""
-    keys = sorted(document)
+    """Return a document with the digest of all that is in it but where it comes from, which no number hangs on."""
+    keys = sorted(key for key in document if key not in ASIDE)
     return {**document, KEY: {"sha256": digest(document, keys), "of": keys}}
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from html import escape
+from typing import ClassVar
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.conflicts import Conflict
@@ -10,8 +13,11 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
-from synergrip.errors import Refusal
+from synergrip.errors import Refusal, shortened
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
+from synergrip.planning.answer import Answer, Tabled
+from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
@@ -33,9 +39,18 @@ class Check:
         return bool(self.error <= self.tolerance)
 
 
-@dataclass(frozen=True)
-class Plan:
-    """A verified answer: references to send, and all that follows from them."""
+LONG = 200
+"""Characters of a reason that are shown."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Plan(Tabled):
+    """A verified answer: references to send, and all that follows from them.
+
+    Example:
+        >>> answer.dz_r.shape, answer.forces.shape, answer.margins.min()  # doctest: +SKIP
+        ((41, 4), (41, 9), 0.5)
+    """
 
     task: TimedTask
     analysis: Analysis
@@ -61,19 +76,85 @@ class Plan:
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
 
-    verdict = "feasible"
+    verdict: ClassVar[str] = "feasible"
+    holds: ClassVar[tuple[str, ...]] = ("dz_r", "forces", "margins", "time", "usages", "checks")
 
     @property
     def exit_code(self) -> int:
         """0, or 130 when interrupted."""
         return 130 if self.interrupted else 0
 
+    @property
+    def grasp(self) -> Grasp:
+        """The grasp that was planned on."""
+        return self.analysis.grasp
 
-@dataclass(frozen=True)
-class Infeasible:
-    """A proof that no plan exists."""
+    @property
+    def moved(self) -> Moved:
+        """What all arrays are made of."""
+        return Moved(self.analysis, self.motion, self.alpha, self.beta, self.gamma, self.margins)
+
+    @property
+    def time(self) -> Array:
+        """(T,) knots [s]."""
+        return self.motion.times
+
+    @property
+    def dz_r(self) -> Array:
+        """(T, n_z) synergy references, from those at the start: what to send to the hand."""
+        return self.motion.dz_r
+
+    @property
+    def forces(self) -> Array:
+        """(T, n_l) contact forces of the hand on the object, rows (n, t, o [, moment]) of each contact [N, N m]."""
+        return self.motion.forces
+
+    def __repr__(self) -> str:
+        """Return verdict, worst slip margin and sizes."""
+        grasp, worst, times = self.grasp, self.usages[0], self.time
+        k, i = worst.worst()
+        return (
+            f"Plan({self.verdict}: {len(times)} knots over {times[-1] - times[0]:.6g} s, {grasp.n_z} synergies, "
+            f"{grasp.n_q} joints, {grasp.n_c} contacts;\n     worst slip margin {worst.value.min():.6g} N at "
+            f"{shortened(str(worst.items[i]))}, t = {times[k]:.6g} s)"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return a short table for notebooks: of every limit the value nearest to it."""
+        rows = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in self._worst())
+        head = "<tr><th></th><th>worst</th><th>at</th><th>t [s]</th><th>limit</th></tr>"
+        return f"<p>{escape(repr(self))}</p><table>{head}{rows}</table>"
+
+    def _worst(self) -> Iterator[tuple[str, ...]]:
+        """Yield the cells of each limit."""
+        for usage in self.usages:
+            k, i = usage.worst()
+            ends = " to ".join(f"{end:.4g}" for end in (usage.lower[i], usage.upper[i]))
+            value, when = f"{usage.value[k, i]:.4g} {usage.unit}", f"{usage.times[k]:.4g}"
+            yield usage.title, value, shortened(str(usage.items[i])), when, ends
+
+
+class Reasoned(Answer):
+    """An answer that gives a reason instead of a plan."""
+
+    why: str
+
+    def _repr_html_(self) -> str:
+        """Return the verdict and the reason for notebooks."""
+        return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Infeasible(Reasoned):
+    """A proof that no plan exists.
+
+    Example:
+        >>> answer.stage, answer.why  # doctest: +SKIP
+        ('direction', 'the motion asked for leaves ...')
+    """
 
     task: TimedTask
+    grasp: Grasp
     analysis: Analysis | None
     """None when the grasp does not restrain the object."""
     stage: str
@@ -92,21 +173,41 @@ class Infeasible:
     hints: tuple[str, ...] = ()
     """What in the problem may not say what its author means, and what would come of it; computed, not guessed."""
 
-    verdict = "infeasible"
-    exit_code = 1
+    verdict: ClassVar[str] = "infeasible"
+    exit_code: ClassVar[int] = 1
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "conflicts", "hints", "certificate")
+
+    def __repr__(self) -> str:
+        """Return stage and reason."""
+        return f"Infeasible({self.stage}: {shortened(self.why, LONG)})"
 
 
-@dataclass(frozen=True)
-class Unknown:
-    """Nothing could be verified either way."""
+@dataclass(frozen=True, eq=False, repr=False)
+class Unknown(Reasoned):
+    """Nothing could be verified either way.
+
+    Example:
+        >>> answer.why  # doctest: +SKIP
+        "clarabel says 'AlmostSolved' and nothing verifies"
+    """
 
     task: TimedTask
     analysis: Analysis
     why: str
     decisions: tuple[Decision, ...]
 
-    verdict = "unknown"
-    exit_code = 3
+    verdict: ClassVar[str] = "unknown"
+    exit_code: ClassVar[int] = 3
+    holds: ClassVar[tuple[str, ...]] = ("why", "decisions", "analysis")
+
+    @property
+    def grasp(self) -> Grasp:
+        """The grasp that was planned on."""
+        return self.analysis.grasp
+
+    def __repr__(self) -> str:
+        """Return the reason."""
+        return f"Unknown({shortened(self.why, LONG)})"
 
 
 Outcome = Plan | Infeasible | Unknown

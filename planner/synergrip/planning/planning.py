@@ -17,7 +17,7 @@ from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proof
 from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.quantities import apart
-from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
+from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.formulated import formulated
@@ -25,30 +25,74 @@ from synergrip.planning.holding import held
 from synergrip.planning.outcome import Infeasible, Outcome, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
-from synergrip.planning.solvers import SOLVERS, Answered, Answerer, ask
+from synergrip.planning.solvers import SOLVERS, Answered, Answerer, answerer, ask
 from synergrip.planning.stages import Stage, not_the_best, through
 from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.goals import unasked_goals
 from synergrip.tasks.scaling import caps, grips
+from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask, unbounded
+from synergrip.tasks.timing import at_start
 
 NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""
 
 
-def plan(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) -> Outcome:
+def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer = "clarabel") -> Outcome:
     """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 
+    A hand holds the load of the first instant when the task begins; a grasp given as matrices holds its w_0.
+
+    Args:
+        grasp: who plans; its `Analysis` instead, when the same grasp is planned many times.
+        task: what is asked.
+        solver: "clarabel", or "cvxpy" for the second formulation of the same problem; or a function that answers.
+
+    Returns:
+        A verified `Plan`, an `Infeasible` with its proof, or `Unknown` when nothing can be trusted.
+
     Raises:
-        InputError: the grasp is rigid in some contact direction, or modes, limits or goals do not fit it.
+        InputError: an argument of another type, loads that do not fit the task or the grasp, no such solver; the grasp
+            is rigid in some contact direction, or modes, limits or goals do not fit it.
         SelfCheckError: the answer failed the physical check (a defect of synergrip).
+
+    Example:
+        >>> from synergrip import load_problem
+        >>> problem = load_problem("pinch-soft")
+        >>> plan(problem.grasp, problem.task).verdict
+        'feasible'
     """
-    task = task.on(grasp)
+    answers = answerer(solver, "solver")
+    known, asked = _judged(grasp, task)
+    if isinstance(known, Analysis):
+        return _planned(known, asked, answers)
     try:
-        analysis = analyse(grasp, task.wrench)
+        analysis = analyse(known, asked.wrench)
     except NotRestrainedError as refusal:
-        return _refused(grasp, task, None, refusal)
+        return _refused(known, asked, None, refusal)
+    return _planned(analysis, asked, answers)
+
+
+def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | Analysis, TimedTask]:
+    """Return the grasp as it is when the task begins, and the task at its knots."""
+    if not isinstance(grasp, Grasp | Analysis):
+        raise InputError.at("grasp", f"expected a Grasp or an Analysis, got {kind_of(grasp)}")
+    if not isinstance(task, Task | TimedTask):
+        raise InputError.at("task", f"expected a Task, got {kind_of(task)}")
+    whole = grasp.grasp if isinstance(grasp, Analysis) else grasp
+    timed = task.timed(whole) if isinstance(task, Task) else task.on(whole)
+    begins = at_start(whole, timed.wrench[0])
+    if begins is whole:
+        return grasp, timed
+    if isinstance(grasp, Analysis):  # of w_0 nothing in it depends but what it remembers of the grasp
+        return replace(grasp, grasp=begins, response=replace(grasp.response, grasp=begins)), timed
+    return begins, timed
+
+
+def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
+    """Plan a task on a grasp that can hold its object."""
+    grasp = analysis.grasp
     try:
         formulation = formulated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
@@ -62,17 +106,22 @@ def plan(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) 
 
     try:
         refuse_doubtful_response(analysis.response)
-        return with_hint(held(task, analysis, formulation, answer), plan)
+        return with_hint(held(task, analysis, formulation, answer), _again)
     except InDoubtError as doubt:
         decisions = tuple(decision for planner in planners for decision in planner.decisions)
         return Unknown(task, analysis, str(doubt), decisions)
+
+
+def _again(grasp: Grasp, task: TimedTask) -> Outcome:
+    """Plan a task on another grasp, which holds at the start what it says."""
+    return _planned(analyse(grasp, task.wrench), task, SOLVERS["clarabel"])
 
 
 def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
     certificate = refusal_certificate(grasp, task, analysis, refusal)
     if not certificate.verified:
         raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
-    return Infeasible(task, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
+    return Infeasible(task, grasp, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
 
 
 class _Planner:
@@ -156,7 +205,8 @@ class _Planner:
         ray = proven.certificate.y
         found = conflicts(proven.program, ray) if ray is not None else ()
         return Infeasible(
-            self.task, self.analysis, "magnitude", f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
+            self.task, self.analysis.grasp, self.analysis, "magnitude",
+            f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
             proven.certificate, proven.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 

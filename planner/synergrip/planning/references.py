@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from os.path import exists, isdir  # unlike those of Path, no error for a name that is too long
@@ -13,25 +13,26 @@ from typing import Any
 import numpy as np
 
 from synergrip.archives import NoArchiveError, read_arrays
-from synergrip.documents.csv_cells import CellReader, cells_of
+from synergrip.documents.csv_cells import CellReader
 from synergrip.documents.documents import read_document
-from synergrip.documents.time_table import REFERENCES, TIME, read_table
+from synergrip.documents.time_table import REFERENCES, SHOWN, TIME, read_table
 from synergrip.errors import InputError, shortened
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
+from synergrip.planning.arrays import ARRAYS, columns_of
 from synergrip.planning.digest import KEY as DIGEST
 from synergrip.planning.digest import digest, unchanged
+from synergrip.values import Value
 
 KEY = "PLAN"
-PER_KNOT = (
-    "time_s", "alpha", "beta", "gamma", "lambda", "wrench", "du", "dq", "tau", "sigma", "elastic_motion", "sag",
-)  # fmt: skip
+PER_KNOT = frozenset(each.key for each in ARRAYS if not each.inside)
 """What plan.json holds for each knot."""
-WHOLE = ("margin", "joints", "synergies", "contacts")
-"""What plan.npz holds besides."""
+IN_ARCHIVE = (*(each.key for each in ARRAYS), "joints", "synergies", "contacts", DIGEST)
+"""What plan.npz holds."""
 
 
-@dataclass(frozen=True)
-class References:
+@dataclass(frozen=True, eq=False, repr=False)
+class References(Value):
     """Synergy references at times, and what the file claims besides them."""
 
     times: Array  # (T,) [s]
@@ -54,37 +55,47 @@ class References:
         return found
 
 
-def read_references(path: Path, n_z: int) -> References:
+def read_references(path: Path, grasp: Grasp) -> References:
     """Return times (T,) and references dz_r (T, n_z) of a plan, with all that it claims of them.
 
     Args:
-        path: plan.json, plan.npz, a CSV with ``t_s,zr_1,...`` and any others, or a folder with a plan.json in it.
-        n_z: number of synergies of the grasp it is to be judged on.
+        path: plan.json, plan.npz, a CSV, or a folder with a plan.json in it. A CSV has ``t_s``, a column for each
+            synergy, in the order ``zr_1,...`` or by name as in plan.csv, and any others.
+        grasp: that it is to be judged on.
 
     Raises:
         InputError: no such file, no plan in it, or another number of synergies.
     """
     if isdir(path):
         path = path / "plan.json"
-    readers = {".json": _from_json, ".npz": _from_npz, ".csv": _from_csv}
+    readers: dict[str, Callable[[Path], References]] = {
+        ".json": _from_json, ".npz": _from_npz, ".csv": lambda path: _from_csv(path, columns_of(grasp)["dz_r"])
+    }  # fmt: skip
     if path.suffix not in readers:
         raise InputError.at(KEY, f"'{path}' is no plan; expected a folder, or a file .json, .npz or .csv")
     if not exists(path):
         raise InputError.at(KEY, f"there is no file '{path}'")
     table = readers[path.suffix](path)
-    if table.values.shape[1] != n_z:
-        raise InputError.at(KEY, f"'{path}' has {table.values.shape[1]} synergy references, the grasp has n_z = {n_z}")
+    count = table.values.shape[1]
+    if count != grasp.n_z:
+        raise InputError.at(KEY, f"'{path}' has {count} synergy references, the grasp has n_z = {grasp.n_z}")
     return table
 
 
-def _from_csv(path: Path) -> References:
-    table = read_table(path, REFERENCES, KEY, others=True)
+def _from_csv(path: Path, columns: Sequence[str]) -> References:
     reader = CellReader.of(path, KEY)
-    number, header = next(reader.rows())
-    names = [cell.text for cell in cells_of(header, number)]
+    names = [cell.text for cell in reader.header(reader.rows())]
+    given = [name for name in names if name.startswith(REFERENCES)]
+    numbered = all(name.removeprefix(REFERENCES).isdecimal() for name in given)  # in the order of the synergies
+    by_name = set(given) == set(columns)
+    if not (by_name or numbered):
+        listed, wanted = (", ".join(map(shortened, some[:SHOWN])) for some in (given, columns))
+        message = f"the references of '{path}' are {listed}; the grasp's are {wanted}, or in this order zr_1, zr_2, ..."
+        raise InputError.at(KEY, message)
+    table = read_table(path, columns if by_name else REFERENCES, KEY, others=True)
     others = [name for name in names if name != TIME and not name.startswith(REFERENCES)]
-    columns = read_table(path, others, KEY, others=True).values.T if others else ()
-    return References(table.times, table.values, {"columns": dict(zip(others, columns, strict=True))} if others else {})
+    beside = read_table(path, others, KEY, others=True).values.T if others else ()
+    return References(table.times, table.values, {"columns": dict(zip(others, beside, strict=True))} if others else {})
 
 
 def _from_json(path: Path) -> References:
@@ -109,7 +120,7 @@ def _no_plan(data: Mapping[str, Any]) -> str:
 
 def _from_npz(path: Path) -> References:
     try:
-        stored = read_arrays(path, ("dz_r", *PER_KNOT, *WHOLE, DIGEST), "plan", KEY)
+        stored = read_arrays(path, IN_ARCHIVE, "plan", KEY)
     except NoArchiveError as error:
         raise InputError.at(KEY, f"'{path}' is no .npz archive of plain arrays ({error})") from None
     if "dz_r" not in stored or "time_s" not in stored:

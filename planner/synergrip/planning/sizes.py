@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array
+from synergrip.planning.arrays import ARRAYS, Size
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start
@@ -64,9 +65,11 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
         for of in (usages, between.usages if between is not None else ())
     )
     looks = {"load_departure_N": force, "path_departure_m": path, "worst_margin_N": force, "limits": there}
-    by_key = {
-        "dz_r": references, "alpha": force, "beta": path, "gamma": references, "lambda": forces, "wrench": wrench,
-        "du": du, "dq": dq, "tau": torque, "sigma": effort, "elastic_motion": du, "sag": du,
+    of_terms: dict[Size, Any] = {
+        "exact": 0.0, "references": references, "force": force, "forces": forces, "wrench": wrench, "torque": torque,
+        "effort": effort, "path": path, "du": du, "dq": dq,
+    }  # fmt: skip
+    by_key = {each.key: of_terms[each.size] for each in ARRAYS} | {
         "margin": {"worst_N": force, "per_contact_N": force}, "force_unit_N": force, "limits": limits,
         "structure": {"singular_values": 1.0}, "between": looks, "largest_margin_N": GIVEN_UP / EXACT * force,
     }  # fmt: skip

@@ -14,6 +14,7 @@ from synergrip.conic.formulation import Units
 from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_motion import LeastMotion
+from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
@@ -22,6 +23,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
+from synergrip.values import Value
 
 Answerer = Callable[[Question, Program, Settings], Solution]
 
@@ -40,10 +42,16 @@ SOLVERS: dict[str, Answerer] = {"clarabel": _clarabel, "cvxpy": _cvxpy}
 """"cvxpy" writes the question down by itself, independently of the program's rows."""
 
 
-def answerer(name: str) -> Answerer:
-    """Return the solver of that name or raise an `InputError` that lists them."""
-    if name not in SOLVERS:
-        raise InputError.at("--solver", one_of(name, SOLVERS))
+def answerer(name: str | Answerer, key: str = "--solver") -> Answerer:
+    """Return the solver of that name, or one that is a function already.
+
+    Raises:
+        InputError: none of that name, at the option or argument `key`; the names are listed.
+    """
+    if callable(name):
+        return name
+    if not isinstance(name, str) or name not in SOLVERS:
+        raise InputError.at(key, one_of(name, SOLVERS))
     return SOLVERS[name]
 
 
@@ -58,8 +66,8 @@ APART = 3.0
 """Factor between two units that makes a difference."""
 
 
-@dataclass(frozen=True)
-class Answered:
+@dataclass(frozen=True, eq=False, repr=False)
+class Answered(Value):
     """A question as it was finally asked, in units that suit its answer, and the answer."""
 
     question: Question
@@ -199,7 +207,7 @@ def _largest(values: Array) -> float:
 def _less_closely(best: Answered, solver: Answerer) -> Answered:
     """Return smoothness looked at less closely, when nothing verifies."""
     goal = best.question.goal
-    if best.decision.certificate.verified or not isinstance(goal, LeastMotion) or goal.rescaled is None:
+    if best.decision.certificate.verified or not isinstance(goal, LeastMotion | SteadyForces) or goal.rescaled is None:
         return best
     second = _decided(replace(best.question, goal=goal.rescaled), solver)
     return second if second.decision.optimal else best

@@ -10,14 +10,16 @@ import numpy as np
 from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
+from synergrip.conic.free_basis import free_basis
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
-from synergrip.linalg import Array, frozen, split
+from synergrip.linalg import Array
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.tasks.timed_task import unbounded
+from synergrip.values import Value
 
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
@@ -29,8 +31,8 @@ LOOSE = 1e-7
 part touches has no room for rounding."""
 
 
-@dataclass(frozen=True)
-class Stage:
+@dataclass(frozen=True, eq=False, repr=False)
+class Stage(Value):
     """What the goals so far have led to."""
 
     formulation: Formulation
@@ -41,6 +43,8 @@ class Stage:
     """The goal of the last decision that verified."""
     decisions: tuple[Decision, ...]
     notes: tuple[str, ...] = ()
+    seen: tuple[Squares, ...] = ()
+    """What the goals before the last one squared, and so fixed; the unknowns of a knot are the same in all of them."""
     interrupted: bool = False
     """Whether somebody stopped it before the goals were through."""
 
@@ -93,10 +97,10 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     """
     if stage.interrupted:
         return stage
-    formulation = _reduced(stage)
+    formulation, seen = _reduced(stage)
     if not asked and goal.objective(formulation).empty:
         return stage
-    if not formulation.n_v:
+    if not formulation.unknowns:
         note = f"the goals before it leave nothing open for '{goal.name}'"
         return replace(stage, notes=(*stage.notes, note)) if asked else stage
     acceptable = stage
@@ -111,7 +115,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
             raise unbounded(goal)
         best = replace(
             stage, formulation=answered.question.formulation, limits=limits, goal=goal,
-            decisions=(*stage.decisions, decision),
+            decisions=(*stage.decisions, decision), seen=seen,
         )  # fmt: skip
         if decision.optimal:
             return best
@@ -133,39 +137,21 @@ def not_the_best(decision: Decision) -> str:
     )
 
 
-def _reduced(stage: Stage) -> Formulation:
-    """Return the formulation of the plans that are best by the last goal.
+def _reduced(stage: Stage) -> tuple[Formulation, tuple[Squares, ...]]:
+    """Return the formulation of the plans that are best by the last goal, and all squares that these agree in.
 
     The best by a sum of squares agree in everything that is squared, and so differ only in what it does not see.
     """
     formulation, goal = stage.formulation, stage.goal
     if goal.has_scalar:
         if formulation.unreduced is not None:
-            return formulation
-        return formulation.in_units(replace(formulation.units, force=_carried(stage)))
+            return formulation, stage.seen
+        return formulation.in_units(replace(formulation.units, force=_carried(stage))), stage.seen
     squares = goal.objective(formulation).squares
     if not squares:
-        return formulation
-    seen = [split(part.matrix).row_space for part in squares if part.unseen is None]
-    directions = split(np.hstack([np.zeros((formulation.n_v, 0)), *seen]).T).null_space
-    time_basis = _common([*([] if formulation.time_basis is None else [formulation.time_basis]), *_unseen(squares)])
-    return formulation.around(stage.v, directions, time_basis)
-
-
-def _unseen(squares: Sequence[Squares]) -> Iterator[Array]:
-    for part in squares:
-        if part.unseen is not None:
-            yield part.unseen
-
-
-def _common(time_basis: Sequence[Array]) -> Array | None:
-    """Return the time_basis in time (T, f) that are common to several sets, whose columns are independent."""
-    common = time_basis[0] if time_basis else None
-    for other in time_basis[1:]:
-        assert common is not None
-        outside = common - other @ np.linalg.lstsq(other, common, rcond=None)[0]
-        common = frozen(common @ split(outside, float(np.linalg.norm(common, 2))).null_space)
-    return common
+        return formulation, stage.seen
+    seen = (*stage.seen, *squares)
+    return formulation.around(stage.v, free_basis(seen, formulation.knots, formulation.n_v)), seen
 
 
 def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...]]:

@@ -12,15 +12,14 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.linalg import Array
+from synergrip.planning.arrays import Moved, arrays_of, columns_of, names_of
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.told import (
-    arrays_of,
     between_document,
     check_document,
-    columns_of,
     margin_document,
+    series_document,
     structure_document,
-    usage_document,
 )
 from synergrip.tasks.scaling import units_of
 
@@ -38,19 +37,19 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
         knots: of the task (T,) [s]; a plan that has as many is one at these.
     """
     analysis, motion, task, grasp = judged.analysis, judged.motion, judged.task, judged.analysis.grasp
-    arrays = arrays_of(motion, analysis.coordinates.coordinates(motion.dz_r), analysis.spaces.Gamma_ucs)
-    names = [contact.name for contact in grasp.contacts]
+    parts = analysis.coordinates.coordinates(motion.dz_r)
+    arrays = arrays_of(Moved(analysis, motion, *parts, judged.margins))
     code = claimed.get("exit_code")
     return arrays | {
         "verdict": verdict,
         "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
         "structure": structure_document(grasp, analysis),
-        "contacts": names, "joints": list(grasp.joints), "synergies": list(grasp.synergies),
+        **names_of(grasp),
         "time_s": knots if len(knots) == len(motion.times) else motion.times,
         "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
         "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
         "force_unit_N": units_of(analysis, task).force,
-        "limits": [usage_document(usage) for usage in judged.usages],
+        "limits": [series_document(usage) for usage in judged.usages],
         "checks": _checks(judged, claimed.get("checks")),
         "between": between_document(judged.between),
         "columns": _columns(judged, arrays),
@@ -71,12 +70,16 @@ def _checks(judged: Judgement, claimed: Any) -> list[dict[str, Any]]:
 
 def _columns(judged: Judgement, arrays: Mapping[str, Array]) -> dict[str, Array]:
     """Return the columns of plan.csv by their names."""
-    every = {**arrays, "margin": judged.margins}
     return {
         name: column
         for key, names in columns_of(judged.analysis.grasp).items()
-        for name, column in zip(names, every[key].T, strict=True)
+        for name, column in zip(names, _columns_in(arrays[key]), strict=True)
     }
+
+
+def _columns_in(array: Array) -> Array:
+    """Return the columns of an array (T, m) or (T,)."""
+    return array.reshape(len(array), -1).T
 
 
 def _largest_margin(judged: Judgement) -> float:

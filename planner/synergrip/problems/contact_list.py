@@ -4,44 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from synergrip.errors import Issue, raise_issues, repeated
-from synergrip.problems.contact_tables import ContactEntry, ContactModel, ContactsTable, ContactTable
+from synergrip.grasps.contact_at import ContactAt, LinkPlace
+from synergrip.grasps.contacts.kind import EXAMPLE_OF
+from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS
+from synergrip.problems.contact_tables import ContactEntry, ContactsTable, ContactTable
 
-
-@dataclass(frozen=True)
-class LinkPlace:
-    """A place on a link, in its frame."""
-
-    link: str
-    point: tuple[float, ...]  # (3,) [m]
-    normal: tuple[float, ...] | None
-    """(3,) unit vector in which it pushes; None for toward the object."""
-    radius: float  # [m]
-
-
-@dataclass(frozen=True)
-class ContactSpec:
-    """One contact, complete."""
-
-    name: str
-    at: str | LinkPlace
-    """Pad of the hand, or a place on a link."""
-    model: ContactModel
-    friction: float
-    """Coefficient of friction; 0 for a frictionless contact."""
-    spin_friction: float  # m
-    """Moment about the normal per normal force; 0 unless the contact is soft."""
-    stiffness: float  # N/m
-    """Along the normal; infinite when rigid."""
-    tangential_stiffness: float  # N/m
-    spin_stiffness: float  # N m/rad
-    """About the normal; 0 unless the contact is soft."""
-    normals: Literal["object", "pad"] | None
-    """None when nothing is said but the normal itself: the surface's where there is one, else as stated."""
-    key: str
-    """The key of the file that names the pad or link."""
+_MOMENTS = ("spin_stiffness", "tilt_stiffness")
+"""Entries of stiffness of which nothing follows from the others."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +25,7 @@ class _Source:
     table: str
 
 
-def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]) -> tuple[ContactSpec, ...]:
+def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]) -> tuple[ContactAt, ...]:
     """Return the contacts: the pads of ``contacts.at``, then the ``[[contact]]`` entries on other pads and on links.
 
     An entry on a pad that ``contacts.at`` lists changes that contact; values it does not give are the defaults.
@@ -93,42 +65,35 @@ def _given(shared: ContactTable, entry: ContactTable, name: str, fallback: Any =
     return own if own is not None else common if common is not None else fallback
 
 
-def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactSpec:
-    model: ContactModel = _given(shared, entry, "model", "hard")
-    stiffness = _given(shared, entry, "stiffness")
-    soft = model == "soft"
-    return ContactSpec(
-        name=entry.name or entry.at or entry.link or "",
-        at=entry.at or LinkPlace(entry.link or "", entry.point or (0.0, 0.0, 0.0), entry.normal, entry.radius or 0.0),
-        model=model,
-        friction=0.0 if model == "frictionless" else _given(shared, entry, "friction"),
-        spin_friction=_given(shared, entry, "spin_friction") if soft else 0.0,
-        stiffness=stiffness,
-        tangential_stiffness=_given(shared, entry, "tangential_stiffness", stiffness),
-        spin_stiffness=_given(shared, entry, "spin_stiffness") if soft else 0.0,
+def _complete(shared: ContactsTable, entry: ContactEntry, key: str) -> ContactAt:
+    kind = KINDS[_given(shared, entry, "model", "hard")]
+    place = entry.at or LinkPlace(entry.link or "", entry.point or (0.0, 0.0, 0.0), entry.normal, entry.radius or 0.0)
+    return ContactAt(
+        place,
+        kind.taking({each.name: _given(shared, entry, each.name) for each in kind.parameters}),
+        **{name: _given(shared, entry, name) for name in kind.stiffnesses()},
         normals=_given(shared, entry, "normals", "object" if entry.normal is None else None),
+        tangent=entry.tangent,
+        name=entry.name or "",
         key=key,
-    )
+        normal_at=f"the normal of pad '{place}' in the hand's hand.toml" if isinstance(place, str)
+        else f"{key.removesuffix('link')}normal",
+    )  # fmt: skip
 
 
 def _judge(shared: ContactsTable, entry: ContactEntry, table: str) -> Iterator[Issue]:
     model = _given(shared, entry, "model", "hard")
+    kind = KINDS[model]
     needed = {"stiffness": 'write for example "8 N/mm", or "rigid"'}
-    refused = []
-    if model != "frictionless":
-        needed["friction"] = "write for example 0.6; for no friction use model = \"frictionless\""  # fmt: skip
-    else:
-        refused.append("friction")
-    if model == "soft":
-        needed["spin_friction"] = 'write for example "5 mm"'
-        needed["spin_stiffness"] = 'write for example "2 N m/rad"'
-    else:
-        refused += ["spin_friction", "spin_stiffness"]
+    needed |= {each.name: f"write for example {each.example}" for each in kind.parameters}
+    if "friction" in needed:
+        needed["friction"] += '; for no friction use model = "frictionless"'
+    needed |= {name: f'write for example "{EXAMPLE_OF[name]}"' for name in kind.stiffnesses() if name in _MOMENTS}
     for name, example in needed.items():
         if _given(shared, entry, name) is None:
             yield Issue(f"missing key '{name}'; a {model} contact needs it: {example}", f"{table}.{name}", on_key=True)
-    for name in refused:
-        if getattr(entry, name) is not None:
+    for name in (*PARAMETERS, *_MOMENTS):
+        if name not in needed and getattr(entry, name) is not None:
             yield Issue(f"a {model} contact has no {name.replace('_', ' ')}", f"{table}.{name}", on_key=True)
     if entry.link is not None and entry.normal is None and _given(shared, entry, "normals") == "pad":
         message = "missing key 'normal'; normals = \"pad\" needs it: write for example \"z\""  # fmt: skip
@@ -144,7 +109,7 @@ def _repeated(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterato
             yield Issue(f"pad '{at}' is named twice (first in contact[{pads.index(at)}])", f"contact[{index}].at")
 
 
-def _same_names(contacts: Sequence[ContactSpec]) -> Iterator[Issue]:
+def _same_names(contacts: Sequence[ContactAt]) -> Iterator[Issue]:
     seen: dict[str, str | LinkPlace] = {}
     for contact in contacts:
         on_link = isinstance(contact.at, LinkPlace)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, create_model
 
 from synergrip.documents.fields import (
     Axis,
@@ -21,13 +21,10 @@ from synergrip.documents.fields import (
     with_unit,
 )
 from synergrip.documents.validation import shown
-from synergrip.errors import InputError, Issue, suggest
+from synergrip.errors import InputError, Issue, one_of, suggest
+from synergrip.grasps.contact_at import SOFTEST
+from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS, described_parameter
 from synergrip.grasps.matrices import MOST_CONTACTS
-
-ContactModel = Literal["hard", "soft", "frictionless"]
-
-SOFTEST = 1e-6
-"""A contact that yields a kilometre under a millinewton holds nothing [N/m, N m/rad]."""
 
 
 def _rigid_or(kind: str) -> Callable[[Any], float]:
@@ -53,31 +50,64 @@ def _rigid_schema(kind: str) -> dict[str, Any]:
 Stiffness = Annotated[float, Written(_rigid_or("stiffness"), _rigid_schema("stiffness"))]
 SpinStiffness = Annotated[float, Written(_rigid_or("spin stiffness"), _rigid_schema("spin stiffness"))]
 
+
+def _model(value: object) -> str:
+    if not isinstance(value, str):
+        raise InputError.at("", f"expected a kind of contact, got {shown(value)}")
+    if value not in KINDS:
+        raise InputError.at("", one_of(value, KINDS))
+    return value
+
+
+Model = Annotated[str, Written(_model, {"enum": list(KINDS), "type": "string"})]
 Point = Annotated[
     tuple[float, ...],
     Written(lambda value: listed(with_unit("length"), value, 3, "lengths"), array_of(unit_schema("length"), 3)),
 ]
 
 
-class ContactTable(Table):
-    """What can be said of one contact, or of all as a default."""
+def _taking(stiffness: str) -> str:
+    """Return the names of the kinds that take an entry of stiffness."""
+    return " and ".join(kind.name for kind in KINDS.values() if stiffness in kind.stiffnesses())
 
-    model: ContactModel | None = Field(
-        default=None, description="hard (3 force components), soft (4) or frictionless (1)"
-    )
-    friction: Positive | None = Field(default=None, description="coefficient of friction")
-    spin_friction: Size | None = Field(
-        default=None, description="moment about the normal per normal force, for soft contacts"
+
+class ContactBasics(Table):
+    """What can be said of one contact of any kind, or of all as a default."""
+
+    model: Model | None = Field(
+        default=None,
+        description=", ".join(f"{kind.name} ({len(kind.components)})" for kind in KINDS.values())
+        + ": kind of contact (force components); hard when absent",
     )
     stiffness: Stiffness | None = Field(default=None, description='stiffness along the normal, or "rigid"')
     tangential_stiffness: Stiffness | None = Field(
         default=None, description="stiffness across the normal; as along it when absent"
     )
     spin_stiffness: SpinStiffness | None = Field(
-        default=None, description="stiffness about the normal, for soft contacts"
+        default=None, description=f"stiffness about the normal, for {_taking('spin_stiffness')} contacts"
+    )
+    tilt_stiffness: SpinStiffness | None = Field(
+        default=None, description=f"stiffness about the tangents, for {_taking('tilt_stiffness')} contacts"
     )
     normals: Literal["object", "pad"] | None = Field(
         default=None, description="normal toward the object's centre, or straight out of the pad"
+    )
+
+
+if TYPE_CHECKING:
+    ContactTable = ContactBasics
+else:  # the parameters are those that the kinds say they have
+    ContactTable = create_model(
+        "ContactTable",
+        __base__=ContactBasics,
+        __doc__="What can be said of one contact, or of all as a default.",
+        **{
+            each.name: (
+                (Size if each.length else Positive) | None,
+                Field(default=None, description=described_parameter(each)),
+            )
+            for each in PARAMETERS.values()
+        },
     )
 
 
@@ -96,6 +126,9 @@ class ContactEntry(ContactTable):
     at: Name | None = Field(default=None, description="name of the hand's pad that touches the object")
     link: Name | None = Field(default=None, description="name of the hand's link that touches; instead of a pad")
     point: Point | None = Field(default=None, description="place on the link, in its frame; its origin when absent")
+    tangent: Axis | None = Field(
+        default=None, description="direction in the frame of the link that t of the contact follows; chosen when absent"
+    )
     normal: Axis | None = Field(
         default=None, description="where the place pushes to, in the frame of the link; to the object when absent"
     )

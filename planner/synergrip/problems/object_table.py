@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, create_model
 
 from synergrip.documents.fields import (
     Angle,
     Axis,
     Mass,
-    Size,
     Table,
     Written,
     array_of,
@@ -20,44 +19,55 @@ from synergrip.documents.fields import (
     with_unit,
 )
 from synergrip.errors import Issue
+from synergrip.grasps.shapes.shape import Shape, Size
+from synergrip.grasps.shapes.shapes import SHAPES
 
 
-class SphereTable(Table):
-    """A ball."""
-
-    radius: Size = Field(description="radius")
-
-
-class BoxTable(Table):
-    """A box."""
-
-    size: Annotated[
+def _lengths(size: Size) -> Any:
+    """Return the type of a size in the file: one length, or several."""
+    if size.count == 1:
+        return Annotated[float, Written(with_unit("length", above=0), unit_schema("length"))]
+    read = with_unit("length", above=0)
+    return Annotated[
         tuple[float, ...],
-        Written(lambda v: listed(with_unit("length", above=0), v, 3, "lengths"), array_of(unit_schema("length"), 3)),
-    ] = Field(description="length of the three edges")
+        Written(lambda v: listed(read, v, size.count, "lengths"), array_of(unit_schema("length"), size.count)),
+    ]
 
 
-class CylinderTable(Table):
-    """A cylinder."""
+def _table(shape: type[Shape]) -> Any:
+    """Return the table of a shape, with the sizes that the shape says it has."""
+    sizes: dict[str, Any] = {size.name: (_lengths(size), Field(description=size.meaning)) for size in shape.sizes}
+    return create_model(f"{shape.__name__}Table", __base__=Table, __doc__=f"A {shape.name}.", **sizes)
 
-    radius: Size = Field(description="radius")
-    height: Size = Field(description="height")
 
-
-class ShapeTable(Table):
+class OneShape(Table):
     """Exactly one shape."""
-
-    sphere: SphereTable | None = Field(default=None, description="a ball")
-    box: BoxTable | None = Field(default=None, description="a box")
-    cylinder: CylinderTable | None = Field(default=None, description="a cylinder")
 
     def issues(self) -> Iterable[Issue]:
         """Refuse none and more than one."""
-        given = [name for name in ("sphere", "box", "cylinder") if getattr(self, name) is not None]
+        given = [name for name in SHAPES if getattr(self, name) is not None]
         if not given:
-            yield Issue("name one shape: sphere, box or cylinder")
+            *names, last = SHAPES
+            yield Issue(f"name one shape: {', '.join(names)} or {last}")
         for name in given[1:]:
             yield Issue(f"an object has one shape; '{given[0]}' is given already", key=name, on_key=True)
+
+    def value(self) -> Shape:
+        """Return the shape."""
+        ((shape, sizes),) = [(SHAPES[name], dict(table)) for name, table in self if table is not None]
+        return shape(**sizes)
+
+
+if TYPE_CHECKING:
+    ShapeTable = OneShape
+else:
+    ShapeTable = create_model(
+        "ShapeTable",
+        __base__=OneShape,
+        __doc__="Exactly one shape.",
+        **{name: (_table(shape) | None, Field(default=None, description=f"a {shape.name}"))
+           for name, shape in SHAPES.items()},
+    )  # fmt: skip
 
 
 class OrientationTable(Table):

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os.path import exists, isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
+from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import facing_notes
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.problems.limits_table import limits_of
-from synergrip.problems.loads import Loads, loads
+from synergrip.problems.loads import Keys, stated_at, task_of
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
+from synergrip.problems.problem_values import document_of
+from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import MAXIMISED, TimedTask
+from synergrip.tasks.timing import at_start, happening
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
@@ -37,7 +43,12 @@ class Problem:
     file: ProblemFile
     document: Document
     grasp: Grasp
-    task: TimedTask
+    """As it is when the task begins: a hand holds the load of the first instant."""
+    task: Task
+    """What is asked, for any grasp."""
+    timed: TimedTask
+    """The same at its knots, for this grasp."""
+    keys: Keys
     notes: tuple[str, ...] = ()
     """What is doubtful about the grasp, though it is no error."""
 
@@ -74,34 +85,61 @@ def find_problem(name_or_path: str) -> Path:
     return inside
 
 
-def load_problem(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Problem:
+def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Sequence[str] = ()) -> Problem:
     """Read a problem, with ``KEY=VALUE`` texts put over the file.
 
     Args:
-        name_or_path: path of a problem file or of a grasp given as matrices, or the name of a bundled problem.
-        overrides: such as ``limits.margin=0.3 N``.
+        problem: path of a problem file or of a grasp given as matrices, the name of a bundled problem, or a dict of
+            the same structure, whose files are looked for in the current folder.
+        overrides: one or more texts such as ``limits.margin=0.3 N``.
 
     Raises:
         InputError: everything that is wrong with the file, each with its place.
+
+    Example:
+        >>> load_problem("barrett-ball-hold", "limits.margin=1 N").timed.margin
+        1.0
     """
-    path = find_problem(str(name_or_path))
-    file, document = _read(path, overrides)
+    texts = (overrides,) if isinstance(overrides, str) else overrides
+    if isinstance(problem, Mapping):
+        document = document_of(problem).with_overrides(texts)
+        return _problem(document.data.get("title") or "problem", document.path, parse(document, ProblemFile), document)
+    if not isinstance(problem, str | Path):
+        raise InputError.at("PROBLEM", f"expected a name, a path or a dict, got {shown(problem)}")
+    path = find_problem(str(problem))
+    return _problem(path.stem, path, *_read(path, texts))
+
+
+def _problem(name: str, path: Path, file: ProblemFile, document: Document) -> Problem:
+    """Return the problem that a file states, or everything that is wrong with it."""
     issues: list[Issue] = []
     touching = _gather(issues, lambda: _touching(path, file))
-    body = touching.grasp.held.body if touching is not None and touching.grasp.held is not None else None
-    happening = _gather(issues, lambda: loads(file.task, path.parent, _mass(file), body))
-    if touching is None or happening is None or issues:
+    asked = _gather(issues, lambda: _asked(file, path.parent, touching))
+    if touching is None or asked is None or issues:
         if touching is not None:
             _gather(issues, lambda: limits_of(file, touching.grasp))
         raise InputError([document.locate(issue) for issue in issues])
+    task, keys = asked
     try:
-        task = _task(file, touching, happening)
+        task = task.replace(limits=limits_of(file, touching.grasp), goals=file.goal.goals)
+        timed = task.timed(touching.grasp)
     except InputError as error:
-        raise error.located(document.locate) from None
-    grasp = touching.grasp
-    if grasp.held is not None and happening.wrench is not None:
-        grasp = replace(grasp, w_0=frozen(happening.wrench[0]))  # a hand holds its load when the task begins
-    return Problem(path.stem, path, file, document, grasp, task, touching.notes)
+        raise stated_at(error, keys).located(document.locate) from None
+    grasp = at_start(touching.grasp, timed.wrench[0])
+    return Problem(name, path, file, document, grasp, task, timed, keys, touching.notes)
+
+
+def _asked(file: ProblemFile, folder: Path, touching: _Touching | None) -> tuple[Task, Keys]:
+    """Return the task, judged on its object; without a grasp on a bare mass, so that all that is wrong is told."""
+    task, keys = task_of(file.task, folder)
+    body = touching.grasp.held.body if touching is not None and touching.grasp.held is not None else None
+    if body is None and file.object is not None:
+        body = Object(mass=file.object.mass or 0.0, position=frozen(np.zeros(3)))
+    try:
+        happening(task, body)
+    except InputError as error:
+        raise stated_at(error, keys) from None
+    return task, keys
 
 
 @dataclass(frozen=True)
@@ -156,22 +194,6 @@ def _spot_notes(matrices: Path) -> tuple[str, ...]:
     return tuple(message for _, message in same_spots([data["name"] for data in contacts], points))
 
 
-def _mass(file: ProblemFile) -> float:
-    return (file.object.mass or 0.0) if file.object else 0.0
-
-
-def _task(file: ProblemFile, touching: _Touching, happening: Loads) -> TimedTask:
-    times, wrench = happening.times, happening.wrench
-    if wrench is None:
-        wrench = frozen(np.tile(touching.grasp.w_0, (len(times), 1)))
-    limits, goals = limits_of(file, touching.grasp), file.goal.goals
-    return TimedTask(
-        times, wrench, happening.target, 0.0, limits, goals,
-        file.task.tolerance or 0.0, file.task.tracking, file.task.axes, file.task.drift, happening.profiles,
-        file.task.between,
-    ).on(touching.grasp)  # fmt: skip
-
-
 def located(problem: Problem, error: SynergripError) -> SynergripError:
     """Return an error of planning with its place in the file that holds its key."""
     if not isinstance(error, InputError):
@@ -189,7 +211,7 @@ def located(problem: Problem, error: SynergripError) -> SynergripError:
             else problem.document.locate(replace(issue, key=asked.get(issue.key, issue.key)))
         )
 
-    return error.located(place)
+    return stated_at(error, problem.keys).located(place)
 
 
 def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactError:
@@ -202,7 +224,7 @@ def _rigid_located(problem: Problem, error: RigidContactError) -> RigidContactEr
 
 def _stiffness_key(file: ProblemFile, error: RigidContactError) -> str:
     """Return the key that says how stiff the contact is in the direction of the error."""
-    names = {"n": ("stiffness",), "m": ("spin_stiffness",)}.get(error.component, ("tangential_stiffness", "stiffness"))
+    names = (STIFFNESS_OF.get(error.component, "stiffness"), "stiffness")
     entries = [(f"contact[{i}]", entry) for i, entry in enumerate(file.contact)
                if error.contact == (entry.name or entry.at or entry.link)]  # fmt: skip
     for name in names:

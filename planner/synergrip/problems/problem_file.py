@@ -11,8 +11,9 @@ from pydantic import Field
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
+from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.matrices import MOST_CONTACTS
-from synergrip.problems.contact_list import ContactSpec, contact_list
+from synergrip.problems.contact_list import contact_list
 from synergrip.problems.contact_tables import ContactEntry, ContactsTable
 from synergrip.problems.hand_table import GraspTable, HandTable
 from synergrip.problems.limits_file import ExpectTable, GoalTable, LimitsTable, OutputTable
@@ -46,7 +47,7 @@ class ProblemFile(Table):
     output: OutputTable = Field(default_factory=OutputTable, description="what is written")
     expect: ExpectTable | None = Field(default=None, description="the expected answer, for tests")
 
-    def contact_list(self) -> tuple[ContactSpec, ...]:
+    def contact_list(self) -> tuple[ContactAt, ...]:
         """Return every contact with the defaults filled in; empty for a grasp given as matrices."""
         return () if self.grasp else contact_list(self.contacts, self.contact)
 

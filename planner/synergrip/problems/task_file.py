@@ -27,12 +27,12 @@ from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, repeated
 from synergrip.problems.motion_tables import MoveTable, PalmTable, WaypointTable, waypoint_issues
 from synergrip.problems.push_table import PushTable
+from synergrip.tasks.knots import MOST_KNOTS
 from synergrip.tasks.profiles import SHORTEST, WaypointProfile
 
 _COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 _COMPONENT = {"anyOf": [NUMBER, unit_schema("force", "torque")]}
 _ACCELERATION = {"anyOf": [NUMBER, unit_schema("acceleration")]}
-MOST_KNOTS = 100_000
 
 
 def _wrench(value: object) -> str | tuple[float, ...]:

@@ -15,10 +15,11 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_cone import FrictionCone, cone_unit
+from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -30,22 +31,11 @@ from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.rows import items_of
-from synergrip.errors import InputError, Issue, one_of
 from synergrip.linalg import Array
+from synergrip.referee.friction import NotWrittenError, contact_cones
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
-from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration
-
-
-class NotWrittenError(InputError):
-    """A limit, goal or contact kind for which the second formulation has no formula."""
-
-    @classmethod
-    def of(cls, what: str, value: object) -> NotWrittenError:
-        """Return the error for a limit or goal, which the other solver takes all the same."""
-        name = type(value).__name__
-        advice = "use solver 'clarabel' (--solver clarabel), or write its formula in referee/"
-        return cls([Issue(f"the CVXPY formulation knows no {what} {name}; {advice}", "solver")])
+from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
@@ -77,24 +67,13 @@ def friction(
 
     `ratios` (n_c,) are the shares of the friction that may be used.
     """
-    cones, grasp = [], model.response.grasp
+    grasp = model.response.grasp
     shares = np.ones(grasp.n_c) if ratios is None else ratios
-    for contact, rows, share in zip(grasp.contacts, grasp.rows, shares, strict=True):
-        force = model.force[:, rows] / model.force_unit
-        mu, nu = share * contact.friction, share * contact.spin_friction
-        if contact.kind.name == "frictionless":
-            cones.append(Cone(key, items_of([contact.name]), force - margin))
-        elif contact.kind.name == "hard":
-            own = cone_unit(mu)
-            cones.append(Cone(key, items_of([contact.name]), (mu * force[:, 0] - margin) / own, force[:, 1:] / own))
-        elif contact.kind.name == "soft":
-            own = cone_unit(mu)
-            tail = force[:, 1:] @ np.diag([1.0, 1.0, mu / nu]) / own
-            cones.append(Cone(key, items_of([contact.name]), (mu * force[:, 0] - margin) / own, tail))
-        else:
-            known = ("frictionless", "hard", "soft")
-            raise NotWrittenError([Issue(one_of(contact.kind.name, known), "contact.kind")])
-    return tuple(cones)
+    return tuple(
+        cone
+        for contact, rows, share in zip(grasp.contacts, grasp.rows, shares, strict=True)
+        for cone in contact_cones(contact, model.force[:, rows] / model.force_unit, margin, share, key)
+    )
 
 
 def _friction_reserve(model: Model, limit: FrictionReserve) -> tuple[Cone, ...]:
@@ -214,6 +193,7 @@ GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LeastPeak: _least_peak,
     LeastReconfiguration: least_reconfiguration,
     LeastMotion: least_motion,
+    SteadyForces: steady_forces,
     CentredJoints: centred_joints,
     WeightedSum: _weighted_sum,
 }

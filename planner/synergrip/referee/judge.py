@@ -171,9 +171,9 @@ def _references(formulation: Formulation) -> Expression | None:
 
     if formulation.unreduced is None:
         return None
-    matrix, constant, time_basis = formulation.reference.matrix, formulation.reference.constant, formulation.time_basis
-    free = cp.Variable((formulation.knots if time_basis is None else time_basis.shape[1], formulation.n_v))
-    return constant + (free if time_basis is None else time_basis @ free) @ matrix.T
+    matrix, constant = formulation.reference.matrix, formulation.reference.constant
+    free = formulation.free_basis @ cp.Variable(formulation.unknowns)
+    return constant + cp.reshape(free, (formulation.knots, formulation.n_v), order="C") @ matrix.T
 
 
 def _unknowns(program: Program, formulation: Formulation, model: Model, objective: Written) -> Array:

@@ -7,6 +7,7 @@ import numpy as np
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
+from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.referee.model import Model, Written
 from synergrip.referee.motion_formulas import times_rows
 
@@ -40,6 +41,18 @@ def least_motion(model: Model, goal: LeastMotion) -> Written:
         stiffest = float(((1 / h[1:] + 1 / h[:-1]) ** 2 / span).max())  # the middle weight is the largest, squared
     factor = len(model.times) if goal.exact else min(float(len(model.times)), goal.stiffest / stiffest)
     return Written(0.5 * factor * cp.sum_squares(parts))
+
+
+def steady_forces(model: Model, goal: SteadyForces) -> Written:
+    """Write the squares of the forces' rates down, for a task that lasts 1."""
+    import cvxpy as cp
+
+    if len(model.times) < 2:
+        return Written(cp.Constant(0.0))
+    h = (np.diff(model.times) / (model.times[-1] - model.times[0]))[:, None]
+    share = model.force @ np.diag(model.response.scale.force / model.force_unit)
+    factor = len(model.times) if goal.exact else min(float(len(model.times)), goal.stiffest * h.min())
+    return Written(0.5 * factor * cp.sum_squares(times_rows(1 / np.sqrt(h), share[1:] - share[:-1])))
 
 
 def centred_joints(model: Model, goal: CentredJoints) -> Written:

@@ -7,16 +7,25 @@ from dataclasses import dataclass
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Analysis:
+@dataclass(frozen=True, eq=False, repr=False)
+class Analysis(Value):
     """Everything that is true of a grasp before any task."""
 
     grasp: Grasp
     response: Response
     spaces: Subspaces
     coordinates: Coordinates
+
+    def __repr__(self) -> str:
+        """Return counts and dimensions."""
+        grasp, (forces, motions, redundant) = self.grasp, self.spaces.dimensions
+        return (
+            f"Analysis({grasp.n_c} contacts, {grasp.n_q} joints, {grasp.n_z} synergies: "
+            f"dim E_s {forces}, Gamma_ucs {motions}, Gamma_zr {redundant}{', ambiguous' * self.spaces.ambiguous})"
+        )
 
 
 def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:

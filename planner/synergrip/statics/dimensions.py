@@ -11,8 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.errors import NotRestrainedError
-from synergrip.grasps.contacts.contact import Contact, ContactKind
-from synergrip.grasps.contacts.kinds import contact_kind
+from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.contacts.hard_finger import HardFinger
+from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.contacts.soft_finger import SoftFinger
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
@@ -49,7 +51,9 @@ def dimension_table(grasp: Grasp) -> tuple[DimensionColumn, DimensionColumn]:
     A grasp given as matrices has only the rows of J that it has: soft contacts become hard by leaving the spin out,
     the other way there is nothing to go by.
     """
-    hard, soft = (_column(grasp, contact_kind(name)) for name in ("hard", "soft"))
+    hard, soft = (
+        _column(grasp, kind) for kind in (HardFinger(friction=1.0), SoftFinger(friction=1.0, spin_friction=1.0))
+    )
     return hard, soft
 
 

@@ -8,10 +8,11 @@ import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.statics.response import Response
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(Value):
     """Forces and small displacements at T knots, from the start of the task; SI units."""
 
     times: Array  # (T,) [s]

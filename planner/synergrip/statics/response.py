@@ -11,16 +11,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Scale, scale_of
+from synergrip.grasps.scale import Metric, Scale, scale_of
+from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
+from synergrip.values import Value
 
 ENOUGH = 1e-11
 """Relative error of the maps up to which float64 is believed; beyond it they are worked out in twice the digits."""
+FIGURES = tuple(f"d{name}_{cause}" for name in ("lambda", "u", "tau", "sigma", "z", "q") for cause in ("dzr", "dw"))
+"""The maps whose accuracy is known, in the order of `figures`."""
 
 
 @dataclass(frozen=True)
@@ -57,29 +62,51 @@ class Accuracy:
         return self._share(self.unknown)
 
     def _share(self, amount: float) -> float:
-        """Return an amount as a share of the map; of its terms when the map is 0 as far as anyone can tell."""
-        whole = self.size if self.size > self.unknown else self.terms
-        return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
+        return float(shares(np.array(amount), np.array([self.size, self.terms, self.lost, self.changed])))
 
 
-@dataclass(frozen=True)
-class Response:
-    """Linear maps of a restrained grasp, SI units. Forces act on the object."""
+def shares(amounts: Array, figures: Array) -> Array:
+    """Return amounts (...) as shares of their maps; of their terms where a map is 0 as far as anyone can tell.
+
+    Args:
+        amounts: in the units of the maps.
+        figures: (..., 4) the fields of `Accuracy`.
+    """
+    size, terms, lost, changed = np.moveaxis(figures, -1, 0)
+    whole = np.where(size > np.maximum(lost, changed), size, terms)
+    none = np.where(amounts == 0, 0.0, np.inf)
+    return np.where(whole > 0, amounts / np.where(whole > 0, whole, 1.0), none)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Maps(Value):
+    """Linear maps of a restrained grasp, or of each of many (leading axes ...); SI units. Forces act on the object."""
+
+    dlambda_dzr: Array  # (..., n_l, n_z) (28)
+    du_dzr: Array  # (..., 6, n_z) (27)
+    dtau_dzr: Array  # (..., n_q, n_z)
+    dsigma_dzr: Array  # (..., n_z, n_z)
+    dz_dzr: Array  # (..., n_z, n_z) (25)
+    dq_dzr: Array  # (..., n_q, n_z) (26)
+    dlambda_dw: Array  # (..., n_l, 6) = -G+
+    du_dw: Array  # (..., 6, 6) = (G K G')^-1: the object sags under load
+    dz_dw: Array  # (..., n_z, 6)
+    dq_dw: Array  # (..., n_q, 6)
+
+    @property
+    def right_inverse(self) -> Array:
+        """(..., n_l, 6) ``G+ = K G' (G K G')^-1``, K = C^-1."""
+        return -self.dlambda_dw
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response(Maps):
+    """The maps of one grasp, and how well they are known."""
 
     grasp: Grasp
     scale: Scale
     restraint: Decision
     """The rank decision on G'."""
-    dlambda_dzr: Array  # (n_l, n_z) (28)
-    du_dzr: Array  # (6, n_z) (27)
-    dtau_dzr: Array  # (n_q, n_z)
-    dsigma_dzr: Array  # (n_z, n_z)
-    dz_dzr: Array  # (n_z, n_z) (25)
-    dq_dzr: Array  # (n_q, n_z) (26)
-    dlambda_dw: Array  # (n_l, 6) = -G+
-    du_dw: Array  # (6, 6) = (G K G')^-1: the object sags under load
-    dz_dw: Array  # (n_z, 6)
-    dq_dw: Array  # (n_q, 6)
     accuracy: Mapping[str, Accuracy]
     """Of every map, by its name."""
 
@@ -91,11 +118,6 @@ class Response:
         root = np.sqrt(np.diag(C))
         values, vectors = np.linalg.eigh(C / np.outer(root, root))
         return frozen((vectors / np.maximum(values, SINGULAR)) @ vectors.T / np.outer(root, root))
-
-    @property
-    def right_inverse(self) -> Array:
-        """(n_l, 6) ``G+ = K G' (G K G')^-1``, K = C^-1."""
-        return -self.dlambda_dw
 
 
 def respond(grasp: Grasp, load: Array | None = None) -> Response:
@@ -112,43 +134,57 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     scale = scale_of(grasp)
     decision = restraint(grasp, scale, np.atleast_2d(grasp.w_0) if load is None else load)
     refuse_rigid_contacts(grasp, scale)
-    found, accuracy = _answer(grasp, scale)
-    n_z, turned = grasp.n_z, about_centroid(scale)
-    maps = dict(found.maps, u=turned.T @ found.maps["u"])
-    of_references = {name: frozen(each[:, :n_z]) for name, each in maps.items()}
-    of_wrench = {name: frozen(each[:, n_z:] @ turned) for name, each in maps.items()}
-    du_dw = of_wrench["u"]
-    return Response(
-        grasp, scale, decision,
-        of_references["lambda"], of_references["u"], of_references["tau"], of_references["sigma"],
-        of_references["z"], of_references["q"],
-        of_wrench["lambda"], frozen((du_dw + du_dw.T) / 2), of_wrench["z"], of_wrench["q"], accuracy,
-    )  # fmt: skip
+    maps, known = _worked_out(Matrices.of(grasp), scale)
+    accuracy = {name: Accuracy(*row) for name, row in zip(FIGURES, known.tolist(), strict=True)}
+    return Response(**{name: frozen(each) for name, each in maps.items()},
+                    grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip
 
 
-def _answer(grasp: Grasp, scale: Scale) -> tuple[Answer, dict[str, Accuracy]]:
-    """Return the answer in float64 where that is enough, else in twice its digits."""
+def maps_in_float64(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
+    """Return the maps of one grasp or of many (leading axes ...), by their names in `Maps`, and the `figures` of them.
+
+    Raises:
+        numpy.linalg.LinAlgError: the equations of a grasp are singular, as far as float64 can tell.
+    """
+    found = answer(matrices, metric, FLOAT64)
+    return _maps(found, metric), figures(found, metric)
+
+
+def is_enough(known: Array) -> NDArray[np.bool_]:
+    """Return which (...) of the `figures` (..., 12, 4) are those of maps known well enough."""
+    return np.asarray(np.all(shares(known[..., 2], known) <= ENOUGH, axis=-1))
+
+
+def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
+    """Return maps and figures in float64 where that is enough, else in twice its digits."""
     try:
-        found = answer(grasp, scale, FLOAT64)
+        maps, known = maps_in_float64(matrices, metric)
+        if is_enough(known):
+            return maps, known
     except np.linalg.LinAlgError:
-        found = None
-    if found is not None:
-        accuracy = _accuracy(found, scale)
-        if all(each.error <= ENOUGH for each in accuracy.values()):
-            return found, accuracy
-    found = answer(grasp, scale, DOUBLED)
-    return found, _accuracy(found, scale)
+        pass
+    found = answer(matrices, metric, DOUBLED)
+    return _maps(found, metric), figures(found, metric)
 
 
-def _accuracy(found: Answer, scale: Scale) -> dict[str, Accuracy]:
-    """Return the accuracy of every map."""
-    motion = np.repeat([1.0, scale.length], 3)
-    result = {}
+def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
+    turned = about_centroid(metric)
+    both = {f"d{name}": each for name, each in found.maps.items()} | {"du": turned.mT @ found.maps["u"]}
+    of_references = {f"{name}_dzr": each[..., :-6] for name, each in both.items()}
+    of_wrench = {f"{name}_dw": both[name][..., -6:] @ turned for name in ("dlambda", "du", "dz", "dq")}
+    of_wrench["du_dw"] = (of_wrench["du_dw"] + of_wrench["du_dw"].mT) / 2
+    return of_references | of_wrench
+
+
+def figures(found: Answer, metric: Metric) -> Array:
+    """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
+    motion, rows = metric.motion_sizes, {"lambda": metric.force, "u": metric.motion_sizes}
+    result = []
     for name, values in found.maps.items():
-        rows = {"lambda": scale.force, "u": motion}.get(name, np.ones(len(values)))
-        entries = np.abs(np.stack([values, found.terms[name], found.errors[name], found.changes[name]]))
-        entries *= rows[:, None]
-        entries[..., -6:] *= motion
-        for cause, columns in (("dzr", entries[..., :-6]), ("dw", entries[..., -6:])):
-            result[f"d{name}_{cause}"] = Accuracy(*columns.max(axis=(1, 2), initial=0.0).tolist())
-    return result
+        parts = (values, found.terms[name], found.errors[name], found.changes[name])
+        unit = rows[name][..., None] if name in rows else 1.0
+        sizes = [np.abs(part) * unit for part in parts]
+        of_wrench = [each[..., -6:] * motion[..., None, :] for each in sizes]
+        for entries in ([each[..., :-6] for each in sizes], of_wrench):
+            result.append(np.stack([each.max(axis=(-2, -1), initial=0.0) for each in entries], axis=-1))
+    return np.stack(result, axis=-2)

@@ -6,8 +6,8 @@ import numpy as np
 
 from synergrip.errors import NotRestrainedError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Scale
-from synergrip.linalg import RANK_TOLERANCE, Array, Decision, canonical, frozen, split
+from synergrip.grasps.scale import Metric, Scale
+from synergrip.linalg import RANK_TOLERANCE, Array, Decision, Decisions, canonical, decided, frozen, split
 from synergrip.statics.twists import describe_twist
 
 
@@ -23,17 +23,21 @@ def restraint(grasp: Grasp, scale: Scale, load: Array) -> Decision:
         NotRestrainedError: a motion of the object moves no contact; it carries the free twists and
             the largest part of the load that no contact force can balance.
     """
-    scaled = grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None]
-    found = split(scaled)
-    if found.null_space.shape[1] == 0:
-        return found.decision
-    free = canonical(found.null_space)
+    decision = restraints(grasp.G, scale).at(())
+    if decision.rank == 6:
+        return decision
+    free = canonical(split(scale.scaled_grasp(grasp.G)).null_space)
     twists = np.asarray(np.linalg.solve(scale.motion, free), dtype=np.float64)
     parts = scale.wrench(load) @ free
     worst = parts[int(np.argmax(np.linalg.norm(parts, axis=1)))]
     counts = np.linalg.norm(worst) > RANK_TOLERANCE * float(np.linalg.norm(scale.wrench(load), axis=1).max())
     unsupported = scale.motion.T @ free @ worst if counts else np.zeros(6)
     raise NotRestrainedError(_message(grasp, scale, twists, unsupported), frozen(twists), frozen(unsupported))
+
+
+def restraints(G: Array, metric: Metric) -> Decisions:
+    """Return the rank decisions on the G' of one grasp or of many, G (..., 6, n_l)."""
+    return decided(metric.scaled_grasp(G))
 
 
 def _message(grasp: Grasp, scale: Scale, twists: Array, unsupported: Array) -> str:

@@ -16,8 +16,8 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from synergrip.doubled import Doubled, block, solve
-from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Scale
+from synergrip.grasps.scale import Metric
+from synergrip.grasps.stack import Matrices
 from synergrip.linalg import Array, frozen
 
 N = TypeVar("N", Array, Doubled)
@@ -51,19 +51,19 @@ def _high(number: Doubled) -> Array:
 
 @cache
 def _half_units(shape: tuple[int, ...]) -> Array:
-    """Return numbers between -1/2 and 1/2: any, but always the same ones."""
+    """Return numbers between -1/2 and 1/2: any, but always the same ones, for every matrix of a stack too."""
     return frozen(np.random.default_rng(sum(shape)).uniform(-0.5, 0.5, shape))
 
 
 def _between_the_digits(values: Array) -> Doubled:
     """Return numbers that `values` are the roundings of."""
-    rest = _half_units(values.shape) * np.spacing(np.abs(values))
+    rest = _half_units(values.shape[-2:]) * np.spacing(np.abs(values))
     return Doubled(values, np.where(values == 0, 0.0, rest))
 
 
 def _apart(values: Array) -> Array:
     """Return other numbers that are as much farther away as float64 needs to tell them."""
-    return values * (1 + APART * 2.0**-53 * _half_units(values.shape))
+    return values * (1 + APART * 2.0**-53 * _half_units(values.shape[-2:]))
 
 
 def _solve(A: Array, B: Array) -> Array:
@@ -72,7 +72,7 @@ def _solve(A: Array, B: Array) -> Array:
 
 def _block(rows: Sequence[Sequence[Array]]) -> Array:
     """Return what `numpy.block` does, several times as fast."""
-    return np.concatenate([np.concatenate(row, axis=1) for row in rows])
+    return np.concatenate([np.concatenate(row, axis=-1) for row in rows], axis=-2)
 
 
 FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve, _apart, APART)
@@ -83,7 +83,8 @@ DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, _betw
 class Answer:
     """What answers to z_r (n_z columns), then to the wrench (6 columns): "lambda", "u", "tau", "sigma", "z", "q".
 
-    SI units; wrenches and motions of the object are taken about the centroid of the contacts.
+    SI units; wrenches and motions of the object are taken about the centroid of the contacts. Of one grasp, or of
+    each of many (leading axes).
     """
 
     maps: Mapping[str, Array]
@@ -95,56 +96,58 @@ class Answer:
     """Sizes of the terms that each entry is the sum of."""
 
 
-def answer(grasp: Grasp, scale: Scale, arithmetic: Arithmetic[N]) -> Answer:
-    """Solve the equilibrium of a grasp.
+def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Answer:
+    """Solve the equilibrium of a grasp, or of each of many (leading axes; in float64 only).
 
     Raises:
         numpy.linalg.LinAlgError: the system is singular, as far as the arithmetic can tell.
     """
-    number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, grasp.n_l, grasp.n_z
-    matrices, turned = _Matrices.of(grasp, number), number(about_centroid(scale))
-    inverse = _inverse(matrices, turned, arithmetic, n_l)
+    number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, matrices.G.shape[-1], matrices.S.shape[-1]
+    system, turned = _System.of(matrices, number), number(about_centroid(metric))
+    inverse = _inverse(system, turned, arithmetic, n_l)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
-    def correction(matrices: _Matrices[N], solution: N) -> N:
-        gap, balanced = matrices.left_over(solution[:n_l], turned.T @ solution[n_l:], still)
+    def correction(system: _System[N], solution: N) -> N:
+        gap, balanced = system.left_over(solution[..., :n_l, :], turned.mT @ solution[..., n_l:, :], still)
         return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
 
-    solution = number(np.zeros((n_l + 6, n_z + 6)))
+    solution = number(np.zeros((*matrices.G.shape[:-2], n_l + 6, n_z + 6)))
     for _ in range(CORRECTIONS):
-        last = correction(matrices, solution)
+        last = correction(system, solution)
         solution = solution + last
-    maps = matrices.followed(solution, still)
+    maps = system.followed(solution, still)
     values = {name: rounded(each) for name, each in maps.items()}
-    lost = matrices.followed(last, number(np.zeros((n_z, n_z + 6))))
-    others = _Matrices.of(grasp, arithmetic.other)
+    lost = system.followed(last, number(np.zeros((n_z, n_z + 6))))
+    others = _System.of(matrices, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
     changes = {name: CAUTION / arithmetic.apart * np.abs(rounded(other[name] - maps[name])) for name in maps}
     errors = {name: CAUTION * np.abs(rounded(lost[name])) + ROUNDOFF * np.abs(values[name]) for name in maps}
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
         changes = errors = {name: np.maximum(changes[name], errors[name]) for name in maps}
-    return Answer(values, errors, changes, _terms(grasp, np.abs(rounded(inverse)), values))
+    return Answer(values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values))
 
 
-def _terms(grasp: Grasp, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
+def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
     """Return the sizes of the terms of every map; `inverse` is that of the system, entry by entry its size."""
-    sizes, n_z = _Matrices.of(grasp, np.abs), grasp.n_z
+    sizes, n_z = _System.of(matrices, np.abs), matrices.S.shape[-1]
     still = np.eye(n_z, n_z + 6)
-    result = sizes.followed(inverse @ np.vstack([sizes.J @ sizes.S @ still, np.eye(6, n_z + 6, n_z)]), still)
+    of_references, of_wrench = inverse[..., :-6] @ (sizes.J @ sizes.S), inverse[..., -6:]
+    result = sizes.followed(np.concatenate([of_references, of_wrench], axis=-1), still)
     for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
-        result[name][:, :n_z] = np.abs(values[name][:, :n_z])
+        result[name][..., :n_z] = np.abs(values[name][..., :n_z])
     return result
 
 
-def about_centroid(scale: Scale) -> Array:
-    """Return T (6, 6): ``T w`` is the wrench about the centroid of the contacts, ``T' u`` turns its motion into B's."""
-    T = np.eye(6)
-    T[3:, :3] = scale.motion[:3, 3:]
+def about_centroid(metric: Metric) -> Array:
+    """Return T (..., 6, 6): ``T w`` is the wrench about the centroid of the contacts, ``T' u`` turns its motion to B's."""
+    T = np.zeros_like(metric.motion)
+    T[..., range(6), range(6)] = 1.0
+    T[..., 3:, :3] = metric.motion[..., :3, 3:]
     return T
 
 
 @dataclass(frozen=True)
-class _Matrices(Generic[N]):
+class _System(Generic[N]):
     """The matrices of a grasp in some arithmetic, compliances with the minus of the equations they stand in."""
 
     G: N
@@ -155,33 +158,34 @@ class _Matrices(Generic[N]):
     C_z: N
 
     @classmethod
-    def of(cls, grasp: Grasp, data: Callable[[Array], N]) -> _Matrices[N]:
-        compliances = (data(-each) for each in (grasp.C_s, grasp.C_q, grasp.C_z))
-        return cls(data(grasp.G), data(grasp.J), data(grasp.S), *compliances)
+    def of(cls, matrices: Matrices, data: Callable[[Array], N]) -> _System[N]:
+        compliances = (data(-each) for each in (matrices.C_s, matrices.C_q, matrices.C_z))
+        return cls(data(matrices.G), data(matrices.J), data(matrices.S), *compliances)
 
     def followed(self, solution: N, still: N) -> dict[str, N]:
         """Return all that follows from forces and motions; `still` is z of synergies that do not yield."""
-        force, u = solution[:-6], solution[-6:]
-        tau = self.J.T @ force
-        sigma = self.S.T @ tau
+        force, u = solution[..., :-6, :], solution[..., -6:, :]
+        tau = self.J.mT @ force
+        sigma = self.S.mT @ tau
         z = still + self.C_z @ sigma
         return {"lambda": force, "u": u, "tau": tau, "sigma": sigma, "z": z, "q": self.S @ z + self.C_q @ tau}
 
     def left_over(self, force: N, u: N, still: N) -> tuple[N, N]:
         """Return by what contact motions (10) do not fit, and the wrench (7) that is balanced; about B."""
-        tau = self.J.T @ force
-        q = self.S @ (still + self.C_z @ (self.S.T @ tau)) + self.C_q @ tau
-        return self.J @ q + self.C_s @ force - self.G.T @ u, -(self.G @ force)
+        tau = self.J.mT @ force
+        q = self.S @ (still + self.C_z @ (self.S.mT @ tau)) + self.C_q @ tau
+        return self.J @ q + self.C_s @ force - self.G.mT @ u, -(self.G @ force)
 
 
-def _inverse(matrices: _Matrices[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
+def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
     """Return the inverse of the system, whose rows and columns are brought to about one size first."""
-    JS, G = matrices.J @ matrices.S, turned @ matrices.G
-    C = -matrices.C_s - matrices.J @ matrices.C_q @ matrices.J.T - JS @ matrices.C_z @ JS.T
-    A = arithmetic.block([[C, G.T], [G, arithmetic.number(np.zeros((6, 6)))]])
+    JS, G = system.J @ system.S, turned @ system.G
+    C = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
+    corner = arithmetic.number(np.zeros((*arithmetic.rounded(C).shape[:-2], 6, 6)))
+    A = arithmetic.block([[C, G.mT], [G, corner]])
     sizes = np.abs(arithmetic.rounded(A))
-    forces = 1 / np.sqrt(np.diag(sizes)[:n_l])
-    motions = 1 / (sizes[n_l:, :n_l] * forces).max(axis=1)
-    size = 2.0 ** np.round(np.log2(np.concatenate([forces, motions])))
-    found: N = arithmetic.solve(A * np.outer(size, size), arithmetic.number(np.diag(size))) * size[:, None]
+    forces = 1 / np.sqrt(np.diagonal(sizes, axis1=-2, axis2=-1)[..., :n_l])
+    motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
+    size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
+    found: N = arithmetic.solve(A * (size * size.mT), arithmetic.number(size * np.eye(n_l + 6))) * size
     return found

@@ -9,37 +9,65 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from synergrip.linalg import SINGULAR, Array, Decision, canonical, frozen, split
+from synergrip.grasps.scale import Metric
+from synergrip.grasps.stack import Matrices
+from synergrip.linalg import (
+    SINGULAR,
+    Array,
+    Decision,
+    Decisions,
+    canonical,
+    frozen,
+    right_singular,
+    singular_values,
+)
 from synergrip.statics.response import Response
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Subspaces:
-    """Bases of the controlled subspaces. Each is determined by its subspace alone (fixed order and sign)."""
+@dataclass(frozen=True, eq=False, repr=False)
+class Bases(Value):
+    """Bases of the controlled subspaces of one grasp, or of each of many (leading axes ...).
+
+    Each is determined by its subspace alone (fixed order and sign).
+    """
 
     E_s: Array
-    """(n_l, dim) controllable internal forces; orthonormal with spin moments divided by the length."""
+    """(..., n_l, dim) controllable internal forces; orthonormal with spin moments divided by the length."""
     Gamma_ucs: Array
-    """(6, dim) rigid object motions about B; orthonormal in the scaled coordinates of `Scale` [m]."""
+    """(..., 6, dim) rigid object motions about B; orthonormal in the scaled coordinates of `Scale` [m]."""
     Gamma_zcs: Array
-    """(n_z, dim) the synergy motions that go with Gamma_ucs: ``J S Gamma_zcs = G' Gamma_ucs``."""
+    """(..., n_z, dim) the synergy motions that go with Gamma_ucs: ``J S Gamma_zcs = G' Gamma_ucs``."""
     Gamma_zr: Array
-    """(n_z, dim) synergy motions that move no contact; orthonormal."""
-    decisions: Mapping[str, Decision]
-    """The singular values behind each dimension, relative to the size that counts as 1."""
+    """(..., n_z, dim) synergy motions that move no contact; orthonormal."""
 
     @property
     def dimensions(self) -> tuple[int, int, int]:
         """Dimensions of E_s, Gamma_ucs and Gamma_zr; their sum is n_z (34)."""
-        return self.E_s.shape[1], self.Gamma_ucs.shape[1], self.Gamma_zr.shape[1]
+        return self.E_s.shape[-1], self.Gamma_ucs.shape[-1], self.Gamma_zr.shape[-1]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Subspaces(Bases):
+    """The bases of one grasp, and how their dimensions were decided."""
+
+    decisions: Mapping[str, Decision]
+    """The singular values behind each dimension, relative to the size that counts as 1."""
 
     @property
     def ambiguous(self) -> bool:
         """True when a singular value lies in the grey zone, or the force map disagrees with (34)."""
         return any(decision.ambiguous for decision in self.decisions.values())
+
+    def __repr__(self) -> str:
+        """Return the dimensions."""
+        forces, motions, redundant = self.dimensions
+        doubt = ", ambiguous" * self.ambiguous
+        return f"Subspaces(dim E_s {forces}, Gamma_ucs {motions}, Gamma_zr {redundant}{doubt})"
 
 
 def subspaces(response: Response) -> Subspaces:
@@ -48,56 +76,113 @@ def subspaces(response: Response) -> Subspaces:
     Uses ``J S`` and not the print's ``J X S Y``: for C_s > 0 the null spaces agree, and for C_s = 0
     only ``J S`` gives the force-free motions (docs/theory.md).
     """
-    grasp, scale = response.grasp, response.scale
-    Gt = grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None]  # (n_l, 6), scaled
-    JS = grasp.J @ grasp.S / scale.force[:, None]
-    size = _size(JS, grasp.J / scale.force[:, None], grasp.S)
-    held = np.linalg.qr(Gt)[0]
-    against = split(JS - held @ (held.T @ JS), size)  # contact motion that no rigid object motion follows
-    free = against.null_space  # (n_z, dim Gamma_zcs + dim Gamma_zr)
-    within = split(JS @ free, size)
-    Gamma_zr = canonical(free @ within.null_space)
-    Gamma_zcs, moved = _rigid_motions(free @ within.row_space, JS, Gt)
-    E_s, forces = _forces(response, against.decision.rank, Gt)
-    decisions = {
-        "restraint": response.restraint,
-        "redundancy": split(JS, size).decision,
-        "rigid": against.decision,
-        "forces": forces,
-    }
-    return Subspaces(E_s, frozen(np.linalg.solve(scale.motion, moved)), Gamma_zcs, Gamma_zr, decisions)
+    moved = ContactMotions.of(Matrices.of(response.grasp), response.scale)
+    rank, known = int(moved.rigid.ranks), response.accuracy["dlambda_dzr"]
+    moving = moved.moving(rank)
+    E_s, forces = controllable_forces(response.dlambda_dzr, np.array(known.unknown), moved, response.scale, rank)
+    Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, response.scale, int(moving.ranks))
+    found = {"redundancy": moved.redundancy, "rigid": moved.rigid, "forces": forces}
+    decisions = {"restraint": response.restraint, **{name: each.at(()) for name, each in found.items()}}
+    return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, decisions)
 
 
-def _size(JS: Array, J: Array, S: Array) -> float:
-    """Return the largest singular value of J S, or 0 when J S is nothing but rounding."""
-    value = float(np.linalg.norm(JS, 2)) if JS.size else 0.0
-    return value if value > SINGULAR * np.linalg.norm(J, 2) * np.linalg.norm(S, 2) else 0.0
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """Synergy motions that cost no force, split into those that move contacts and those that move none."""
+
+    ranks: Array  # (...)
+    directions: Array
+    """(..., n_z, dim) orthonormal; as many as `ranks` says move contacts, the rest move none."""
+
+    def taken(self, places: Any) -> Moving:
+        """Return those of some grasps of a stack."""
+        return Moving(self.ranks[places], self.directions[places])
 
 
-def _rigid_motions(synergies: Array, JS: Array, Gt: Array) -> tuple[Array, Array]:
-    """Return Gamma_zcs and scaled Gamma_ucs, the latter orthonormal and canonical."""
-    if synergies.shape[1] == 0:
-        return frozen(synergies), np.zeros((6, 0))
-    motions = np.asarray(np.linalg.lstsq(Gt, JS @ synergies, rcond=None)[0], dtype=np.float64)
+@dataclass(frozen=True, eq=False)
+class ContactMotions:
+    """How object and synergies move the contacts, in scaled coordinates; leading axes (...) for many grasps."""
+
+    of_object: Array  # (..., n_l, 6) = G'
+    of_synergies: Array  # (..., n_l, n_z) = J S
+    sizes: Array
+    """(...) The largest singular value of J S, or 0 where J S is nothing but rounding."""
+    held: Array
+    """(..., n_l, 6) orthonormal basis of the range of G'."""
+    redundancy: Decisions
+    """On J S."""
+    rigid: Decisions
+    """On contact motion of synergies that no rigid object motion follows."""
+    directions: Array
+    """(..., n_z, n_z) the synergy motions, orthonormal, behind the singular values of `rigid`."""
+
+    @classmethod
+    def of(cls, matrices: Matrices, metric: Metric) -> ContactMotions:
+        """Return those of one grasp or of many."""
+        of_object, J = metric.scaled_grasp(matrices.G), metric.scaled_rows(matrices.J)
+        of_synergies = J @ matrices.S
+        values = singular_values(of_synergies)
+        largest = values.max(axis=-1, initial=0.0)
+        rounding = SINGULAR * np.linalg.norm(J, axis=(-2, -1)) * np.linalg.norm(matrices.S, axis=(-2, -1))
+        sizes = np.where(largest > rounding, largest, 0.0)
+        held = np.linalg.qr(of_object)[0]
+        against, directions = right_singular(of_synergies - held @ (held.mT @ of_synergies))
+        redundancy, rigid = Decisions.of(values, sizes), Decisions.of(against, sizes)
+        return cls(of_object, of_synergies, sizes, held, redundancy, rigid, directions)
+
+    def taken(self, places: Any) -> ContactMotions:
+        """Return those of some grasps of a stack."""
+        arrays = (self.of_object[places], self.of_synergies[places], self.sizes[places], self.held[places])
+        decisions = (self.redundancy.taken(places), self.rigid.taken(places))
+        return ContactMotions(*arrays, *decisions, self.directions[places])
+
+    def moving(self, rank: int) -> Moving:
+        """Split what costs no force; `rank` synergy motions do, in every grasp of the stack."""
+        free = self.directions[..., rank:]  # (..., n_z, dim Gamma_zcs + dim Gamma_zr)
+        values, directions = right_singular(self.of_synergies @ free)
+        return Moving(Decisions.of(values, self.sizes).ranks, free @ directions)
+
+
+def free_motions(moved: ContactMotions, moving: Moving, metric: Metric, rank: int) -> tuple[Array, Array, Array]:
+    """Return Gamma_ucs, Gamma_zcs and Gamma_zr, where `rank` of the motions that are free move contacts."""
+    synergies, Gamma_zr = moving.directions[..., :rank], canonical(moving.directions[..., rank:])
+    if rank == 0:
+        return frozen(np.zeros((*metric.motion.shape[:-1], 0))), frozen(synergies), Gamma_zr
+    motions = _least_squares(moved.of_object, moved.of_synergies @ synergies)
     basis = canonical(motions)
-    coordinates = np.linalg.lstsq(motions, basis, rcond=None)[0]  # basis = motions @ coordinates
-    return frozen(synergies @ coordinates), basis
+    coordinates = _least_squares(motions, basis)  # basis = motions @ coordinates
+    return frozen(np.linalg.solve(metric.motion, basis)), frozen(synergies @ coordinates), Gamma_zr
 
 
-def _forces(response: Response, rank: int, Gt: Array) -> tuple[Array, Decision]:
+def _least_squares(A: Array, B: Array) -> Array:
+    """Return X of ``A X = B`` as nearly as may be; the columns of A (..., m, n) are independent."""
+    q, r = np.linalg.qr(A)
+    return np.asarray(np.linalg.solve(r, q.mT @ B))
+
+
+def controllable_forces(
+    dlambda_dzr: Array, unknown: Array, moved: ContactMotions, metric: Metric, rank: int
+) -> tuple[Array, Decisions]:
     """Return E_s with the `rank` that the kinematics dictates, and the force map's own decision.
 
     A singular value of the map counts when the map is known that well; how far it is below the largest says nothing,
     because it comes with stiffnesses.
+
+    Args:
+        dlambda_dzr: (..., n_l, n_z) the force map.
+        unknown: (...) by how much its largest entries may be wrong.
+        moved: the contact motions of the same grasps.
+        metric: their scaled coordinates.
+        rank: dimension of E_s, in every grasp of the stack.
     """
-    force, known = response.scale.force, response.accuracy["dlambda_dzr"]
-    scaled = force[:, None] * response.dlambda_dzr
+    scaled = metric.force[..., None] * dlambda_dzr
     vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
-    noise = max(known.unknown, np.finfo(float).eps * known.size) * np.sqrt(scaled.size)
-    counted = int(np.sum(values > noise))
+    size = np.abs(scaled).max(axis=(-2, -1), initial=0.0)
+    noise = np.maximum(unknown, np.finfo(float).eps * size) * np.sqrt(scaled.shape[-2] * scaled.shape[-1])
+    counted = np.sum(values > noise[..., None], axis=-1)
+    relative = np.where(counted[..., None] > 0, values / np.where(values[..., :1] > 0, values[..., :1], 1.0), 0.0)
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
-    decision = Decision(counted, frozen(values / values[0] if counted else 0 * values), counted != rank)
-    internal = vectors[:, :rank]
-    held = np.linalg.qr(Gt)[0]
-    internal = internal - held @ (held.T @ internal)  # G E_s = 0 to the last digit
-    return frozen(canonical(internal) / force[:, None]), decision
+    decision = Decisions(counted, relative, counted != rank)
+    internal = vectors[..., :rank]
+    internal = internal - moved.held @ (moved.held.mT @ internal)  # G E_s = 0 to the last digit
+    return frozen(canonical(internal) / metric.force[..., None]), decision

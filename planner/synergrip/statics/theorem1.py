@@ -10,48 +10,57 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.grasps.scale import Metric
 from synergrip.linalg import Array, frozen
-from synergrip.statics.response import Response
-from synergrip.statics.subspaces import Subspaces
+from synergrip.statics.response import Maps, Response
+from synergrip.statics.subspaces import Bases, Subspaces
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Coordinates:
-    """The change of coordinates between synergy references and (alpha, beta, gamma)."""
+@dataclass(frozen=True, eq=False, repr=False)
+class Coordinates(Value):
+    """The change of coordinates between synergy references and (alpha, beta, gamma), of one grasp or of each of many.
+
+    Of many (leading axes ...) the references are (..., T, n_z), T for each grasp, and so are the coordinates.
+    """
 
     M: Array
-    """(n_z, n_z) rows E_s^+ dlambda/dz_r [N], Gamma_ucs^+ du/dz_r [m], Gamma_zr^+ [synergy units]."""
-    inverse: Array  # (n_z, n_z)
+    """(..., n_z, n_z) rows E_s^+ dlambda/dz_r [N], Gamma_ucs^+ du/dz_r [m], Gamma_zr^+ [synergy units]."""
+    inverse: Array  # (..., n_z, n_z)
     dimensions: tuple[int, int, int]
 
     @property
     def condition(self) -> float:
-        """2-norm condition number of M."""
-        return float(np.linalg.cond(self.M)) if self.M.size else 1.0
+        """2-norm condition number of M; the largest, of many."""
+        return float(np.linalg.cond(self.M).max(initial=1.0)) if self.M.size else 1.0
 
     def references(self, alpha: Array, beta: Array, gamma: Array) -> Array:
         """Return dz_r (..., n_z) for alpha (..., dim E_s), beta (..., dim Gamma_ucs), gamma (..., dim Gamma_zr)."""
-        return np.asarray(np.concatenate([alpha, beta, gamma], axis=-1) @ self.inverse.T)
+        return np.asarray(np.concatenate([alpha, beta, gamma], axis=-1) @ self.inverse.mT)
 
     def coordinates(self, dz_r: Array) -> tuple[Array, Array, Array]:
         """Return alpha, beta, gamma (..., dim) of references (..., n_z)."""
         forces, motions, _ = self.dimensions
-        result = np.asarray(dz_r) @ self.M.T
+        result = np.asarray(dz_r) @ self.M.mT
         return result[..., :forces], result[..., forces : forces + motions], result[..., forces + motions :]
 
 
 def coordinates(response: Response, spaces: Subspaces) -> Coordinates:
-    """Return M of (35) and its inverse; the pseudo-inverses are taken in the scaled metric.
+    """Return M of (35) and its inverse; the pseudo-inverses are taken in the scaled metric."""
+    return coordinates_of(response, spaces, response.scale)
 
-    All three bases are orthonormal there, so each pseudo-inverse is a transpose.
+
+def coordinates_of(maps: Maps, bases: Bases, metric: Metric) -> Coordinates:
+    """Return M of (35) and its inverse for one grasp, or for each of many (leading axes).
+
+    All three bases are orthonormal in the scaled metric, so each pseudo-inverse is a transpose.
     """
-    scale = response.scale
-    forces = (scale.force[:, None] * spaces.E_s).T @ (scale.force[:, None] * response.dlambda_dzr)
-    motions = (scale.motion @ spaces.Gamma_ucs).T @ (scale.motion @ response.du_dzr)
-    M = np.vstack([forces, motions, spaces.Gamma_zr.T])
-    rows = np.linalg.norm(M, axis=1, keepdims=True)  # N, m and 1 in one matrix: equilibrate before inverting
-    inverse = np.linalg.inv(M / rows) / rows.T
-    return Coordinates(frozen(M), frozen(inverse), spaces.dimensions)
+    force, motion = metric.force[..., None], metric.motion
+    forces = (force * bases.E_s).mT @ (force * maps.dlambda_dzr)
+    motions = (motion @ bases.Gamma_ucs).mT @ (motion @ maps.du_dzr)
+    M = np.concatenate([forces, motions, bases.Gamma_zr.mT], axis=-2)
+    rows = np.linalg.norm(M, axis=-1, keepdims=True)  # N, m and 1 in one matrix: equilibrate before inverting
+    return Coordinates(frozen(M), frozen(np.linalg.inv(M / rows) / rows.mT), bases.dimensions)
 
 
 def motion_coordinates(response: Response, spaces: Subspaces, motion: Array) -> tuple[Array, Array]:

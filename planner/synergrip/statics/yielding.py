@@ -3,35 +3,72 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.errors import Issue, RigidContactError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Scale
-from synergrip.linalg import SINGULAR, canonical
+from synergrip.grasps.scale import Metric
+from synergrip.grasps.stack import Matrices
+from synergrip.linalg import SINGULAR, Array, canonical
+
+PLAINLY = 1e-9
+"""Contacts that yield in every direction at least so much, of what they yield in all, need no singular values."""
 
 
-def refuse_rigid_contacts(grasp: Grasp, scale: Scale) -> None:
+def refuse_rigid_contacts(grasp: Grasp, metric: Metric) -> None:
     """Refuse a grasp whose total compliance has a null space.
-
-    The compliances are positive semidefinite, so what their sum leaves rigid each of them leaves rigid. Each is
-    measured against itself: contacts may be as much stiffer than joints as they like.
 
     Raises:
         RigidContactError: naming the contact component that comes nearest to the rigid direction.
     """
-    J, S = grasp.J / scale.force[:, None], grasp.S
-    parts = (grasp.C_s / np.outer(scale.force, scale.force), grasp.C_q @ J.T, grasp.C_z @ S.T @ J.T)
-    sizes = (0.0, _norm(grasp.C_q) * _norm(J), _norm(grasp.C_z) * _norm(S) * _norm(J))
-    norms = [_norm(part) for part in parts]
-    yielding = [part / norm for part, norm, size in zip(parts, norms, sizes, strict=True) if norm > SINGULAR * size]
-    _, values, directions = np.linalg.svd(np.vstack([np.zeros((grasp.n_l, grasp.n_l)), *yielding]), full_matrices=False)
+    matrices = Matrices.of(grasp)
+    if not is_rigid(matrices, metric):
+        return
+    _, values, directions = np.linalg.svd(_yielding(matrices, metric), full_matrices=False)
     rigid = directions[values <= SINGULAR]
-    if len(rigid):
-        raise _rigid(grasp, int(np.argmax(np.abs(canonical(rigid.T)[:, 0]))))
+    raise _rigid(grasp, int(np.argmax(np.abs(canonical(rigid.T)[:, 0]))))
 
 
-def _norm(matrix: np.ndarray) -> float:
-    return float(np.linalg.norm(matrix))
+def is_rigid(matrices: Matrices, metric: Metric) -> NDArray[np.bool_]:
+    """Return of which grasps (...) the total compliance has a null space."""
+    rigid = np.array(~_contacts_yield_plainly(matrices.C_s, metric))
+    if np.any(rigid):
+        doubtful = Metric(metric.motion[rigid], metric.force[rigid])
+        values = np.linalg.svd(_yielding(matrices.taken(rigid), doubtful), compute_uv=False)
+        rigid[rigid] = values[..., -1] <= SINGULAR
+    return rigid
+
+
+def _contacts_yield_plainly(C_s: Array, metric: Metric) -> NDArray[np.bool_]:
+    """Return where the diagonals of scaled C_s outweigh the rest of their rows: a bound by Gershgorin's discs."""
+    sizes = np.abs(C_s / (metric.force[..., None] * metric.force[..., None, :]))
+    diagonal = np.diagonal(sizes, axis1=-2, axis2=-1)
+    least = (2 * diagonal - sizes.sum(axis=-1)).min(axis=-1)
+    return np.asarray(least > PLAINLY * _norm(sizes))
+
+
+def _yielding(matrices: Matrices, metric: Metric) -> Array:
+    """Return (..., m, n_l), the parts of the total compliance on top of each other; its null space leaves all rigid.
+
+    The compliances are positive semidefinite, so what their sum leaves rigid each of them leaves rigid. Each is
+    measured against itself: contacts may be as much stiffer than joints as they like.
+    """
+    J, S, C_q, C_z = metric.scaled_rows(matrices.J), matrices.S, matrices.C_q, matrices.C_z
+    C_s = metric.scaled_rows(matrices.C_s) / metric.force[..., None, :]
+    parts = (C_s, C_q @ J.mT, C_z @ S.mT @ J.mT)
+    sizes = (np.zeros(C_s.shape[:-2]), _norm(C_q) * _norm(J), _norm(C_z) * _norm(S) * _norm(J))
+    return np.concatenate([_measured(part, size) for part, size in zip(parts, sizes, strict=True)], axis=-2)
+
+
+def _measured(part: Array, size: Array) -> Array:
+    """Return a part in units of itself; 0 where it is rounding beside the `size` of what it is a product of."""
+    norm = _norm(part)
+    counts = norm > SINGULAR * size
+    return np.asarray(part * np.where(counts, 1 / np.where(counts, norm, 1.0), 0.0)[..., None, None])
+
+
+def _norm(matrix: Array) -> Array:
+    return np.asarray(np.linalg.norm(matrix, axis=(-2, -1)))
 
 
 def _rigid(grasp: Grasp, row: int) -> RigidContactError:

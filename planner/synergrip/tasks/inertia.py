@@ -8,12 +8,12 @@ import numpy as np
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.errors import InputError
-from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned
+from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.marks import Marks
-from synergrip.tasks.palm_motion import Palm, marks_of
+from synergrip.tasks.palm_in_world import PalmInWorld, marks_of
 
-KEY = "task.palm.inertia"
+KEY = "inertia"
 LOOKS = 65
 """Evenly spaced instants at which the size of the load is looked at."""
 
@@ -25,7 +25,7 @@ class Inertia:
     mass: float  # [kg]
     centre: Array  # (3,) centre of mass in the palm frame [m]
     tensor: Array  # (3, 3) about the centre, axes of the palm [kg m^2]
-    palm: Palm
+    palm: PalmInWorld
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B: force ``-m a``, moment ``-(I alpha + omega x I omega)`` (Euler)."""
@@ -40,21 +40,20 @@ class Inertia:
         return marks_of(self.palm)
 
 
-def inertia(body: Object | None, mass: float, palm: Palm) -> Inertia:
-    """Return the inertial load on a placed object; without one, on a point mass at the origin of the palm frame.
+def inertia(body: Object | None, palm: PalmInWorld) -> Inertia:
+    """Return the inertial load on a placed object.
 
     Raises:
         InputError: there is no mass or no time to move in, or the load is beyond all numbers.
     """
-    if mass == 0:
-        message = "inertia needs the mass of the object: give object.mass (a grasp file has none: use task.wrench)"
-        raise InputError.at(KEY, message)
+    if body is None or not body.mass:
+        given = "a grasp given as matrices has none, give the wrench itself" if body is None else "give object.mass"
+        raise InputError.at(KEY, f"inertia needs the mass of the object: {given}")
     start, end = palm.corners[[0, -1]]
     if end <= start:
         raise InputError.at(KEY, f"the palm has no time to move: the task begins and ends at {end:g} s")
-    centre = np.zeros(3) if body is None else body.position
-    shape = None if body is None else body.shape
-    found = Inertia(mass, frozen(centre), frozen(mass * uniform_tensor(shape)), palm)
+    tensor = np.zeros((3, 3)) if body.shape is None else body.shape.inertia
+    found = Inertia(body.mass, frozen(body.position), frozen(body.mass * tensor), palm)
     _judge_size(found)
     return found
 
@@ -67,21 +66,3 @@ def _judge_size(load: Inertia) -> None:
     if not size < LARGEST_NUMBER:
         message = f"an inertial load of the order of {size:.1e} N or N m is too large; check task.duration"
         raise InputError.at(KEY, message)
-
-
-def uniform_tensor(shape: Shape | None) -> Array:
-    """Return the inertia tensor (3, 3) [m^2] of a solid of uniform density about its centre, for each kg of mass.
-
-    An object without a shape, or with one that is not known here, counts as a point mass: zero.
-    """
-    if isinstance(shape, Turned):
-        return np.asarray(shape.rotation @ uniform_tensor(shape.shape) @ shape.rotation.T)
-    if isinstance(shape, Sphere):
-        return 0.4 * shape.radius**2 * np.eye(3)
-    if isinstance(shape, Box):
-        squares = np.square(shape.size)
-        return np.diag(squares.sum() - squares) / 12
-    if isinstance(shape, Cylinder):
-        across = shape.radius**2 / 4 + shape.height**2 / 12
-        return np.diag([across, across, shape.radius**2 / 2])
-    return np.zeros((3, 3))

@@ -1,32 +1,86 @@
-"""How the palm moves in the world, and what stands still there as seen from the palm: gravity above all."""
+"""A palm that turns and shifts on one profile."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
-from synergrip.linalg import Array
-from synergrip.tasks.marks import Marks
-from synergrip.tasks.profiles import Rise
+from synergrip.linalg import Array, frozen
+from synergrip.tasks.arguments import Arguments, Numbers, keep
+from synergrip.tasks.inertia import Inertia, inertia
+from synergrip.tasks.palm_in_world import acceleration_of
+from synergrip.tasks.profiles import PROFILES, ProfileName, Rise
+from synergrip.tasks.stated import Load, Setting
 
 
-class Palm(Protocol):
-    """How the palm moves, seen from the palm itself: all vectors are in its axes at each instant."""
+@dataclass(frozen=True, kw_only=True)
+class Palm(Load):
+    """The palm turns about an axis through the origin of its frame and shifts this origin, over the whole task.
+
+    Gravity turns with the world, the other way than the palm.
+
+    Args:
+        axis: of the turn, in the palm frame: "x", "y", "z" or 3 numbers; goes with `turn`.
+        turn: the whole angle [rad]; None for no turn.
+        shift: (3,) the whole displacement along the axes of the palm at the start [m]; None for none.
+        profile: of both in time: "min-jerk", "cubic" or "linear".
+        inertia: whether the object loads the grasp by its inertia, without which a shift does nothing.
+
+    Raises:
+        InputError: no motion, half of a turn, a shift without inertia, or inertia with a start at once.
+
+    Example:
+        >>> Palm(axis="x", turn=1.57).turn
+        1.57
+    """
+
+    axis: str | Numbers | None = None
+    turn: float | None = None
+    shift: Numbers | None = None
+    profile: ProfileName = "min-jerk"
+    inertia: bool = False
+    moving = True
+
+    def __post_init__(self) -> None:
+        """Judge the arguments, alone and together."""
+        judge = Arguments("Palm")
+        axis = None if self.axis is None else judge.direction("axis", self.axis)
+        turn = None if self.turn is None else judge.real("turn", self.turn)
+        what = "3 lengths in m, axes of the palm at the start"
+        shift = None if self.shift is None else judge.vector("shift", self.shift, 3, what)
+        judge.word("profile", self.profile, tuple(PROFILES))
+        judge.flag("inertia", self.inertia)
+        if turn is None and shift is None:
+            judge.refuse("turn", "the palm needs a motion: axis with turn, for example axis='x', turn=1.57, or shift")
+        elif (turn is None) != (axis is None):
+            missing, given = ("axis", "turn") if axis is None else ("turn", "axis")
+            judge.refuse(missing, f"is missing; it goes with {given}, for example axis='x', turn=1.57")
+        if shift is not None and self.inertia is False:
+            judge.refuse("shift", "a shift loads the object by its inertia only; give inertia=True")
+        if self.inertia is True and self.profile == "linear":
+            what = "starts and stops at once, which no finite force does; use 'min-jerk' or 'cubic'"
+            judge.refuse("profile", f"with inertia, a linear profile {what}")
+        keep(self, judge, axis=axis, turn=turn, shift=shift)
 
     @property
-    def corners(self) -> Array:
-        """Start and end of the motion (K,) [s], and between them the instants where its acceleration has a corner."""
+    def timed(self) -> bool:
+        """True with inertia, which is curved over the time of the task."""
+        return self.inertia
 
-    def seen(self, vectors: Array, times: Array) -> Array:
-        """Return vectors (T, 3) that are given, (3,) or (T, 3), in the palm frame at the start."""
+    def motion(self, start: float, end: float) -> PalmMotion:
+        """Return the motion in a task from `start` to `end` [s]."""
+        axis = (0.0, 0.0, 1.0) if self.axis is None else self.axis
+        shift = np.zeros(3) if self.shift is None else self.shift
+        return PalmMotion(frozen(axis), self.turn or 0.0, frozen(shift), Rise(self.profile, start, end))
 
-    def rotation_rates(self, times: Array) -> tuple[Array, Array]:
-        """Return angular velocity (T, 3) [rad/s] and acceleration (T, 3) [rad/s^2]."""
+    def over(self, setting: Setting) -> Inertia | None:
+        """Return the load by inertia at any time; None without inertia.
 
-    def acceleration(self, point: Array, times: Array) -> Array:
-        """Return the acceleration (T, 3) [m/s^2] of a point (3,) [m] fixed to the palm."""
+        Raises:
+            InputError: it needs a mass, or time to move.
+        """
+        return inertia(setting.body, self.motion(setting.start, setting.end)) if self.inertia else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,34 +117,3 @@ class PalmMotion:
         """Return the acceleration (T, 3) [m/s^2], in the palm frame, of a point (3,) [m] fixed to the palm."""
         origin = self.seen(np.outer(self.profile.at(times, 2), self.shift), times)
         return acceleration_of(point, origin, *self.rotation_rates(times))
-
-
-@dataclass(frozen=True, eq=False)
-class Weight:
-    """The weight of the object in a palm that moves."""
-
-    force: Array
-    """(3,) in the palm frame at the start [N]."""
-    palm: Palm
-
-    def at(self, times: Array) -> Array:
-        """Return the wrench (T, 6) about B; the centre of mass is there."""
-        return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
-
-    @property
-    def marks(self) -> Marks:
-        """Those of the motion of the palm."""
-        return marks_of(self.palm)
-
-
-def marks_of(palm: Palm) -> Marks:
-    """Return the marks of a load by a palm that moves: it is curved from the start of the motion to its end."""
-    return Marks(palm.corners, ((float(palm.corners[0]), float(palm.corners[-1])),))
-
-
-def acceleration_of(point: Array, origin: Array, omega: Array, alpha: Array) -> Array:
-    """Return the acceleration (T, 3) of a point (3,) fixed to a body: of its origin, tangential, centripetal.
-
-    ``a + alpha x p + omega x (omega x p)``, all of it in the axes of the body (T, 3).
-    """
-    return np.asarray(origin + np.cross(alpha, point) + np.cross(omega, np.cross(omega, point)))

@@ -10,7 +10,7 @@ from numpy.polynomial import Polynomial
 
 from synergrip.documents.time_table import Table
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.tasks.marks import SAME_TIME, Marks, together
+from synergrip.tasks.marks import SAME_TIME, Jump, Marks, together
 
 ProfileName = Literal["min-jerk", "cubic", "linear"]
 WaypointProfile = Literal["min-jerk", "cubic", "linear", "spline"]
@@ -104,19 +104,23 @@ class Profiles:
     load: tuple[Profile, ...]
     """Wrenches (T, 6) about B [N, N m] that add up; none when nothing is said of the load."""
     target: Profile
-    """What `Loads.target` holds at the knots."""
+    """What `Target.values` holds at the knots."""
+    factor: float = 1.0
+    """By which the whole load is multiplied."""
 
     def load_at(self, times: Array) -> Array | None:
         """Return the external wrench on the object (T, 6) at any times (T,) [s]; None when nothing is said of it."""
         if not self.load:
             return None
-        return frozen(sum((part.at(times) for part in self.load), np.zeros((len(times), 6))))
+        return frozen(self.factor * sum((part.at(times) for part in self.load), np.zeros((len(times), 6))))
 
     def target_at(self, times: Array) -> Array:
-        """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Loads.target`."""
+        """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Target.values`."""
         return frozen(self.target.at(times))
 
     @property
     def marks(self) -> Marks:
-        """Where load or wish have corners, where the load jumps, and where one of them is curved."""
-        return together(part.marks for part in (*self.load, self.target))
+        """Where load or target have corners, where the load jumps, and where one of them is curved."""
+        found = together(part.marks for part in (*self.load, self.target))
+        jumps = tuple(Jump(jump.time, jump.side, self.factor * jump.change) for jump in found.jumps)
+        return Marks(found.corners, found.curved, jumps)

@@ -4,20 +4,114 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
+from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.tasks.arguments import Arguments, Numbers, keep
 from synergrip.tasks.marks import SAME_TIME, Jump, Marks
+from synergrip.tasks.stated import Corner, Load, Setting
 
 PushProfile = Literal["step", "trapezoid", "half-sine"]
 HALF_SINE_PARTS = 16
 """Into how many parts knots divide a half sine: straight lines between them fall short by 0.5 % of the force."""
+CORNERS = {"start": "the start", "end": "the end", "ramp": "a ramp corner", "profile": "the peak"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Push(Load):
+    """A force at a point of the object, for some time or throughout the task.
+
+    Args:
+        force: its largest size [N].
+        direction: in the palm frame: "x", "y", "z" or 3 numbers.
+        at: (3,) where it acts, from B, axes of the palm [m].
+        start: when it begins [s]; None for the start of the task.
+        end: when it is over [s]; None for the end of the task.
+        profile: "step", "trapezoid" or "half-sine".
+        ramp: time to the full force, and back, of a trapezoid [s].
+
+    Raises:
+        InputError: a negative force, no direction, an end before the start, a trapezoid without a ramp.
+
+    Example:
+        >>> Push(force=3.0, direction="x", start=0.5, end=0.8).lasting
+        False
+    """
+
+    force: float
+    direction: str | Numbers
+    at: Numbers = (0.0, 0.0, 0.0)
+    start: float | None = None
+    end: float | None = None
+    profile: PushProfile = "step"
+    ramp: float | None = None
+
+    def __post_init__(self) -> None:
+        """Judge the arguments, alone and together."""
+        judge = Arguments("Push")
+        kept = {
+            "force": judge.real("force", self.force, at_least=0),
+            "direction": judge.direction("direction", self.direction),
+            "at": judge.vector("at", self.at, 3, "3 lengths in m from B, axes of the palm"),
+            "start": None if self.start is None else judge.real("start", self.start, at_least=0),
+            "end": None if self.end is None else judge.real("end", self.end, above=0),
+            "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0),
+        }
+        judge.word("profile", self.profile, get_args(PushProfile))
+        if self.profile == "trapezoid" and self.ramp is None:
+            judge.refuse("ramp", "a trapezoid needs ramp, the time to its full force in seconds, for example 0.1")
+        if self.profile != "trapezoid" and self.ramp is not None:
+            judge.refuse("ramp", f"'ramp' is for a trapezoid; the profile is {self.profile!r}")
+        keep(self, judge, **kept)
+
+    @property
+    def lasting(self) -> bool:
+        """True for a force that is the same throughout the task."""
+        return self.profile == "step" and self.start is None and self.end is None
+
+    @property
+    def timed(self) -> bool:
+        """True for a force that comes or goes."""
+        return not self.lasting
+
+    def over(self, setting: Setting) -> Pushing:
+        """Return the wrench at any time of a task.
+
+        Raises:
+            InputError: it is not over before the task, not after it began, or too short for its ramps.
+        """
+        first = setting.start if self.start is None else self.start
+        last = setting.end if self.end is None else self.end
+        slack = SAME_TIME * max(setting.end, 1.0)
+        if last > setting.end + slack:
+            message = f"the push ends at {last:g} s, after the task, which ends at {setting.end:g} s; change it or "
+            raise InputError.at("end", f"{message}task.duration")
+        if last - first <= slack:
+            name = "end" if self.end is not None else "start"
+            raise InputError.at(name, f"the push begins at {first:g} s and must end later, not at {last:g} s")
+        ramp = self.ramp or 0.0
+        if 2 * ramp > (last - first) * (1 + SAME_TIME):
+            message = f"two ramps of {ramp:g} s do not fit into a push of {last - first:g} s; at most half of it each"
+            raise InputError.at("ramp", message)
+        force = self.force * np.array(self.direction, dtype=float)
+        wrench = np.concatenate([force, np.cross(self.at, force)])
+        return Pushing(frozen(wrench), self.profile, first, last, ramp)
+
+    def corners(self, setting: Setting) -> Iterator[Corner]:
+        """Yield its start, its end and its peak or corners; none when it lasts."""
+        if not self.lasting:
+            yield from ((name, CORNERS[name], time) for name, time in self.over(setting).corners)
+
+    def knots(self, setting: Setting) -> Array:
+        """Return its corners; of a half sine enough for straight lines between them."""
+        return self.over(setting).knots
 
 
 @dataclass(frozen=True, eq=False)
-class Push:
+class Pushing:
     """A wrench that comes and goes."""
 
     wrench: Array  # (6,) about B at the full force [N, N m]

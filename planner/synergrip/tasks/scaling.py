@@ -11,7 +11,7 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation, Units
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
-from synergrip.conic.limits.friction_cone import cone_unit
+from synergrip.conic.limits.friction_cone import least_cone_unit
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -66,7 +66,7 @@ def caps(analysis: Analysis, task: TimedTask) -> tuple[float, ...]:
 
 def grips(formulation: Formulation) -> tuple[float, ...]:
     """Return the squeeze [N] that the least friction takes to hold what the task asks; none when that is no more."""
-    least = min(cone_unit(contact.friction) for contact in formulation.response.grasp.contacts)
+    least = least_cone_unit(formulation.response.grasp.contacts)
     return (formulation.load_size / least,) if least < 1.0 else ()
 
 

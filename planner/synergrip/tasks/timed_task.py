@@ -17,6 +17,7 @@ from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues, times_of, word_issues, wrench_of
+from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
@@ -41,8 +42,8 @@ class Course(Protocol):
         """Where load or wish have corners, where the load jumps, and where one of them is curved."""
 
 
-@dataclass(frozen=True)
-class Target:
+@dataclass(frozen=True, eq=False, repr=False)
+class Target(Value):
     """The wanted object motion from the start of the task."""
 
     kind: Literal["hold", "motion", "modes", "mode moves"]
@@ -50,11 +51,11 @@ class Target:
     """(T, 6) displacement about B [m, rad] for "motion"; (T, dim Gamma_ucs) beta [m] for "modes"; the same for
     "mode moves", where columns that are not there stand for zero; (T, 0) to hold."""
     key: str = ""
-    """Key in the problem file."""
+    """The argument that states it, for errors."""
 
 
-@dataclass(frozen=True)
-class TimedTask:
+@dataclass(frozen=True, eq=False, repr=False)
+class TimedTask(Value):
     """A task at T knots."""
 
     times: Array  # (T,) [s]

@@ -9,26 +9,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.conic.arguments import ByContent, Complete
+from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
+from synergrip.values import ByContent, Value
 
 if TYPE_CHECKING:
     from synergrip.conic.limits.limit import Limit, Watches
     from synergrip.grasps.grasp import Grasp
 
 
-@dataclass(frozen=True)
-class Squares:
+@dataclass(frozen=True, eq=False, repr=False)
+class Squares(Value):
     """Half the sum of squares of ``matrix v_k + constant[k]``, and of what earlier knots add to it."""
 
     matrix: Array  # (m, n_v)
     constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
     earlier: tuple[Earlier, ...] = ()
-    unseen: Array | None = None
-    """(T, f) the time_basis in time of the unknowns, any of them, that the squares do not see; None when they see each
-    knot by itself."""
 
     def at(self, v: Array) -> Array:
         """Return the values (K, m) whose squares are summed, at unknowns v (T, n_v)."""
@@ -40,8 +38,8 @@ class Squares:
         return np.asarray(value)
 
 
-@dataclass(frozen=True)
-class Objective:
+@dataclass(frozen=True, eq=False, repr=False)
+class Objective(Value):
     """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
 
     squares: tuple[Squares, ...] = ()

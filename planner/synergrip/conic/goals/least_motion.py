@@ -8,16 +8,9 @@ from typing import Literal, Self, get_args
 import numpy as np
 
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Goal, Objective, Squares, squares_of
-from synergrip.conic.rows import Earlier
+from synergrip.conic.goals.differences import RESCALED, STIFFEST, differences
+from synergrip.conic.goals.goal import Goal, Objective, squares_of
 from synergrip.errors import InputError, one_of
-from synergrip.linalg import Array, frozen
-
-STIFFEST, RESCALED = 1e6, 1e4
-"""Largest entry of the Hessian of rates and accelerations; beyond, rounding would drown the bends between many knots.
-A factor before a goal changes no plan, only how closely the solver looks at it: less closely, but to the end, with the
-second, which is for programs that do not verify with the first."""
-
 
 Motion = Literal["references", "rates", "accelerations"]
 
@@ -77,38 +70,8 @@ class LeastMotion(Goal):
         order = 1 if self.of == "rates" else 2
         if formulation.knots <= order:
             return Objective()
-        return Objective((_differences(formulation, order, unit, np.inf if self.exact else self.stiffest),))
-
-
-def _differences(formulation: Formulation, order: int, unit: float, stiffest: float) -> Squares:
-    """Return first or second differences over uneven knots; their sum of squares is T times an integral over [0, 1].
-
-    A row is divided by nothing that changes from knot to knot but by weights, since one matrix serves all knots:
-    the weight of the newest knot stands before the whole row.
-    """
-    weights = _weights(formulation.times, order)  # (K, order + 1), newest first
-    weights = weights * np.sqrt(formulation.knots)
-    weights = weights * min(1.0, np.sqrt(stiffest) / float(np.abs(weights).max()))
-    value = formulation.reference
-    matrix, known = value.matrix / unit, value.constant / unit
-    count = len(weights)
-    constant = sum(weights[:, lag, None] * known[order - lag : order - lag + count] for lag in range(order + 1))
-    earlier = tuple(Earlier(lag, frozen(matrix), frozen(weights[:, lag])) for lag in range(order + 1))
-    time = (formulation.times - formulation.times[0]) / (formulation.times[-1] - formulation.times[0])
-    unseen = np.column_stack([np.ones(len(time)), 2 * time - 1])[:, :order]
-    return Squares(frozen(np.zeros_like(matrix)), frozen(constant), earlier, frozen(unseen))
-
-
-def _weights(times: Array, order: int) -> Array:
-    """Return the weights of knots k, k - 1, ... in each difference, for a task that lasts 1."""
-    h = np.diff(times) / (times[-1] - times[0])
-    if order == 1:
-        root = 1 / np.sqrt(h)
-        return np.column_stack([root, -root])
-    before, after = h[:-1], h[1:]
-    span = (before + after) / 2
-    root = np.sqrt(span)
-    return np.column_stack([root / (span * after), -root * (1 / after + 1 / before) / span, root / (span * before)])
+        stiffest = np.inf if self.exact else self.stiffest
+        return Objective((differences(formulation.reference, unit, formulation.times, order, stiffest),))
 
 
 IN_FILE = {

@@ -20,8 +20,8 @@ class LeastReconfiguration(Goal):
     def objective(self, formulation: Formulation) -> Objective:
         """Return the squares of the unknowns but for the forces."""
         units = formulation.stated
-        parts = [squares_of(formulation.gamma, 1 / units.reference)]
+        parts = [squares_of(formulation.gamma, 1 / units.reference)] if formulation.frees_gamma else []
         if formulation.frees_beta:
             beyond = formulation.beta.plus(-formulation.whole.beta.constant)
             parts.append(squares_of(beyond, 1 / units.motion))
-        return Objective(tuple(part for part in parts if part.matrix.any()))
+        return Objective(tuple(parts))

@@ -10,7 +10,8 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.rows import Kind, Rows, items_of
+from synergrip.conic.rows import Item, Kind, Rows
+from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion, largest_term
 
@@ -32,7 +33,7 @@ class FrictionCone(Limit):
     watches = "forces"
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return one second-order cone per contact (a plain bound for a frictionless one)."""
+        """Return the second-order cones of each contact (a plain bound for a frictionless one)."""
         return friction_rows(formulation, self.margin, 0.0, self.key)
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
@@ -74,7 +75,7 @@ def carried(formulation: Formulation, motion: Motion) -> Array:
 
 
 def friction_rows(formulation: Formulation, margin: float, epigraph: float, key: str) -> list[Rows]:
-    """Return rows ``W lambda - (margin - epigraph s) e_1`` in the cone, contacts of one size together.
+    """Return rows ``W lambda - (margin - epigraph s) e_1`` in the cone, cones of one size together.
 
     Args:
         formulation: the task.
@@ -83,24 +84,34 @@ def friction_rows(formulation: Formulation, margin: float, epigraph: float, key:
         key: what asks for it.
     """
     grasp, unit = formulation.response.grasp, formulation.force_unit
+    every = [
+        (Item(contact.name, side), cone, rows)
+        for contact, rows in zip(grasp.contacts, grasp.rows, strict=True)
+        for side, cone in zip(contact.kind.sides, contact.cones, strict=True)
+    ]
     result = []
-    for size in sorted({len(c.cone) for c in grasp.contacts}):
-        chosen = [(c, rows) for c, rows in zip(grasp.contacts, grasp.rows, strict=True) if len(c.cone) == size]
+    for size in sorted({len(cone) for _, cone, _ in every}):
+        chosen = [each for each in every if len(each[1]) == size]
         W = np.zeros((len(chosen) * size, grasp.n_l))
-        for i, (contact, rows) in enumerate(chosen):
-            W[i * size : (i + 1) * size, rows] = contact.cone / cone_unit(contact.friction)
-        first = np.concatenate([np.eye(size)[0] / cone_unit(contact.friction) for contact, _ in chosen])
+        for i, (_, cone, rows) in enumerate(chosen):
+            W[i * size : (i + 1) * size, rows] = cone / cone_unit(cone[0, 0])
+        first = np.concatenate([np.eye(size)[0] / cone_unit(cone[0, 0]) for _, cone, _ in chosen])
         value = formulation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
-        items = items_of(contact.name for contact, _ in chosen)
+        items = tuple(item for item, _, _ in chosen)
         constant = frozen(value.constant - first * margin / unit)
         result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first), friction=True))
     return result
 
 
 def cone_unit(friction: float) -> float:
-    """Return what the cone of a contact is divided by: its friction where there is little.
+    """Return what a cone of friction (its factor of the normal force) is divided by: this, where there is little.
 
     The first row is then the normal force itself, so that the contact pushes to the same tolerance as others.
     """
-    return friction if 0 < friction < SLIPPERY else 1.0
+    return float(friction) if 0 < friction < SLIPPERY else 1.0
+
+
+def least_cone_unit(contacts: Sequence[Contact]) -> float:
+    """Return the smallest of what the cones of contacts are divided by."""
+    return min(cone_unit(cone[0, 0]) for contact in contacts for cone in contact.cones)

@@ -123,7 +123,7 @@ class FrictionReserve(Limit):
     def _narrowed(self, formulation: Formulation) -> Formulation:
         grasp = formulation.response.grasp
         contacts = tuple(
-            replace(contact, friction=ratio * contact.friction, spin_friction=ratio * contact.spin_friction)
+            replace(contact, kind=contact.kind.slippery(ratio))
             for contact, ratio in zip(grasp.contacts, self.used(grasp), strict=True)
         )
         return replace(formulation, response=replace(formulation.response, grasp=replace(grasp, contacts=contacts)))

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from synergrip.conic.arguments import ByContent, Complete
+from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Rows, with_room
-from synergrip.errors import InputError
+from synergrip.errors import InputError, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
+from synergrip.values import ByContent, Value
 
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
@@ -23,8 +24,8 @@ Watches = Literal["forces", "motion", "references"]
 """The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
 
 
-@dataclass(frozen=True)
-class Usage:
+@dataclass(frozen=True, eq=False, repr=False)
+class Usage(Value):
     """How much of a limit a motion uses, computed from physical quantities and not from the program."""
 
     title: str
@@ -70,6 +71,12 @@ class Usage:
     def worst(self) -> tuple[int, int]:
         """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""
         return first_largest(self.excess / self.scale)
+
+    def __repr__(self) -> str:
+        """Return the value nearest to its bound, where and when."""
+        k, i = self.worst()
+        place = f"{shortened(str(self.items[i]))}, t = {self.times[k]:.6g} s"
+        return f"Usage({self.title}: {self.value[k, i]:.6g} {self.unit} at {place}, the worst of {self.value.size})"
 
 
 def first_largest(values: Array, tie: float = 1e-6) -> tuple[int, int]:

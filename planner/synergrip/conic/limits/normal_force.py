@@ -70,11 +70,8 @@ class NormalForce(Limit):
         """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""
         if not cones_hold or not np.isfinite(self.upper):
             return None
-        bounds = []
-        for contact in formulation.response.grasp.contacts:
-            sizes = np.diag(contact.cone)  # mu, 1, 1, mu / nu: the cone is ||rest|| <= mu n
-            bounds += [self.upper, *(sizes[0] * self.upper / sizes[1:])]
-        return formulation.force, np.array(bounds)
+        contacts = formulation.response.grasp.contacts
+        return formulation.force, np.concatenate([contact.kind.most * self.upper for contact in contacts])
 
     def loosened(self, share: float) -> Self:
         """Return it with a range wider by `share` of its ends."""

@@ -1,58 +1,56 @@
-"""A contact: where it is, which of its motions it constrains, and what it can hold.
-
-A kind of contact is one file beside this one: it names its force components, selects the rows of
-the contact twist that it constrains (the H of (3)), and describes its friction cone by one matrix.
-"""
+"""A contact: where it is, and of which kind."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments
+from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
+from synergrip.values import ByContent
+
+ORTHONORMAL = 1e-4
+"""How far the products of the columns of a frame may be from those of unit vectors normal to each other."""
 
 
-class ContactKind(Protocol):
-    """What one kind of contact transmits and withstands."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Contact(ByContent):
+    """One contact of a grasp. The normal points toward the object: lambda_n >= 0 is pushing.
 
-    @property
-    def name(self) -> str:
-        """Name in files: "hard", "soft", "frictionless"."""
-
-    @property
-    def title(self) -> str:
-        """Name in text."""
-
-    @property
-    def components(self) -> tuple[str, ...]:
-        """Force components in row order: "n", "t", "o" in newtons, "m" (spin about n) in N m."""
-
-    @property
-    def selection(self) -> Array:
-        """(rows, 6) selection of the contact twist (v_n, v_t, v_o, w_n, w_t, w_o) that is constrained."""
-
-    def cone(self, friction: float, spin_friction: float) -> Array:
-        """Return W (d, rows): slip margin = (W lambda)_0 - ||(W lambda)_1..|| in newtons."""
-
-
-@dataclass(frozen=True)
-class Contact:
-    """One contact of a grasp. The normal points toward the object: lambda_n >= 0 is pushing."""
+    Example:
+        >>> from synergrip.grasps.contacts.hard_finger import HardFinger
+        >>> thumb = Contact(name="thumb", kind=HardFinger(friction=0.6), point=(0.02, 0, 0), frame=np.eye(3))
+        >>> float(thumb.slip_margin(np.array([1.0, 0.0, 0.5])))
+        0.09999999999999998
+    """
 
     name: str
     kind: ContactKind
-    friction: float
-    """Coulomb coefficient mu; 0 for a frictionless contact."""
-    spin_friction: float
-    """nu [m]: spin moment carried for each newton of normal force; 0 unless soft."""
     point: Array
     """(3,) position from the object frame B, axes of N [m]."""
     frame: Array
     """(3, 3) columns n, t, o."""
-    normal_at: str = ""
+    normal_at: str = field(default="", compare=False)
     """Where a user states the normal, for advice; empty when it follows from the object."""
+
+    def __post_init__(self) -> None:
+        """Judge the values.
+
+        Raises:
+            InputError: a name that is none, a kind that is none, a point or frame that is none.
+        """
+        judge = Arguments("Contact")
+        judge.text("name", self.name, empty=False)
+        judge.one("kind", self.kind, ContactKind, "HardFinger(friction=0.6)")
+        point = judge.array("point", self.point, (3,))
+        frame = judge.array("frame", self.frame, (3, 3), ", the columns n, t and o")
+        if not judge.issues and not np.allclose(frame.T @ frame, np.eye(3), rtol=0, atol=ORTHONORMAL):
+            judge.refuse("frame", "its columns n, t and o must be unit vectors normal to each other")
+        judge.finish()
+        object.__setattr__(self, "point", point)
+        object.__setattr__(self, "frame", frame)
 
     @property
     def n_rows(self) -> int:
@@ -60,27 +58,42 @@ class Contact:
         return len(self.kind.components)
 
     @property
-    def cone(self) -> Array:
-        """(d, rows) cone matrix W of this contact."""
-        return self.kind.cone(self.friction, self.spin_friction)
+    def friction(self) -> float:
+        """Coulomb coefficient, for reports: in the direction that has the least; 0 for a frictionless contact."""
+        return self.kind.least_friction
+
+    @property
+    def cones(self) -> tuple[Array, ...]:
+        """Cone matrices W (d, rows) of this contact."""
+        return self.kind.cones
 
     def slip_margin(self, force: Array) -> Array:
         """Return the slip margin [N] of forces (..., rows): shape (...).
 
-        Hard finger ``mu n - ||(t, o)||``, soft finger ``mu n - sqrt(t^2 + o^2 + (mu m / nu)^2)``;
-        a frictionless contact cannot slip, its margin is the normal force itself. A contact that would have to pull
-        is missed by that pull at least, however little friction it has.
+        ``(W lambda)_0 - ||(W lambda)_1..||``, the smallest of its cones: hard finger ``mu n - ||(t, o)||``, soft
+        finger ``mu n - sqrt(t^2 + o^2 + (mu m / nu)^2)``; a frictionless contact cannot slip, its margin is the normal
+        force itself. A contact that would have to pull is missed by that pull at least, however little friction it
+        has.
         """
-        image, normal = np.asarray(force) @ self.cone.T, np.asarray(force)[..., 0]
-        margin = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
+        force = np.asarray(force)
+        images = [force @ W.T for W in self.cones]
+        margins = [image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1) for image in images]
+        margin, normal = np.min(margins, axis=0), force[..., 0]
         return np.asarray(np.where(normal < 0, np.minimum(margin, normal), margin))
 
 
-def contact_frame(normal: Array) -> Array:
-    """Return (3, 3) columns n, t, o for a normal (3,); t is chosen from the axis farthest from n."""
+def contact_frame(normal: Array, tangent: Array | None = None) -> Array:
+    """Return (3, 3) columns n, t, o for a normal (3,).
+
+    Args:
+        normal: (3,) of any length.
+        tangent: (3,) direction that t follows as far as it is normal to n; the axis farthest from n when absent.
+    """
     n = np.asarray(normal, dtype=float) / np.linalg.norm(normal)
     axis = np.zeros(3)
     axis[int(np.argmin(np.abs(n) > np.abs(n).min() + 1e-9))] = 1.0
+    if tangent is not None:
+        axis = np.asarray(tangent, dtype=float)
     t = axis - (axis @ n) * n
     t /= np.linalg.norm(t)
     return frozen(np.column_stack([n, t, np.cross(n, t)]))

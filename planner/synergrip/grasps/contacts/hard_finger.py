@@ -2,26 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
+from synergrip.grasps.contacts.kind import FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
-@dataclass(frozen=True)
-class HardFinger:
-    """Three force components; cone ``||(t, o)|| <= mu n``."""
+@dataclass(frozen=True, kw_only=True)
+class HardFinger(ContactKind):
+    """Point contact with friction: three force components; cone ``||(t, o)|| <= mu n``.
 
-    name: str = "hard"
-    title: str = "hard-finger"
-    components: tuple[str, ...] = ("n", "t", "o")
+    Args:
+        friction: Coulomb coefficient mu, greater than 0.
+
+    Raises:
+        InputError: a friction that is no finite number greater than 0.
+
+    Example:
+        >>> HardFinger(friction=0.6).components
+        ('n', 't', 'o')
+    """
+
+    friction: float
+
+    name: ClassVar[str] = "hard"
+    title: ClassVar[str] = "hard-finger"
+    components: ClassVar[tuple[str, ...]] = ("n", "t", "o")
+    parameters: ClassVar[tuple[Parameter, ...]] = (replace(FRICTION, hint="; for no friction use Frictionless()"),)
 
     @property
-    def selection(self) -> Array:
-        """(3, 6): the linear velocity."""
-        return frozen(np.eye(3, 6))
-
-    def cone(self, friction: float, spin_friction: float) -> Array:
-        """Return (3, 3): rows mu n, t, o."""
-        return frozen(np.diag([friction, 1.0, 1.0]))
+    def cones(self) -> tuple[Array, ...]:
+        """(3, 3): rows mu n, t, o."""
+        return (frozen(np.diag([self.friction, 1.0, 1.0])),)

@@ -3,25 +3,39 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
-@dataclass(frozen=True)
-class SoftFinger:
-    """Four components; cone ``sqrt((t^2 + o^2) / mu^2 + (m / nu)^2) <= n``."""
+@dataclass(frozen=True, kw_only=True)
+class SoftFinger(ContactKind):
+    """Four components; cone ``sqrt((t^2 + o^2) / mu^2 + (m / nu)^2) <= n``.
 
-    name: str = "soft"
-    title: str = "soft-finger"
-    components: tuple[str, ...] = ("n", "t", "o", "m")
+    Args:
+        friction: Coulomb coefficient mu.
+        spin_friction: nu, the spin moment carried for each newton of normal force [m].
+
+    Raises:
+        InputError: a parameter that is no finite number greater than 0.
+
+    Example:
+        >>> SoftFinger(friction=0.8, spin_friction=0.01).components
+        ('n', 't', 'o', 'm')
+    """
+
+    friction: float
+    spin_friction: float  # [m]
+
+    name: ClassVar[str] = "soft"
+    title: ClassVar[str] = "soft-finger"
+    components: ClassVar[tuple[str, ...]] = ("n", "t", "o", "m")
+    parameters: ClassVar[tuple[Parameter, ...]] = (FRICTION, SPIN_FRICTION)
 
     @property
-    def selection(self) -> Array:
-        """(4, 6): the linear velocity and the spin about the normal."""
-        return frozen(np.eye(4, 6))
-
-    def cone(self, friction: float, spin_friction: float) -> Array:
-        """Return (4, 4): rows mu n, t, o, mu m / nu."""
-        return frozen(np.diag([friction, 1.0, 1.0, friction / spin_friction]))
+    def cones(self) -> tuple[Array, ...]:
+        """(4, 4): rows mu n, t, o, mu m / nu."""
+        return (frozen(np.diag([self.friction, 1.0, 1.0, self.friction / self.spin_friction])),)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -75,9 +74,7 @@ def joint_vector(joints: Sequence[str], values: Mapping[str, float], followers: 
 
 def joint_set(joints: Sequence[str]) -> SynergySet:
     """Return the fully actuated hand as a synergy set: S = I, no effort limits."""
-    n = len(joints)
-    limits = frozen(np.full(n, math.inf))
-    return SynergySet(JOINTS, "every joint by itself", tuple(joints), frozen(np.eye(n)), frozen(np.zeros(n)), limits)
+    return SynergySet(name=JOINTS, title="every joint by itself", synergies=tuple(joints), S=np.eye(len(joints)))
 
 
 def joint_values(synergies: SynergySet, values: Mapping[str, float]) -> Array:
@@ -103,7 +100,7 @@ def columns_of(chosen: SynergySet, names: Sequence[str]) -> SynergySet:
     )
 
 
-def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "hand.posture") -> Array:
+def posture(hand: Hand, synergies: SynergySet, wish: str | Mapping[str, float], key: str = "posture") -> Array:
     """Return the joint values (n_q,) of a posture.
 
     Args:

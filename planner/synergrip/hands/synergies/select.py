@@ -23,7 +23,7 @@ class SetChoice:
 
 
 def select(
-    hand: Hand, wish: int | str | Sequence[str] | SetChoice | None, key: str = "hand.synergies", folder: Path = Path()
+    hand: Hand, wish: int | str | Sequence[str] | SetChoice | None, key: str = "synergies", folder: Path = Path()
 ) -> SynergySet:
     """Return the synergies a user asks for.
 

@@ -84,4 +84,6 @@ def _columns(name: str, table: SynergyTable, names: Sequence[str], couplings: Ma
     offset = each_of("", {"offset": table.offset}, lambda _, values: joint_vector(names, values, couplings))["offset"]
     S = E @ np.column_stack(list(columns.values()))
     limits = frozen(np.full(len(columns), math.inf))
-    return SynergySet(name, table.title, tuple(columns), frozen(S), frozen(E @ offset + e), limits)
+    return SynergySet(
+        name=name, title=table.title, synergies=tuple(columns), S=S, offset=frozen(E @ offset + e), effort_limits=limits
+    )

@@ -87,7 +87,9 @@ def read_synergies(
     except InputError as error:
         raise error.located(document.locate) from None
     limits = frozen(np.full(len(file.synergies), math.inf))
-    return SynergySet(name or path.stem, file.title, file.synergies, S, offset, limits)
+    return SynergySet(
+        name=name or path.stem, title=file.title, synergies=file.synergies, S=S, offset=offset, effort_limits=limits
+    )
 
 
 def read_synergy_file(path: Path, key: str = "") -> SynergyFile:

@@ -5,44 +5,49 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.explain.repairs import repairs
 from synergrip.grasps.grasp import Grasp
+from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.provenance import KEY as PROVENANCE
+from synergrip.planning.provenance import Source, provenance_document
 from synergrip.planning.told import (
-    arrays_of,
     between_document,
     check_document,
     finite,
     margin_document,
+    series_document,
     structure_document,
-    usage_document,
 )
 from synergrip.reports.data.json_analysis import refusal_document
 from synergrip.tasks.scaling import units_of
 
 
-def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = ()) -> dict[str, Any]:
+def outcome_document(
+    title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = (), source: Source | None = None
+) -> dict[str, Any]:
     """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout.
 
-    The notes are those of the problem; a plan's own come before them.
+    The notes are those of the problem; a plan's own come before them. The source is its text, for provenance.
     """
     document: dict[str, Any] = {
         "title": title,
         "verdict": outcome.verdict,
         "exit_code": outcome.exit_code,
         "structure": structure_document(grasp, outcome.analysis),
-        "contacts": [c.name for c in grasp.contacts],
-        "joints": list(grasp.joints),
-        "synergies": list(grasp.synergies),
+        **names_of(grasp),
         "time_s": outcome.task.times.tolist(),
+        PROVENANCE: provenance_document(outcome, source),
         "programs": [_program(decision) for decision in outcome.decisions],
         "notes": [*(outcome.notes if isinstance(outcome, Plan) else ()), *notes],
     }
     if isinstance(outcome, Plan):
-        return with_digest(document | _plan(outcome))
+        return with_digest(plain(document | _plan(outcome)))
     if isinstance(outcome, Infeasible):
         return document | _infeasible(outcome)
     certificate = {"kind": "none", "verified": False}
@@ -50,13 +55,15 @@ def outcome_document(title: str, grasp: Grasp, outcome: Outcome, notes: Sequence
 
 
 def _plan(plan: Plan) -> dict[str, Any]:
-    motion, last = plan.motion, plan.decisions[-1]
-    arrays = arrays_of(motion, (plan.alpha, plan.beta, plan.gamma), plan.analysis.spaces.Gamma_ucs)
-    return {name: array.tolist() for name, array in arrays.items()} | {
-        "margin": margin_document(plan.usages[0]),
+    last = plan.decisions[-1]
+    document: dict[str, Any] = {"margin": margin_document(plan.usages[0])}
+    for each in ARRAYS:
+        place = document.setdefault(each.key, {}) if each.inside else document
+        place[each.inside or each.key] = each.of(plan.moved)
+    return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,
-        "limits": [usage_document(usage) for usage in plan.usages],
+        "limits": [series_document(usage) for usage in plan.usages],
         "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
         "checks": [check_document(check) for check in plan.checks],
         "between": between_document(plan.between),
@@ -76,6 +83,15 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})
+
+
+def plain(value: Any) -> Any:
+    """Return a document with its arrays as lists."""
+    if isinstance(value, dict):
+        return {key: plain(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def certificate_document(certificate: Certificate) -> dict[str, Any]:

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from synergrip.files import refuse_unwritable_folder
+from synergrip.grasps.grasp import Grasp
+from synergrip.planning.answer import FORMATS
+from synergrip.planning.arrays import arrays_of, columns_of, names_of, table_of
 from synergrip.planning.digest import digest
 from synergrip.planning.outcome import Outcome, Plan
-from synergrip.planning.told import arrays_of, columns_of, table_of
 from synergrip.together import refuse_others, replace_together
 
-FORMATS = ("json", "npz", "csv")
 NAMES = tuple(f"plan.{suffix}" for suffix in FORMATS)
 
 
@@ -59,20 +60,19 @@ def to_json(document: dict[str, Any]) -> str:
 
 def plan_csv(plan: Plan) -> str:
     """Return one line per knot: time, references, contact forces, joint torques, object displacement, margins."""
-    header = ["t_s", *(name for names in columns_of(plan.analysis.grasp).values() for name in names)]
-    table = table_of(plan.motion, plan.margins)
     stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerow(header)  # with quotes around names with commas
-    np.savetxt(stream, table, fmt="%.17g", delimiter=",")
+    csv.writer(stream, lineterminator="\n").writerow(header_of(plan.grasp))  # with quotes around names with commas
+    np.savetxt(stream, table_of(plan.moved), fmt="%.17g", delimiter=",")
     return stream.getvalue()
 
 
+def header_of(grasp: Grasp) -> list[str]:
+    """Return the names of all columns of plan.csv."""
+    return [name for names in columns_of(grasp).values() for name in names]
+
+
 def _write_npz(path: Path, plan: Plan) -> None:
-    motion, grasp = plan.motion, plan.analysis.grasp
-    arrays = arrays_of(motion, (plan.alpha, plan.beta, plan.gamma), plan.analysis.spaces.Gamma_ucs) | {
-        "time_s": motion.times, "margin": plan.margins,
-        "joints": np.array(grasp.joints), "synergies": np.array(grasp.synergies),
-        "contacts": np.array([contact.name for contact in grasp.contacts]),
-    }  # fmt: skip
+    named = {key: np.array(names) for key, names in names_of(plan.grasp).items()}
+    arrays = arrays_of(plan.moved) | named
     with path.open("wb") as stream:
         np.savez(stream, **arrays, digest=np.array(digest(arrays, sorted(arrays))))

@@ -47,7 +47,7 @@ def draw_grasp_synergies(problem: Problem, analysis: Analysis, path: Path) -> No
         raise InputError.at("", message)
     moved = motions(held.hand, held.synergies, held.q, [touch.pad for touch in held.touches], MOST) if held else None
     units = [motion.step.unit for motion in moved.each] if moved else [PLAIN] * min(grasp.n_z, MOST)
-    body = held.body if held else Object("object", 0.0, frozen(np.zeros(3)), None)
+    body = held.body if held else Object(position=frozen(np.zeros(3)))
     _Picture(problem, analysis, moved, effects(analysis, units), body).write(path)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.linalg import Array
 from synergrip.problems.problem import Problem
 from synergrip.reports.pictures.layout import MOST
@@ -38,7 +39,7 @@ def grasp_notes(problem: Problem, analysis: Analysis) -> Iterator[str]:
         yield MOTION_NOTE
     names = ", ".join(f"{k} {contact.name}" for k, contact in enumerate(analysis.grasp.contacts, start=1))
     yield f"Contacts: {names}. Dashed: their normals.{left_out(analysis.grasp.n_z)}"
-    spins = any(component == "m" for _, component in analysis.grasp.components)
+    spins = any(is_moment(component) for _, component in analysis.grasp.components)
     yield (
         "Red: internal forces of the hand on the object that one synergy alone generates, equation (28) with dw = 0"
         f"{'; green: their spin moments' if spins else ''}. Each panel has its own scale; the largest stands above it. "
@@ -50,7 +51,7 @@ def grasp_notes(problem: Problem, analysis: Analysis) -> Iterator[str]:
 def _compliances(problem: Problem, analysis: Analysis) -> Iterator[str]:
     """Yield the diagonals of C_s, C_q and C_z with their units."""
     grasp = analysis.grasp
-    spin = np.array([component == "m" for _, component in grasp.components])
+    spin = np.array([is_moment(component) for _, component in grasp.components])
     contact = np.diag(grasp.C_s)
     yield f"contacts {_range(1e3 * contact[~spin])} mm/N"
     if np.any(spin):

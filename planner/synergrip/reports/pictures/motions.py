@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.grasps.shapes.shape import circle
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.linalg import Array
 from synergrip.reports.pictures.sheet import BLUE, GREY, INK, SKY, Panel
 from synergrip.reports.pictures.skeleton import Skeleton, skeleton
-from synergrip.reports.pictures.solids import around, circle
+from synergrip.reports.pictures.solids import around
 from synergrip.reports.pictures.steps import Step, steps
 from synergrip.reports.pictures.view import View, best_view
 

@@ -11,7 +11,7 @@ from synergrip.grasps.objects import Object
 from synergrip.linalg import Array
 from synergrip.reports.pictures.forces import ContactForces
 from synergrip.reports.pictures.sheet import FAINT, GREEN, GREY, INK, VERMILION, Panel
-from synergrip.reports.pictures.solids import around, lines, outline
+from synergrip.reports.pictures.solids import around, outline
 from synergrip.reports.pictures.view import View
 
 MOST_TURN = 1.5 * np.pi
@@ -31,7 +31,7 @@ def draw_object(panel: Panel, view: View, body: Object, at: Array, contacts: Seq
     edge = outline(body.shape, view) + middle
     panel.area(edge, FAINT, 0.45, near)
     panel.strokes([edge], GREY, 0.9, near)
-    panel.strokes([view.flat(line) + middle for line in lines(body.shape)], GREY, 0.4, near)
+    panel.strokes([view.flat(line) + middle for line in body.shape.lines()], GREY, 0.4, near)
 
 
 def draw_forces(

@@ -74,7 +74,7 @@ def judgement_document(judgement: Judgement) -> dict[str, Any]:
         "verdict": judgement.verdict, "exit_code": judgement.exit_code,
         "structure": structure_document(judgement.analysis.grasp, judgement.analysis),
         "time_s": judgement.motion.times.tolist(),
-        "margin": margin_document(judgement.usages[0]),
+        "margin": margin_document(judgement.usages[0]) | {"per_contact_N": judgement.margins.tolist()},
         "limits": [usage_document(usage) for usage in judgement.usages],
         "checks": [check_document(check) for check in judgement.checks],
         "between": between_document(judgement.between),

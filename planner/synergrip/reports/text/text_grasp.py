@@ -19,7 +19,7 @@ HEADER = ("contact", "link", "kind", "point [mm]", "normal", "gap [mm]", "fricti
 def in_order_text(problem: Problem) -> str:
     """Return what a problem in order holds: counts; with a hand its posture, the object and the contacts; notes."""
     grasp = problem.grasp
-    counts = {"contact": grasp.n_c, "joint": grasp.n_q, "synergy": grasp.n_z, "knot": len(problem.task.times)}
+    counts = {"contact": grasp.n_c, "joint": grasp.n_q, "synergy": grasp.n_z, "knot": len(problem.timed.times)}
     lines = [f"{problem.path}: in order ({', '.join(many(count, noun) for noun, count in counts.items())})"]
     if problem.held is not None:
         lines += ["", *_held_lines(problem.held, grasp)]

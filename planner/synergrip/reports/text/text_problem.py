@@ -27,7 +27,7 @@ def problem_lines(problem: Problem) -> Iterator[str]:
 
 
 def _task(problem: Problem) -> Iterator[str]:
-    task = problem.task
+    task = problem.timed
     knots = len(task.times)
     span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
     yield _wanted(task) + span

@@ -1,0 +1,55 @@
+"""A basis of the unknowns of all knots, stacked: orthogonal columns (T n_v, m), and what it makes of rows and sizes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from synergrip.linalg import Array
+
+if TYPE_CHECKING:
+    from scipy import sparse
+
+ROUNDING = 1e-12
+"""An entry this small beside its row's largest, after a change of unknowns, is 0."""
+
+
+def in_basis(rows: sparse.csc_matrix, basis: sparse.csc_matrix | None, extra: int) -> sparse.csc_matrix:
+    """Return rows of the knots' unknowns as rows of the coefficients of a basis; `extra` columns after them stay."""
+    if basis is None:
+        return rows
+    from scipy import sparse
+
+    whole = sparse.block_diag([basis, sparse.eye_array(extra)], format="csc") if extra else basis
+    size = abs(rows).max(axis=1).toarray().ravel() if rows.shape[0] else np.zeros(0)
+    result = sparse.csc_matrix(rows @ whole)
+    result.data[np.abs(result.data) <= ROUNDING * size[result.indices]] = 0.0
+    result.eliminate_zeros()
+    return result
+
+
+def inverse(basis: sparse.csc_matrix) -> sparse.csr_matrix:
+    """Return the pseudo-inverse (m, n) of orthogonal columns (n, m), none of them 0."""
+    from scipy import sparse
+
+    squared = np.asarray(basis.multiply(basis).sum(axis=0)).ravel()
+    return sparse.csr_matrix(sparse.diags(1 / squared) @ basis.T)
+
+
+def moves(basis: sparse.csc_matrix, matrix: Array) -> bool:
+    """Return whether any of the columns changes ``matrix v_k`` at some knot, for a matrix (m, n_v)."""
+    from scipy import sparse
+
+    rows = sparse.kron(sparse.eye_array(basis.shape[0] // matrix.shape[1]), matrix, format="csc")
+    return bool(in_basis(sparse.csc_matrix(rows), basis, 0).nnz)
+
+
+def longest(basis: sparse.csc_matrix, n_v: int) -> int:
+    """Return over how many knots the longest column reaches, from the first where it is not 0 to the last."""
+    used = np.flatnonzero(np.diff(basis.indptr))
+    knot = basis.indices // n_v
+    if not len(used):
+        return 1
+    first, last = (each.reduceat(knot, basis.indptr[used]) for each in (np.minimum, np.maximum))
+    return int((last - first).max()) + 1

@@ -1,0 +1,153 @@
+"""Arguments judged as the values of a file are, for everything that is made in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from synergrip.documents.validation import shown
+from synergrip.errors import Issue, raise_issues
+from synergrip.linalg import Array, frozen
+
+
+@dataclass
+class Arguments:
+    """Returns each argument as it is to be kept, and collects what is wrong with them."""
+
+    of: str
+    """What the arguments belong to, in front of their names; empty for those of a function."""
+    issues: list[Issue] = field(default_factory=list)
+
+    def refuse(self, name: str, message: str) -> None:
+        """Note that an argument is wrong."""
+        self.issues.append(Issue(message, key=f"{self.of}.{name}" if self.of else name))
+
+    def finish(self) -> None:
+        """Raise an `InputError` of all that is wrong, if anything is."""
+        raise_issues(self.issues)
+
+    def number(
+        self, name: str, value: object, *, above: float | None = None, at_least: float | None = None,
+        unit: str = "", hint: str = "", infinite: bool = False,
+    ) -> float:  # fmt: skip
+        """Return a number; 1 after noting why it is none, or beyond its bound.
+
+        Args:
+            name: of the argument.
+            value: what came.
+            above: bound that it must exceed.
+            at_least: bound that it must not fall below.
+            unit: for the message, such as ``m``.
+            hint: what to try when it is beyond its bound.
+            infinite: whether infinity is a number here.
+        """
+        wanted = f"a number{f' in {unit}' if unit else ''}"
+        if isinstance(value, bool | np.bool_ | str) or np.ndim(_plain(value)) or not _is_real(value):
+            self.refuse(name, f"expected {wanted}, got {described(value)}")
+            return 1.0
+        found = float(value)  # type: ignore[arg-type]
+        if np.isnan(found) or (np.isinf(found) and not infinite):
+            self.refuse(name, f"expected {wanted} that is finite, got {found}")
+        elif above is not None and not found > above:
+            self.refuse(name, f"must be greater than {above:g}, got {found:g}{hint}")
+        elif at_least is not None and found < at_least:
+            self.refuse(name, f"must be {at_least:g} or more, got {found:g}{hint}")
+        else:
+            return found
+        return 1.0
+
+    def array(
+        self, name: str, value: object, shape: tuple[int, ...], why: str = "", *, infinite: bool = False
+    ) -> Array:
+        """Return a read-only array of finite numbers of a shape; one of zeros after noting why not."""
+        found = self.numbers(name, value, f"an array of shape {shape}", infinite=infinite)
+        if found is not None and found.shape != shape:
+            self.refuse(name, f"expected shape {shape}{why}, got {found.shape}")
+            found = None
+        return frozen(np.zeros(shape)) if found is None else found
+
+    def numbers(self, name: str, value: object, wanted: str, *, infinite: bool = False) -> Array | None:
+        """Return an array of finite numbers, None after noting why not."""
+        try:
+            found = np.asarray(value, dtype=np.float64)
+        except (TypeError, ValueError):
+            found = None
+        if found is None or value is None or isinstance(value, bool | str):
+            self.refuse(name, f"expected {wanted}, got {described(value)}")
+            return None
+        bad = np.isnan(found) if infinite else ~np.isfinite(found)
+        if np.any(bad):
+            self.refuse(name, f"expected {wanted} of finite numbers, got {float(found[bad][0])}")
+            return None
+        return found if found is value and not found.flags.writeable else frozen(found)
+
+    def text(self, name: str, value: object, *, empty: bool = True) -> str:
+        """Return a text; an empty one after noting that it is none, or that it is empty where it must not be."""
+        if isinstance(value, str) and (value or empty):
+            return value
+        self.refuse(name, f"expected a {'text' if empty else 'name'}, got {described(value)}")
+        return ""
+
+    def names(self, name: str, values: Sequence[object]) -> None:
+        """Note names that are no names, or stand twice: limits, proofs and tables tell things apart by them."""
+        for index, each in enumerate(values):
+            if not isinstance(each, str) or not each:
+                self.refuse(f"{name}[{index}]", f"expected a name, got {described(each)}")
+            elif each in values[:index]:
+                self.refuse(f"{name}[{index}]", f"{shown(each)} is the name of two; give each its own")
+
+    def named(self, name: str, values: object, count: int, what: str) -> tuple[str, ...]:
+        """Return a name for each of `count` things as a tuple, after noting names that are none or stand twice."""
+        if isinstance(values, str) or not isinstance(values, Sequence):
+            self.refuse(name, f"expected {count} names, one for each {what}, got {described(values)}")
+            return ()
+        self.names(name, values)
+        if len(values) != count and not self.issues:
+            self.refuse(name, f"expected {count} names, one for each {what}, got {len(values)}")
+        return tuple(values)
+
+    def one(self, name: str, value: object, of: type[Any], example: str) -> Any:
+        """Return a value of a type; None after noting that it is none."""
+        if isinstance(value, of):
+            return value
+        self.refuse(name, f"expected {article(of.__name__)} such as {example}, got {described(value)}")
+        return None
+
+    def several(self, name: str, value: object, of: type[Any], example: str) -> tuple[Any, ...]:
+        """Return a sequence of values of a type as a tuple, without those noted to be of another."""
+        if isinstance(value, str) or not isinstance(value, Sequence):
+            self.refuse(name, f"expected a list such as [{example}], got {described(value)}")
+            return ()
+        found = [self.one(f"{name}[{index}]", each, of, example) for index, each in enumerate(value)]
+        return tuple(each for each in found if each is not None)
+
+
+def described(value: object) -> str:
+    """Return what came, for a message: a number or a text itself, of anything else what it is."""
+    if value is None or isinstance(value, bool | int | float | str | list | dict):
+        return shown(value)
+    if isinstance(value, type):
+        return f"the class {value.__name__} itself; make one with {value.__name__}(...)"
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    return article(type(value).__name__)
+
+
+def article(word: str) -> str:
+    """Return a word with "a" or "an" in front."""
+    return f"{'an' if word[:1] in 'AEIOUaeiou' else 'a'} {word}"
+
+
+def _plain(value: object) -> Any:
+    return value if isinstance(value, np.ndarray | list | tuple) else 0
+
+
+def _is_real(value: object) -> bool:
+    try:
+        float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return False
+    return not isinstance(value, bytes)

@@ -1,0 +1,221 @@
+"""From a hand, an object and places to touch it to a grasp."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from synergrip.documents.judging import Arguments, described
+from synergrip.errors import InputError, Issue, one_of, raise_issues
+from synergrip.grasps.closing import close as closed
+from synergrip.grasps.closing import unknown_surface
+from synergrip.grasps.closing_direction import closing_direction
+from synergrip.grasps.contact_at import ContactAt
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.held import Held
+from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
+from synergrip.grasps.objects import Object
+from synergrip.grasps.placing import Touch, place
+from synergrip.hands.folder import load_hand
+from synergrip.hands.hand import Hand, Pad, SynergySet
+from synergrip.hands.synergies.matrix import outside_limits, stands_still
+from synergrip.hands.synergies.matrix import posture as posture_of
+from synergrip.hands.synergies.select import SetChoice, select
+from synergrip.hands.undriven import judge_undriven, with_springs
+from synergrip.linalg import Array, frozen
+
+Posture = str | Mapping[str, float] | Sequence[float] | Array
+Synergies = int | str | Sequence[str] | SetChoice | SynergySet
+EXAMPLE = 'ContactAt("finger1/tip", HardFinger(friction=0.6), stiffness=8e3)'
+
+
+def make_grasp(
+    hand: Hand | str | Path,
+    object: Object,
+    *,
+    posture: Posture,
+    contacts: Sequence[ContactAt],
+    synergies: Synergies | None = None,
+    close: str | Mapping[str, float] | None = None,
+    joint_compliance: float | Sequence[float] | Array | None = None,
+    synergy_compliance: float | Sequence[float] | Array = 0.0,
+    title: str = "",
+    relative_to: Path | None = None,
+) -> Grasp:
+    """Return the grasp of an object by a hand in a posture; a problem file can say no more of one.
+
+    Args:
+        hand: the hand, or what `load_hand` makes one of.
+        object: what is grasped; without a position it is found from the contacts, as far as they tell.
+        posture: name of a posture of the hand, values [rad or m] by name of synergy or joint, or all joint values
+            (n_q,).
+        contacts: where the hand touches, and how.
+        synergies: how many of the default set, a named set, the path of a synergy file, names, or a set itself; the
+            default set of the hand when absent.
+        close: the synergy, joint or weights by name along which the hand closes from its posture until all pads touch.
+        joint_compliance: C_q [rad/(N m), m/N]: one for all joints or one for each; that of the hand when absent.
+        synergy_compliance: C_z, one for all synergies or one for each.
+        title: of the grasp.
+        relative_to: folder of a synergy file; the current one when absent.
+
+    Returns:
+        The grasp; its `held` knows the hand, the object where it is, and the pads that touch.
+
+    Raises:
+        InputError: an argument that is none, unknown names, a posture outside the ranges of the joints, pads that do
+            not reach the object or face away from it; as many of them as can be found at once.
+
+    Example:
+        >>> from synergrip.grasps.contacts.hard_finger import HardFinger
+        >>> from synergrip.grasps.shapes.sphere import Sphere
+        >>> tips = [f"finger{i}/tip" for i in (1, 2, 3)]
+        >>> grasp = make_grasp(
+        ...     "barrett", Object(mass=0.2, shape=Sphere(radius=0.05)), posture="ball", synergies="motors",
+        ...     contacts=[ContactAt(tip, HardFinger(friction=0.6), stiffness=8e3) for tip in tips],
+        ... )
+        >>> grasp.n_l, grasp.n_q, grasp.n_z
+        (9, 8, 4)
+    """
+    judge = Arguments("")
+    if not isinstance(hand, Hand):
+        hand = _loaded(hand)
+    body = judge.one("object", object, Object, "Object(mass=0.2, shape=Sphere(radius=0.05))")
+    wanted = judge.several("contacts", contacts, ContactAt, EXAMPLE)
+    if not judge.issues and not wanted:
+        judge.refuse("contacts", f"no contacts; name the pads that touch the object, such as [{EXAMPLE}]")
+    judge.text("title", title)
+    if judge.issues or body is None:
+        raise InputError(judge.issues)
+    touches, issues = _touches(hand, wanted, body)
+    if close is not None:
+        issues += unknown_surface(body)
+    try:
+        chosen = _synergies(hand, synergies, relative_to or Path())
+        asked = not (synergies is None or isinstance(synergies, int))
+        each_yields = np.ndim(joint_compliance) > 0 if joint_compliance is not None else False
+        links = [touch.pad.link for touch in touches]
+        judge_undriven(hand, chosen, links, asked=asked, each_yields=bool(each_yields), key="synergies")
+        q = _joint_values(hand, chosen, posture)
+        C_q = _joint_compliance(hand, joint_compliance)
+        C_z = diagonal(synergy_compliance, chosen.synergies, "synergy_compliance", "synergies")
+        direction = closing_direction(hand, chosen, close) if close is not None else None
+    except InputError as error:
+        raise InputError([*error.issues, *issues]) from None
+    raise_issues(issues)
+    if direction is not None:
+        q = closed(hand, q, direction, body, touches)
+    placed = place(title, hand, chosen, q, body, touches, C_q, C_z)
+    held = Held(hand=hand, synergies=chosen, q=q, C_q=C_q, body=placed.body, touches=tuple(touches), gaps=placed.gaps)
+    return replace(placed.grasp, held=held)
+
+
+def _loaded(hand: object) -> Hand:
+    if not isinstance(hand, str | Path):
+        raise InputError.at("hand", f'expected a Hand such as load_hand("barrett"), got {described(hand)}')
+    return load_hand(hand, key="hand")
+
+
+def _synergies(hand: Hand, wish: Synergies | None, folder: Path) -> SynergySet:
+    if isinstance(wish, SynergySet):
+        if wish.S.shape[0] != len(hand.joints):
+            message = f"'{wish.name}' has {wish.S.shape[0]} rows for the {len(hand.joints)} joints of the hand"
+            raise InputError.at("synergies", message)
+        return wish
+    if wish is not None and (isinstance(wish, bool) or not isinstance(wish, int | str | SetChoice | Sequence)):
+        message = f"expected a number of synergies, a name, a file, a list of names or a set, got {described(wish)}"
+        raise InputError.at("synergies", message)
+    return select(hand, wish, "synergies", folder)
+
+
+def _joint_values(hand: Hand, synergies: SynergySet, wish: object) -> Array:
+    """Return the joint values (n_q,) of a posture by name, by values or as an array."""
+    if wish is None:
+        names = ", ".join(hand.postures)
+        raise InputError.at("posture", f"missing; name one of {names}, or give joint values", on_key=True)
+    if isinstance(wish, str):
+        return posture_of(hand, synergies, wish, "posture")
+    judge = Arguments("")
+    if isinstance(wish, Mapping):
+        for name, value in wish.items():
+            judge.number(f"posture.{name}", value, unit="rad or m")
+        judge.finish()
+        return posture_of(hand, synergies, wish, "posture")
+    q = judge.array("posture", wish, (len(hand.joints),), f": a value for each of {', '.join(hand.joint_names)}")
+    judge.finish()
+    raise_issues(outside_limits(hand.joints, q, "posture", hand.couplings))
+    return q
+
+
+def _joint_compliance(hand: Hand, wish: float | Sequence[float] | Array | None) -> Array:
+    if wish is None:
+        return hand.C_q
+    C_q = diagonal(wish, hand.joint_names, "joint_compliance", "joints")
+    return with_springs(hand, C_q) if hand.drives is not None and np.ndim(wish) == 0 else C_q
+
+
+def diagonal(value: float | Sequence[float] | Array, names: Sequence[str], key: str, what: str) -> Array:
+    """Return a compliance matrix of one value for all names, or of one for each.
+
+    Raises:
+        InputError: no numbers, negative ones or ones beyond all compliances, or not as many as names.
+    """
+    judge = Arguments("")
+    found = judge.numbers(key, value, f"a number, or one for each of the {what}")
+    judge.finish()
+    if found is None or found.ndim > 1:
+        raise InputError.at(key, f"expected a number or {len(names)} numbers, got {described(found)}")
+    if found.ndim and len(found) != len(names):
+        raise InputError.at(key, f"{len(found)} values for {len(names)} {what} ({', '.join(names)})")
+    if found.min(initial=0.0) < 0:
+        raise InputError.at(key, f"a compliance must not be negative, got {found.min():g}")
+    if found.max(initial=0.0) > LARGEST_COMPLIANCE:
+        raise InputError.at(key, f"a compliance of {found.max():g} is too large")
+    return frozen(np.diag(np.broadcast_to(found, (len(names),))))
+
+
+def _touches(hand: Hand, contacts: Sequence[ContactAt], body: Object) -> tuple[list[Touch], list[Issue]]:
+    """Return the pads that touch, and what is wrong with them."""
+    touches, issues = list[Touch](), list[Issue]()
+    for index, contact in enumerate(contacts):
+        key = contact.key or f"contacts[{index}].at"
+        if contact.name in {touch.name for touch in touches}:
+            beside = f"contacts[{index}].name"
+            issues.append(Issue(f"two contacts have the name '{contact.name}'; give each of them a name", key=beside))
+            continue
+        try:
+            touches.append(_touch(hand, contact, body, key, f"contacts[{index}]"))
+        except InputError as error:
+            issues += error.issues
+    return touches, issues
+
+
+def _touch(hand: Hand, contact: ContactAt, body: Object, key: str, argument: str) -> Touch:
+    on_pad = isinstance(contact.at, str)
+    stated = contact.normal_at or (f"the normal of pad '{contact.at}'" if on_pad else f"{argument}.at.normal")
+    return Touch(
+        name=contact.name,
+        pad=_pad(hand, contact, key),
+        kind=contact.kind,
+        stiffness=contact.stiffnesses,
+        normals=contact.normals or ("pad" if body.shape is None else "object"),
+        key=key,
+        tangent=contact.tangent,
+        aimed=isinstance(contact.at, str) or contact.at.normal is not None,
+        normal_at=stated,
+    )
+
+
+def _pad(hand: Hand, contact: ContactAt, key: str) -> Pad:
+    if isinstance(contact.at, str):
+        return hand.pad(contact.at, key)
+    spot = contact.at
+    if still := stands_still(hand, spot.link):
+        carried = ", ".join(map(repr, hand.links))
+        raise InputError.at(key, f"link {still}; it carries {carried}; choose a palm that carries all contacts")
+    if spot.link not in hand.links:
+        raise InputError.at(key, f"link {one_of(spot.link, hand.links)}")
+    normal = frozen(spot.normal or np.zeros(3))
+    return Pad(name=contact.name, link=spot.link, point=frozen(spot.point), normal=normal, radius=spot.radius)

@@ -1,0 +1,76 @@
+"""A box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import ClassVar
+
+import numpy as np
+
+from synergrip.documents.judging import Arguments
+from synergrip.grasps.shapes.shape import Shape, Size
+from synergrip.linalg import Array
+
+
+@dataclass(frozen=True)
+class Box(Shape):
+    """A box with faces normal to the axes.
+
+    Args:
+        size: (3,) edge lengths, each greater than 0 [m].
+
+    Raises:
+        InputError: a size that is none.
+
+    Example:
+        >>> Box(size=(0.04, 0.06, 0.1)).title
+        'box 40 x 60 x 100 mm'
+    """
+
+    size: tuple[float, float, float]  # edge lengths [m]
+
+    name: ClassVar[str] = "box"
+    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "length of the three edges", count=3),)
+
+    def __post_init__(self) -> None:
+        """Judge the size."""
+        judge = Arguments("Box")
+        edges = judge.array("size", self.size, (3,), ": three edge lengths").tolist()
+        if not judge.issues and not min(edges) > 0:
+            judge.refuse("size", f"each edge must be greater than 0, got {min(edges):g}")
+        judge.finish()
+        object.__setattr__(self, "size", tuple(edges))
+
+    @property
+    def title(self) -> str:
+        """Short text."""
+        return "box " + " x ".join(f"{edge * 1e3:.3g}" for edge in self.size) + " mm"
+
+    def surface(self, point: Array) -> tuple[float, Array]:
+        """Return signed distance and the normal of the nearest face (of the corner direction outside an edge)."""
+        over = np.abs(point) - np.array(self.size) / 2
+        outside = np.maximum(over, 0.0)
+        distance = float(np.linalg.norm(outside))
+        if distance > 0:
+            return distance, np.sign(point) * outside / distance
+        face = int(np.argmax(over))
+        normal = np.zeros(3)
+        normal[face] = 1.0 if point[face] >= 0 else -1.0
+        return float(over[face]), normal
+
+    @property
+    def inertia(self) -> Array:
+        """``(b^2 + c^2) / 12`` about the edge a, and so on."""
+        squares = np.square(self.size)
+        return np.diag(squares.sum() - squares) / 12
+
+    def farthest(self, direction: Array) -> Array:
+        """Return the corner in that direction."""
+        return np.asarray(np.copysign(0.5, direction) * np.array(self.size))
+
+    def lines(self) -> list[Array]:
+        """Return the edges."""
+        corners = np.array(list(product((-0.5, 0.5), repeat=3)))
+        edges = [(a, b) for a, b in product(corners, repeat=2) if np.sum(a != b) == 1 and tuple(a) < tuple(b)]
+        return [np.array(edge) * np.array(self.size) for edge in edges]

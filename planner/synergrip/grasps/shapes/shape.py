@@ -1,0 +1,62 @@
+"""What every shape of an object is: a convex solid that knows its surface, its inertia and how it is drawn."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from synergrip.linalg import Array
+
+ROUND = 72
+"""Points of a circle that is drawn."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """A size of a shape: the argument in code, and the key in a problem file, of the same name."""
+
+    name: str
+    meaning: str
+    count: int = 1
+    """Lengths that it is made of."""
+
+
+class Shape(ABC):
+    """A convex solid of uniform density, centred on the object frame B, with its axes."""
+
+    name: ClassVar[str]
+    """Key in problem files."""
+    sizes: ClassVar[tuple[Size, ...]]
+    """One for each argument."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """Short text, for example ``ball r 45.8 mm``."""
+
+    @abstractmethod
+    def surface(self, point: Array) -> tuple[float, Array]:
+        """Return the signed distance of `point` (3,) [m] to the surface (> 0 outside) and the unit outward normal."""
+
+    @property
+    @abstractmethod
+    def inertia(self) -> Array:
+        """Inertia tensor (3, 3) about the centre, for each kilogram of mass [m^2]."""
+
+    @abstractmethod
+    def farthest(self, direction: Array) -> Array:
+        """Return the point (3,) of the solid that is farthest along a unit vector (3,) [m]."""
+
+    @abstractmethod
+    def lines(self) -> list[Array]:
+        """Return the lines that make it look solid in a picture, each (n, 3) [m]."""
+
+
+def circle() -> Array:
+    """Return (n, 2) points of the unit circle, the first one twice."""
+    angles = np.linspace(0.0, 2 * np.pi, ROUND, endpoint=False)
+    points = np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.vstack([points, points[:1]])

@@ -1,0 +1,65 @@
+"""A ball."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from synergrip.documents.judging import Arguments
+from synergrip.grasps.shapes.shape import Shape, Size, circle
+from synergrip.linalg import Array
+
+
+@dataclass(frozen=True)
+class Sphere(Shape):
+    """A ball.
+
+    Args:
+        radius: greater than 0 [m].
+
+    Raises:
+        InputError: a radius that is none.
+
+    Example:
+        >>> Sphere(radius=0.05).title
+        'ball r 50 mm'
+    """
+
+    radius: float  # [m]
+
+    name: ClassVar[str] = "sphere"
+    sizes: ClassVar[tuple[Size, ...]] = (Size("radius", "radius"),)
+
+    def __post_init__(self) -> None:
+        """Judge the radius."""
+        judge = Arguments("Sphere")
+        object.__setattr__(self, "radius", judge.number("radius", self.radius, above=0, unit="m"))
+        judge.finish()
+
+    @property
+    def title(self) -> str:
+        """Short text."""
+        return f"ball r {self.radius * 1e3:.3g} mm"
+
+    def surface(self, point: Array) -> tuple[float, Array]:
+        """Return signed distance and outward normal; at the centre itself the normal is z."""
+        length = float(np.linalg.norm(point))
+        normal = point / length if length > 0 else np.array([0.0, 0.0, 1.0])
+        return length - self.radius, normal
+
+    @property
+    def inertia(self) -> Array:
+        """``2/5 r^2``."""
+        return 0.4 * self.radius**2 * np.eye(3)
+
+    def farthest(self, direction: Array) -> Array:
+        """Return the point in that direction."""
+        return np.asarray(self.radius * direction)
+
+    def lines(self) -> list[Array]:
+        """Return three great circles."""
+        x, y = self.radius * circle().T
+        zero = np.zeros(len(x))
+        return [np.column_stack(part) for part in ((x, y, zero), (x, zero, y), (zero, x, y))]

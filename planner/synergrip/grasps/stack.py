@@ -1,0 +1,170 @@
+"""Many grasps of one form as arrays with a leading axis, for statics that work on all of them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Metric, metric_of
+from synergrip.linalg import Array, Places, frozen
+
+VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
+"""What may differ from grasp to grasp."""
+
+
+@dataclass(frozen=True, eq=False)
+class Matrices:
+    """What the statics of one grasp need, or of many (leading axes ...); SI units."""
+
+    G: Array  # (..., 6, n_l)
+    J: Array  # (..., n_l, n_q)
+    S: Array  # (..., n_q, n_z)
+    C_s: Array  # (..., n_l, n_l)
+    C_q: Array  # (..., n_q, n_q)
+    C_z: Array  # (..., n_z, n_z)
+
+    @classmethod
+    def of(cls, grasp: Grasp) -> Matrices:
+        """Return those of one grasp, without leading axes."""
+        return cls(grasp.G, grasp.J, grasp.S, grasp.C_s, grasp.C_q, grasp.C_z)
+
+    def taken(self, places: Any) -> Matrices:
+        """Return those of some grasps of a stack."""
+        return Matrices(*(getattr(self, field.name)[places] for field in fields(self)))
+
+
+@dataclass(frozen=True, eq=False)
+class GraspStack(Sequence[Grasp]):
+    """N grasps whose contacts are of the same kinds, with as many joints and synergies each.
+
+    Make one with `of` (from grasps) or `varied` (from one grasp and arrays); ``stack[i]`` is the grasp at a place.
+
+    Example:
+        >>> stack = GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)
+        >>> analyses = analyse_many(stack)
+    """
+
+    matrices: Matrices
+    """(N, ...) each."""
+    points: Array  # (N, n_c, 3) contact points about B [m]
+    w_0: Array  # (N, 6) external wrench on the object at the start [N, N m]
+    like: Grasp
+    """What all are like but for the arrays."""
+    given: tuple[Grasp, ...] = ()
+    """The N grasps themselves, where the stack was made of some."""
+
+    @classmethod
+    def of(cls, grasps: Sequence[Grasp]) -> GraspStack:
+        """Return the stack of some grasps.
+
+        Args:
+            grasps: at least one; contacts of the same kinds in the same order, as many joints, as many synergies.
+
+        Raises:
+            InputError: naming the first grasp that differs from the first one of all.
+        """
+        if isinstance(grasps, GraspStack):
+            return grasps
+        given = tuple(grasps)
+        if not given:
+            raise InputError.at("grasps", "expected at least one grasp, got none")
+        for place, grasp in enumerate(given):
+            if not isinstance(grasp, Grasp):
+                raise InputError.at(f"grasps[{place}]", f"expected a Grasp, got {type(grasp).__name__}")
+        forms = [_form(grasp) for grasp in given]
+        for place, form in enumerate(forms):
+            if form != forms[0]:
+                message = f"{_told(form)}, but grasps[0] has {_told(forms[0])}; put grasps of one form in one batch"
+                raise InputError.at(f"grasps[{place}]", f"has {message}")
+        names = [field.name for field in fields(Matrices)]
+        stacked = [frozen([getattr(grasp, name) for grasp in given]) for name in names]
+        points = frozen([[contact.point for contact in grasp.contacts] for grasp in given])
+        return cls(Matrices(*stacked), points, frozen([grasp.w_0 for grasp in given]), given[0], given)
+
+    @classmethod
+    def varied(cls, grasp: Grasp, **arrays: Array) -> GraspStack:
+        """Return a stack of grasps that are like one but for some arrays.
+
+        Args:
+            grasp: the grasp, which says all that the arrays do not.
+            **arrays: by the names in `VARIED`, with a leading axis of N: points (N, n_c, 3) of the contacts [m],
+                G (N, 6, n_l), J (N, n_l, n_q), S (N, n_q, n_z), C_s (N, n_l, n_l), C_q, C_z, w_0 (N, 6).
+                G does not follow from `points`: give both where the contacts move.
+
+        Raises:
+            InputError: naming the array that is unknown, whose shape does not fit, or that is not finite.
+        """
+        one = cls.of([grasp])
+        own = {**vars(one.matrices), "points": one.points, "w_0": one.w_0}
+        found = {name: _judged(name, value, own) for name, value in arrays.items()}
+        counts = {name: len(value) for name, value in found.items()}
+        if len(set(counts.values())) != 1:
+            told = ", ".join(f"{name} {count}" for name, count in counts.items()) or "no array at all"
+            raise InputError.at("arrays", f"expected arrays of one number of grasps, got {told}")
+        count = next(iter(counts.values()))
+        every = {name: found.get(name, np.broadcast_to(own[name], (count, *own[name].shape[1:]))) for name in own}
+        points, w_0 = every.pop("points"), every.pop("w_0")
+        return cls(Matrices(**every), points, w_0, grasp)
+
+    def __len__(self) -> int:
+        """Return N."""
+        return len(self.points)
+
+    def __iter__(self) -> Iterator[Grasp]:
+        """Yield the grasps one by one."""
+        return (self[place] for place in range(len(self)))
+
+    def __getitem__(self, place: Any) -> Any:
+        """Return the grasp at a place; a stack for a slice."""
+        if isinstance(place, slice):
+            return self.taken(np.arange(len(self))[place])
+        place = range(len(self))[place]
+        if self.given:
+            return self.given[place]
+        grasp, arrays = self.like, vars(self.matrices.taken(place))
+        moved = zip(grasp.contacts, self.points[place], strict=True)
+        contacts = tuple(replace(contact, point=frozen(point)) for contact, point in moved)
+        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None,
+                       **{name: frozen(value) for name, value in arrays.items()})  # fmt: skip
+
+    def taken(self, places: Places) -> GraspStack:
+        """Return the stack of the grasps at some places, in their order."""
+        given = tuple(self.given[place] for place in places) if self.given else ()
+        return GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+
+    @cached_property
+    def metric(self) -> Metric:
+        """The scaled coordinates of every grasp, from its contact points."""
+        return metric_of(self.points, [component for _, component in self.like.components])[0]
+
+
+def _form(grasp: Grasp) -> tuple[tuple[tuple[str, ...], ...], int, int]:
+    return tuple(contact.kind.components for contact in grasp.contacts), grasp.n_q, grasp.n_z
+
+
+def _told(form: tuple[tuple[tuple[str, ...], ...], int, int]) -> str:
+    contacts, n_q, n_z = form
+    components = ", ".join("".join(each) for each in contacts)
+    return f"contacts with components ({components}), {n_q} joints and {n_z} synergies"
+
+
+def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
+    if name not in VARIED:
+        raise InputError.at(name, f"is no array of a grasp; expected one of {', '.join(VARIED)}")
+    wanted = own[name].shape[1:]
+    try:
+        found = frozen(value)
+    except (TypeError, ValueError):
+        raise InputError.at(name, f"expected numbers of shape {('N', *wanted)}, got {type(value).__name__}") from None
+    if found.ndim != len(wanted) + 1 or found.shape[1:] != wanted or not len(found):
+        shape = ", ".join(map(str, ("N", *wanted)))
+        raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")
+    if not np.all(np.isfinite(found)):
+        raise InputError.at(name, f"expected finite numbers, got {float(found[~np.isfinite(found)][0])}")
+    return found

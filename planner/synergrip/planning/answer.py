@@ -1,0 +1,124 @@
+"""What every answer does: it says which attributes are another verdict's, and hands itself out as files and tables.
+
+This is the one file of its room that looks to its right, and only inside these methods: how an answer is written and
+drawn is the business of reports, and whoever holds an answer should not have to know that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, cast
+
+from synergrip.errors import Issue, VerdictError, suggest
+from synergrip.values import Value
+
+if TYPE_CHECKING:
+    from synergrip.planning.outcome import Outcome, Plan
+    from synergrip.planning.provenance import Asked
+
+FORMATS = ("json", "npz", "csv")
+"""How an answer is written when nothing else is said; of an answer without a plan there is only the first."""
+
+
+class Answer(Value):
+    """The base of the three answers: `Plan`, `Infeasible` and `Unknown`."""
+
+    verdict: ClassVar[str]
+    holds: ClassVar[tuple[str, ...]]
+    """What is to be looked at in an answer of this kind."""
+
+    def save(
+        self, folder: str | Path, *, formats: Sequence[str] = FORMATS, problem: Asked | None = None
+    ) -> tuple[Path, ...]:
+        """Write the files that the command line writes, all or none: plan.json, and of a plan plan.npz and plan.csv.
+
+        Args:
+            folder: made when it is not there. An earlier answer in it is replaced, other files stay.
+            formats: of "json", "npz" and "csv".
+            problem: what was asked, as `load_problem` returns it, for title, notes and provenance.
+
+        Returns:
+            The files written.
+
+        Raises:
+            InputError: a format that is none of these, or a path that can be no folder's.
+            OutputError: it cannot be written; the folder is as it was.
+
+        Example:
+            >>> answer.save("out/ball")  # doctest: +SKIP
+            (PosixPath('out/ball/plan.json'), PosixPath('out/ball/plan.npz'), PosixPath('out/ball/plan.csv'))
+        """
+        from synergrip.reports.data.saving import save
+
+        return save(cast("Outcome", self), folder, formats, problem)
+
+    if not TYPE_CHECKING:  # or every misspelt attribute would pass
+
+        def __getattr__(self, name: str) -> Any:
+            """Say of which verdict an attribute is that this answer does not have."""
+            owners = () if name.startswith("_") else tuple(_owners(name))
+            if owners:
+                raise VerdictError([Issue(_elsewhere(self, name, owners), key=f"{type(self).__name__}.{name}")])
+            names = {*dir(type(self)), *type(self).__dataclass_fields__}
+            near = suggest(name, sorted(each for each in names if not each.startswith("_")))
+            message = f"'{type(self).__name__}' object has no attribute '{name}'{near}"
+            raise AttributeError(message, name=name, obj=self)
+
+
+class Tabled(Answer):
+    """An answer with arrays: a table of them, and a picture."""
+
+    def frame(self) -> Any:
+        """Return the columns of plan.csv as a pandas `DataFrame`, one row for each knot.
+
+        Raises:
+            InputError: pandas is not installed; synergrip itself does not need it.
+
+        Example:
+            >>> answer.frame().plot("t_s", "margin_C1_N")  # doctest: +SKIP
+        """
+        from synergrip.reports.data.frames import frame
+
+        return frame(cast("Plan", self))
+
+    def draw(self, path: str | Path, *, title: str = "") -> Path:
+        """Draw the plan over time, the picture of ``synergrip plan --picture``, and return the file.
+
+        Args:
+            path: the file, replaced whole or not at all: .svg, .png or .pdf.
+            title: above the picture; that of the grasp when empty.
+
+        Raises:
+            InputError: a suffix that says no format, or a path that can be no file's.
+            OutputError: it cannot be written.
+
+        Example:
+            >>> answer.draw("ball.svg")  # doctest: +SKIP
+            PosixPath('ball.svg')
+        """
+        from synergrip.reports.data.saving import draw
+
+        return draw(cast("Plan", self), path, title)
+
+
+def _owners(name: str) -> Iterator[str]:
+    """Yield the answers that have an attribute, as a field or as a property."""
+    for kind in _kinds(Answer):
+        if hasattr(kind, name) or name in getattr(kind, "__dataclass_fields__", ()):
+            yield kind.__name__
+
+
+def _kinds(kind: type[Answer]) -> Iterator[type[Answer]]:
+    """Yield the answers below a base, or itself when there are none."""
+    below = kind.__subclasses__()
+    for each in below:
+        yield from _kinds(each)
+    if not below:
+        yield kind
+
+
+def _elsewhere(answer: Answer, name: str, owners: Sequence[str]) -> str:
+    """Return which answers have an attribute, and what this one has instead."""
+    instead = ", ".join(f".{each}" for each in answer.holds)
+    return f"the verdict is '{answer.verdict}', and only {' or '.join(owners)} has .{name}; this answer has {instead}"

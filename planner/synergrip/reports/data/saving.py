@@ -1,0 +1,70 @@
+"""An answer handed out from code: the files and the picture that the command line makes, and its errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TypeVar
+
+from synergrip.errors import InputError, OutputError, one_of
+from synergrip.files import IMPOSSIBLE
+from synergrip.planning.answer import FORMATS
+from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.provenance import Asked, Source
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.plan_files import write_outcome
+
+T = TypeVar("T")
+
+
+def save(outcome: Outcome, folder: str | Path, formats: Sequence[str], problem: Asked | None) -> tuple[Path, ...]:
+    """Write an answer; see `Answer.save`."""
+    place, chosen = _path(folder, "folder"), _formats(formats)
+    title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
+    document = outcome_document(title, outcome.grasp, outcome, notes, source)
+    written = _written("folder", place, lambda: write_outcome(place, document, outcome, chosen))
+    return tuple(place / name for name in written)
+
+
+def draw(plan: Plan, path: str | Path, title: str) -> Path:
+    """Draw a plan; see `Tabled.draw`."""
+    from synergrip.reports.pictures.plan_picture import draw_plan
+    from synergrip.reports.pictures.sheet import picture_suffix
+
+    place = _path(path, "path")
+    picture_suffix(place, "path")
+    _written("path", place, lambda: draw_plan(plan, title or plan.grasp.title, place))
+    return place
+
+
+def _told(problem: Asked) -> tuple[str, Sequence[str], Source | None]:
+    return problem.title, problem.notes, problem.source
+
+
+def _path(value: object, argument: str) -> Path:
+    if not isinstance(value, str | PathLike) or not fspath(value) or "\0" in str(value):
+        raise InputError.at(argument, f"expected the path of a {'folder' if argument == 'folder' else 'file'}, such as "
+                            f"'out/ball{'' if argument == 'folder' else '.svg'}', got {value!r}")  # fmt: skip
+    return Path(value)
+
+
+def _formats(formats: object) -> tuple[str, ...]:
+    words = (formats,) if isinstance(formats, str) else formats
+    if not isinstance(words, Sequence) or not words:
+        raise InputError.at("formats", f"expected some of {', '.join(FORMATS)}, got {formats!r}")
+    for word in words:
+        if word not in FORMATS:
+            raise InputError.at("formats", one_of(word, FORMATS))
+    return tuple(words)
+
+
+def _written(argument: str, path: Path, write: Callable[[], T]) -> T:
+    """Return what `write` does; what the file system refuses becomes an error at an argument."""
+    try:
+        return write()
+    except OSError as error:
+        message = f"cannot write '{path}': {error.strerror or error}"
+        if error.errno in IMPOSSIBLE:
+            raise InputError.at(argument, message) from None
+        raise OutputError(message, argument) from None

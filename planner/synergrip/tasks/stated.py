@@ -1,0 +1,85 @@
+"""What every load and every target of a task is: a judged value, and what it is over a known span of time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from synergrip.grasps.objects import Object
+from synergrip.linalg import Array
+from synergrip.tasks.palm_in_world import PalmInWorld
+from synergrip.tasks.profiles import Profile
+
+Corner = tuple[str, str, float]
+"""An argument, what happens then in words, and when [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What a load or a target needs to know before it has a value at every instant."""
+
+    start: float  # [s] of the task
+    end: float  # [s]
+    body: Object | None = None
+    """The object where it is; None for a grasp given as matrices."""
+    palm: PalmInWorld | None = None
+    """How the palm moves; None when it stands still."""
+
+
+class Stated:
+    """A load or a target. One of your own overrides `over`, and the rest where the defaults are not right."""
+
+    moving = False
+    """Whether it needs at least two knots."""
+
+    @property
+    def lines(self) -> Array | None:
+        """The instants (K,) [s] of a table, outside of which it says nothing; None when it is no table."""
+        return None
+
+    @property
+    def last(self) -> float | None:
+        """When the task ends that does not say so itself [s]; None when this does not tell."""
+        return None if self.lines is None else float(self.lines[-1])
+
+    @property
+    def timed(self) -> bool:
+        """Whether things happen at instants from the start of the task, other than the lines of a table."""
+        return False
+
+    @property
+    def curved(self) -> bool:
+        """Whether it bends between the lines of all tables, so that there must be knots between these."""
+        return self.timed
+
+    def over(self, setting: Setting) -> Profile | None:
+        """Return the values at any time of a task; None when there is nothing to add.
+
+        Raises:
+            InputError: it does not fit into the task, or needs to know more of the object; keys are arguments.
+        """
+        raise NotImplementedError
+
+    def corners(self, setting: Setting) -> Iterable[Corner]:
+        """Return the instants that must be on a knot when the number of knots is given."""
+        return ()
+
+    def knots(self, setting: Setting) -> Array:
+        """Return the instants [s] that get a knot when their number is not given."""
+        return np.zeros(0)
+
+
+class Load(Stated):
+    """Something that loads the object: over a span of time a wrench (T, 6) about B [N, N m], axes of the palm."""
+
+
+class Motion(Stated):
+    """Where the object is wanted: over a span of time a displacement (T, 6), or coordinates of Gamma_ucs (T, m)."""
+
+    @property
+    def kind(self) -> Literal["hold", "motion", "modes", "mode moves"]:
+        """What its values mean; see `Target`."""
+        return "motion"
