@@ -18,6 +18,10 @@ VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
 
 
+Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
+"""Components of every contact, and the shape of S."""
+
+
 @dataclass(frozen=True, eq=False)
 class Matrices:
     """What the statics of one grasp need, or of many (leading axes ...); SI units."""
@@ -83,9 +87,9 @@ class GraspStack(Sequence[Grasp]):
                 message = f"{_told(form)}, but grasps[0] has {_told(forms[0])}; put grasps of one form in one batch"
                 raise InputError.at(f"grasps[{place}]", f"has {message}")
         names = [field.name for field in fields(Matrices)]
-        stacked = [frozen([getattr(grasp, name) for grasp in given]) for name in names]
-        points = frozen([[contact.point for contact in grasp.contacts] for grasp in given])
-        return cls(Matrices(*stacked), points, frozen([grasp.w_0 for grasp in given]), given[0], given)
+        stacked = [_stacked([getattr(grasp, name) for grasp in given]) for name in names]
+        points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given))
+        return cls(Matrices(*stacked), points, _stacked([grasp.w_0 for grasp in given]), given[0], given)
 
     @classmethod
     def varied(cls, grasp: Grasp, **arrays: Array) -> GraspStack:
@@ -144,12 +148,20 @@ class GraspStack(Sequence[Grasp]):
         return metric_of(self.points, [component for _, component in self.like.components])[0]
 
 
-def _form(grasp: Grasp) -> tuple[tuple[tuple[str, ...], ...], int, int]:
-    return tuple(contact.kind.components for contact in grasp.contacts), grasp.n_q, grasp.n_z
+def _stacked(arrays: Sequence[Array], count: int | None = None) -> Array:
+    """Return arrays of one shape in `count` groups (default: each by itself); `numpy.stack` takes longer."""
+    leading = (len(arrays),) if count is None else (count, len(arrays) // count)
+    whole = np.concatenate(arrays, axis=None).reshape(*leading, *arrays[0].shape)
+    whole.setflags(write=False)
+    return whole
 
 
-def _told(form: tuple[tuple[tuple[str, ...], ...], int, int]) -> str:
-    contacts, n_q, n_z = form
+def _form(grasp: Grasp) -> Form:
+    return tuple([contact.kind.components for contact in grasp.contacts]), grasp.S.shape
+
+
+def _told(form: Form) -> str:
+    contacts, (n_q, n_z) = form
     components = ", ".join("".join(each) for each in contacts)
     return f"contacts with components ({components}), {n_q} joints and {n_z} synergies"
 
