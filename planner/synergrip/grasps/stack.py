@@ -12,7 +12,7 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, metric_of
-from synergrip.linalg import Array, Places, frozen
+from synergrip.linalg import Array, frozen
 
 VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
@@ -127,7 +127,7 @@ class GraspStack(Sequence[Grasp]):
     def __getitem__(self, place: Any) -> Any:
         """Return the grasp at a place; a stack for a slice."""
         if isinstance(place, slice):
-            return self.taken(np.arange(len(self))[place])
+            return self.taken(place)
         place = range(len(self))[place]
         if self.given:
             return self.given[place]
@@ -137,10 +137,14 @@ class GraspStack(Sequence[Grasp]):
         return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None,
                        **{name: frozen(value) for name, value in arrays.items()})  # fmt: skip
 
-    def taken(self, places: Places) -> GraspStack:
-        """Return the stack of the grasps at some places, in their order."""
-        given = tuple(self.given[place] for place in places) if self.given else ()
-        return GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+    def taken(self, places: Any) -> GraspStack:
+        """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""
+        given: tuple[Grasp, ...] = ()
+        if self.given:
+            given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
+        stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+        stack.__dict__["metric"] = self.metric.taken(places)  # as the cached property would work it out again
+        return stack
 
     @cached_property
     def metric(self) -> Metric:

@@ -6,10 +6,14 @@ grasp alone would need more for (twice the digits) or would be refused for goes 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
@@ -52,8 +56,8 @@ class Responses(Maps):
         return Response(**maps, grasp=grasp, scale=scale_of(grasp), restraint=self.restraint.at(index),
                         accuracy=accuracy)  # fmt: skip
 
-    def taken(self, indices: Places) -> Responses:
-        """Return the responses of some of the N grasps, in their order."""
+    def taken(self, indices: Any) -> Responses:
+        """Return the responses of some of the N grasps (whole numbers or a slice), in their order."""
         maps = {field.name: getattr(self, field.name)[indices] for field in fields(Maps)}
         return Responses(**maps, grasps=self.grasps.taken(indices), places=self.places[indices],
                          restraint=self.restraint.taken(indices), figures=self.figures[indices],
@@ -77,41 +81,51 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
         >>> responses.dlambda_dzr.shape  # (2, n_l, n_z)
     """
     stack = GraspStack.of(grasps)
-    chunks = [np.arange(start, min(start + CHUNK, len(stack))) for start in range(0, len(stack), CHUNK)]
     restraint = restraints(stack.matrices.G, stack.metric)
-    parts = [part for chunk in chunks for part in _together(stack.matrices, stack.metric, restraint, chunk)]
-    done = np.concatenate([places for places, _, _ in parts])
-    left = np.setdiff1d(np.arange(len(stack)), done)
+    parts = _in_chunks(stack, restraint.ranks == 6)
+    left = np.setdiff1d(np.arange(len(stack)), np.concatenate([places for places, _, _ in parts]))
     refusals: dict[int, InputError | Refusal] = {}
     for place in left.tolist():
         try:
             parts.append(_part(place, respond(stack[place])))
         except (InputError, Refusal) as refusal:
             refusals[place] = refusal
-    places = np.concatenate([each for each, _, _ in parts])
-    order = np.argsort(places)
-    maps = {name: _joined([each[name] for _, each, _ in parts], order) for name in parts[0][1]}
-    known, answered = _joined([each for _, _, each in parts], order), places[order]
-    return Responses(**maps, grasps=stack if not refusals else stack.taken(answered), places=answered,
-                     restraint=restraint.taken(answered), figures=known, refusals=refusals, one_by_one=left)  # fmt: skip
+    answered = np.setdiff1d(np.arange(len(stack)), np.array(list(refusals), dtype=np.int64))
+    maps, known = _joined(parts, answered)
+    kept = answered if refusals else slice(None)
+    return Responses(**maps, grasps=stack.taken(kept), places=answered, restraint=restraint.taken(kept),
+                     figures=known, refusals=refusals, one_by_one=left)  # fmt: skip
 
 
-def _together(matrices: Matrices, metric: Metric, restraint: Decisions, places: Places) -> Iterator[Part]:
-    """Yield what float64 answers of a chunk."""
-    rigid = is_rigid(matrices.taken(places), metric.taken(places))
-    yield from _answered(matrices, metric, places[(restraint.ranks[places] == 6) & ~rigid])
+def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
+    """Return what float64 answers, chunk by chunk on all processors: NumPy lets go of Python's lock as it reckons."""
+    chunks = [slice(start, min(start + CHUNK, len(stack))) for start in range(0, len(stack), CHUNK)]
+
+    def worked_out(chunk: slice) -> list[Part]:
+        matrices, metric = stack.matrices.taken(chunk), stack.metric.taken(chunk)
+        together = restrained[chunk] & ~is_rigid(matrices, metric)
+        kept = slice(None) if together.all() else np.flatnonzero(together)
+        places = np.arange(chunk.start, chunk.stop)[kept]
+        return list(_answered(matrices.taken(kept), metric.taken(kept), places))
+
+    if len(chunks) == 1:
+        return worked_out(chunks[0])
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        return [part for parts in threads.map(worked_out, chunks) for part in parts]
 
 
 def _answered(matrices: Matrices, metric: Metric, places: Places) -> Iterator[Part]:
+    """Yield what float64 answers of the grasps at some places."""
     try:
-        maps, known = maps_in_float64(matrices.taken(places), metric.taken(places))
+        maps, known = maps_in_float64(matrices, metric)
     except np.linalg.LinAlgError:  # of one grasp or more: look for them by halves
-        if len(places) > 1:
-            for half in np.array_split(places, 2):
-                yield from _answered(matrices, metric, half)
+        middle = len(places) // 2
+        for half in (slice(0, middle), slice(middle, None)) if middle else ():
+            yield from _answered(matrices.taken(half), metric.taken(half), places[half])
         return
     enough = is_enough(known)
-    yield places[enough], {name: each[enough] for name, each in maps.items()}, known[enough]
+    kept = slice(None) if enough.all() else enough
+    yield places[kept], {name: each[kept] for name, each in maps.items()}, known[kept]
 
 
 def _part(place: int, response: Response) -> Part:
@@ -120,7 +134,16 @@ def _part(place: int, response: Response) -> Part:
     return np.array([place]), maps, np.array([[[a.size, a.terms, a.lost, a.changed] for a in accuracy]])
 
 
-def _joined(parts: Sequence[Array], order: Places) -> Array:
-    whole = np.concatenate(parts)[order]
-    whole.setflags(write=False)
-    return whole
+def _joined(parts: Sequence[Part], answered: Places) -> tuple[dict[str, Array], Array]:
+    """Return maps and figures of all parts in the order of the places that are answered."""
+    slots = [np.searchsorted(answered, places) for places, _, _ in parts]
+
+    def joined(pieces: Sequence[Array]) -> Array:
+        whole = np.empty((len(answered), *pieces[0].shape[1:]))
+        for slot, piece in zip(slots, pieces, strict=True):
+            whole[slot] = piece
+        whole.setflags(write=False)
+        return whole
+
+    maps = {name: joined([each[name] for _, each, _ in parts]) for name in parts[0][1]}
+    return maps, joined([each for _, _, each in parts])

@@ -63,15 +63,11 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
     """
     moved = ContactMotions.of(responses.grasps.matrices, responses.grasps.metric)
     groups = []
-    for rank in np.unique(moved.rigid.ranks)[::-1].tolist():
-        indices = np.flatnonzero(moved.rigid.ranks == rank)
-        same = moved.taken(_all_or(indices, responses))
+    for rank, alike in _by_rank(moved.rigid.ranks):
+        same, theirs = moved.taken(alike), responses.taken(alike)
         moving = same.moving(rank)
-        for moves in np.unique(moving.ranks)[::-1].tolist():
-            within = np.flatnonzero(moving.ranks == moves)
-            picked = _all_or(indices[within], responses)
-            group = responses if isinstance(picked, slice) else responses.taken(picked)
-            groups.append(_group(group, same.taken(within), moving.taken(within), rank, moves))
+        for moves, within in _by_rank(moving.ranks):
+            groups.append(_group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves))
     return tuple(groups)
 
 
@@ -87,9 +83,10 @@ def coordinates_many(group: SubspaceGroup) -> Coordinates:
     return coordinates_of(group.responses, group, group.responses.grasps.metric)
 
 
-def _all_or(indices: Places, responses: Responses) -> Any:
-    """Return indices as they are, or where they are all there are a slice, which copies nothing."""
-    return slice(None) if len(indices) == len(responses.places) else indices
+def _by_rank(ranks: Places) -> list[tuple[int, Any]]:
+    """Return every rank, the largest first, and where it is; a slice where it is everywhere, which copies nothing."""
+    found = np.unique(ranks)[::-1].tolist()
+    return [(rank, slice(None) if len(found) == 1 else np.flatnonzero(ranks == rank)) for rank in found]
 
 
 def _group(responses: Responses, moved: ContactMotions, moving: Moving, rank: int, moves: int) -> SubspaceGroup:
