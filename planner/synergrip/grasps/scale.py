@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,10 @@ class Metric(Value):
     def motion_sizes(self) -> Array:
         """(..., 6): 1 for velocities, the length [m] for rotations."""
         return np.asarray(np.diagonal(self.motion, axis1=-2, axis2=-1))
+
+    def taken(self, places: Any) -> Metric:
+        """Return the coordinates of some grasps of a stack."""
+        return Metric(self.motion[places], self.force[places])
 
     def scaled_rows(self, rows: Array) -> Array:
         """Return `rows` (..., n_l, n), which make contact motions of n numbers, for scaled contact motions."""

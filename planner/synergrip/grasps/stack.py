@@ -12,10 +12,14 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, metric_of
-from synergrip.linalg import Array, Places, frozen
+from synergrip.linalg import Array, frozen
 
 VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
+
+
+Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
+"""Components of every contact, and the shape of S."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,9 +87,9 @@ class GraspStack(Sequence[Grasp]):
                 message = f"{_told(form)}, but grasps[0] has {_told(forms[0])}; put grasps of one form in one batch"
                 raise InputError.at(f"grasps[{place}]", f"has {message}")
         names = [field.name for field in fields(Matrices)]
-        stacked = [frozen([getattr(grasp, name) for grasp in given]) for name in names]
-        points = frozen([[contact.point for contact in grasp.contacts] for grasp in given])
-        return cls(Matrices(*stacked), points, frozen([grasp.w_0 for grasp in given]), given[0], given)
+        stacked = [_stacked([getattr(grasp, name) for grasp in given]) for name in names]
+        points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given))
+        return cls(Matrices(*stacked), points, _stacked([grasp.w_0 for grasp in given]), given[0], given)
 
     @classmethod
     def varied(cls, grasp: Grasp, **arrays: Array) -> GraspStack:
@@ -123,7 +127,7 @@ class GraspStack(Sequence[Grasp]):
     def __getitem__(self, place: Any) -> Any:
         """Return the grasp at a place; a stack for a slice."""
         if isinstance(place, slice):
-            return self.taken(np.arange(len(self))[place])
+            return self.taken(place)
         place = range(len(self))[place]
         if self.given:
             return self.given[place]
@@ -133,10 +137,14 @@ class GraspStack(Sequence[Grasp]):
         return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None,
                        **{name: frozen(value) for name, value in arrays.items()})  # fmt: skip
 
-    def taken(self, places: Places) -> GraspStack:
-        """Return the stack of the grasps at some places, in their order."""
-        given = tuple(self.given[place] for place in places) if self.given else ()
-        return GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+    def taken(self, places: Any) -> GraspStack:
+        """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""
+        given: tuple[Grasp, ...] = ()
+        if self.given:
+            given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
+        stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+        stack.__dict__["metric"] = self.metric.taken(places)  # as the cached property would work it out again
+        return stack
 
     @cached_property
     def metric(self) -> Metric:
@@ -144,12 +152,20 @@ class GraspStack(Sequence[Grasp]):
         return metric_of(self.points, [component for _, component in self.like.components])[0]
 
 
-def _form(grasp: Grasp) -> tuple[tuple[tuple[str, ...], ...], int, int]:
-    return tuple(contact.kind.components for contact in grasp.contacts), grasp.n_q, grasp.n_z
+def _stacked(arrays: Sequence[Array], count: int | None = None) -> Array:
+    """Return arrays of one shape in `count` groups (default: each by itself); `numpy.stack` takes longer."""
+    leading = (len(arrays),) if count is None else (count, len(arrays) // count)
+    whole = np.concatenate(arrays, axis=None).reshape(*leading, *arrays[0].shape)
+    whole.setflags(write=False)
+    return whole
 
 
-def _told(form: tuple[tuple[tuple[str, ...], ...], int, int]) -> str:
-    contacts, n_q, n_z = form
+def _form(grasp: Grasp) -> Form:
+    return tuple([contact.kind.components for contact in grasp.contacts]), grasp.S.shape
+
+
+def _told(form: Form) -> str:
+    contacts, (n_q, n_z) = form
     components = ", ".join("".join(each) for each in contacts)
     return f"contacts with components ({components}), {n_q} joints and {n_z} synergies"
 

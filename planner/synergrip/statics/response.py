@@ -179,12 +179,12 @@ def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
 def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
     motion, rows = metric.motion_sizes, {"lambda": metric.force, "u": metric.motion_sizes}
-    result = []
+    same, result = found.errors is found.changes, []
     for name, values in found.maps.items():
-        parts = (values, found.terms[name], found.errors[name], found.changes[name])
+        parts = [np.abs(values), found.terms[name], found.errors[name], *([] if same else [found.changes[name]])]
         unit = rows[name][..., None] if name in rows else 1.0
-        sizes = [np.abs(part) * unit for part in parts]
-        of_wrench = [each[..., -6:] * motion[..., None, :] for each in sizes]
-        for entries in ([each[..., :-6] for each in sizes], of_wrench):
-            result.append(np.stack([each.max(axis=(-2, -1), initial=0.0) for each in entries], axis=-1))
-    return np.stack(result, axis=-2)
+        largest = np.stack([(part * unit).max(axis=-2, initial=0.0) for part in parts], axis=-2)  # of every column
+        of_references, of_wrench = largest[..., :-6], largest[..., -6:] * motion[..., None, :]
+        result += [each.max(axis=-1, initial=0.0) for each in (of_references, of_wrench)]
+    known = np.stack(result, axis=-2)
+    return np.concatenate([known, known[..., -1:]], axis=-1) if same else known

@@ -38,8 +38,7 @@ class Arithmetic(Generic[N]):
     number: Callable[[Array], N]
     rounded: Callable[[N], Array]
     block: Callable[[Sequence[Sequence[Any]]], N]
-    solve: Callable[[N, N], N]
-    """X of ``A X = B``."""
+    inverse: Callable[[N], N]
     other: Callable[[Array], N]
     """Other numbers, `apart` times as far away as those that round to the same float64."""
     apart: float
@@ -66,8 +65,12 @@ def _apart(values: Array) -> Array:
     return values * (1 + APART * 2.0**-53 * _half_units(values.shape[-2:]))
 
 
-def _solve(A: Array, B: Array) -> Array:
-    return np.asarray(np.linalg.solve(A, B))
+def _inverse_of(A: Array) -> Array:
+    return np.asarray(np.linalg.inv(A))
+
+
+def _inverse_of_doubled(A: Doubled) -> Doubled:
+    return solve(A, Doubled.of(np.eye(len(A.high))))
 
 
 def _block(rows: Sequence[Sequence[Array]]) -> Array:
@@ -75,8 +78,8 @@ def _block(rows: Sequence[Sequence[Array]]) -> Array:
     return np.concatenate([np.concatenate(row, axis=-1) for row in rows], axis=-2)
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _solve, _apart, APART)
-DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, solve, _between_the_digits, 1.0)
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse_of, _apart, APART)
+DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, _inverse_of_doubled, _between_the_digits, 1.0)
 
 
 @dataclass(frozen=True)
@@ -187,5 +190,5 @@ def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int)
     forces = 1 / np.sqrt(np.diagonal(sizes, axis1=-2, axis2=-1)[..., :n_l])
     motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
     size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
-    found: N = arithmetic.solve(A * (size * size.mT), arithmetic.number(size * np.eye(n_l + 6))) * size
-    return found
+    both = size * size.mT
+    return arithmetic.inverse(A * both) * both

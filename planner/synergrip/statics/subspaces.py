@@ -22,6 +22,7 @@ from synergrip.linalg import (
     Decisions,
     canonical,
     frozen,
+    left_singular,
     right_singular,
     singular_values,
 )
@@ -126,7 +127,7 @@ class ContactMotions:
         rounding = SINGULAR * np.linalg.norm(J, axis=(-2, -1)) * np.linalg.norm(matrices.S, axis=(-2, -1))
         sizes = np.where(largest > rounding, largest, 0.0)
         held = np.linalg.qr(of_object)[0]
-        against, directions = right_singular(of_synergies - held @ (held.mT @ of_synergies))
+        against, directions = right_singular(of_synergies - held @ (held.mT @ of_synergies), sizes)
         redundancy, rigid = Decisions.of(values, sizes), Decisions.of(against, sizes)
         return cls(of_object, of_synergies, sizes, held, redundancy, rigid, directions)
 
@@ -139,7 +140,7 @@ class ContactMotions:
     def moving(self, rank: int) -> Moving:
         """Split what costs no force; `rank` synergy motions do, in every grasp of the stack."""
         free = self.directions[..., rank:]  # (..., n_z, dim Gamma_zcs + dim Gamma_zr)
-        values, directions = right_singular(self.of_synergies @ free)
+        values, directions = right_singular(self.of_synergies @ free, self.sizes)
         return Moving(Decisions.of(values, self.sizes).ranks, free @ directions)
 
 
@@ -176,13 +177,12 @@ def controllable_forces(
         rank: dimension of E_s, in every grasp of the stack.
     """
     scaled = metric.force[..., None] * dlambda_dzr
-    vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
+    values, internal = left_singular(scaled, rank)
     size = np.abs(scaled).max(axis=(-2, -1), initial=0.0)
     noise = np.maximum(unknown, np.finfo(float).eps * size) * np.sqrt(scaled.shape[-2] * scaled.shape[-1])
     counted = np.sum(values > noise[..., None], axis=-1)
     relative = np.where(counted[..., None] > 0, values / np.where(values[..., :1] > 0, values[..., :1], 1.0), 0.0)
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
     decision = Decisions(counted, relative, counted != rank)
-    internal = vectors[..., :rank]
     internal = internal - moved.held @ (moved.held.mT @ internal)  # G E_s = 0 to the last digit
     return frozen(canonical(internal) / metric.force[..., None]), decision

@@ -33,18 +33,22 @@ def is_rigid(matrices: Matrices, metric: Metric) -> NDArray[np.bool_]:
     """Return of which grasps (...) the total compliance has a null space."""
     rigid = np.array(~_contacts_yield_plainly(matrices.C_s, metric))
     if np.any(rigid):
-        doubtful = Metric(metric.motion[rigid], metric.force[rigid])
-        values = np.linalg.svd(_yielding(matrices.taken(rigid), doubtful), compute_uv=False)
+        values = np.linalg.svd(_yielding(matrices.taken(rigid), metric.taken(rigid)), compute_uv=False)
         rigid[rigid] = values[..., -1] <= SINGULAR
     return rigid
 
 
 def _contacts_yield_plainly(C_s: Array, metric: Metric) -> NDArray[np.bool_]:
-    """Return where the diagonals of scaled C_s outweigh the rest of their rows: a bound by Gershgorin's discs."""
-    sizes = np.abs(C_s / (metric.force[..., None] * metric.force[..., None, :]))
-    diagonal = np.diagonal(sizes, axis1=-2, axis2=-1)
-    least = (2 * diagonal - sizes.sum(axis=-1)).min(axis=-1)
-    return np.asarray(least > PLAINLY * _norm(sizes))
+    """Return where scaled C_s has no small eigenvalue, by a bound that costs a determinant.
+
+    Scaled once more to a diagonal of ones, n eigenvalues have the sum n: the least of them is the determinant through
+    the product of the others, which is at most ``(n / (n - 1))^(n - 1) < e``.
+    """
+    scaled = metric.scaled_rows(C_s) / metric.force[..., None, :]
+    diagonal = np.diagonal(scaled, axis1=-2, axis2=-1)
+    positive = np.where(diagonal > 0, diagonal, np.inf)
+    determinant = np.exp(np.linalg.slogdet(scaled)[1] - np.log(positive).sum(axis=-1))
+    return np.asarray(diagonal.min(axis=-1) * determinant / np.e > PLAINLY * _norm(scaled))
 
 
 def _yielding(matrices: Matrices, metric: Metric) -> Array:

@@ -1,0 +1,149 @@
+"""The response of many grasps at once: the formulas of one grasp on stacked arrays.
+
+Float64 answers most grasps; they are worked out together, a chunk at a time so that memory stays bounded. What one
+grasp alone would need more for (twice the digits) or would be refused for goes to `respond`, one by one.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.errors import InputError, Refusal
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Metric, scale_of
+from synergrip.grasps.stack import GraspStack, Matrices
+from synergrip.linalg import Array, Decisions, Places, frozen
+from synergrip.statics.response import FIGURES, Accuracy, Maps, Response, is_enough, maps_in_float64, respond
+from synergrip.statics.restraint import restraints
+from synergrip.statics.yielding import is_rigid
+
+CHUNK = 200
+"""Grasps worked out together: enough to make the calls cheap, few enough for the processor's cache."""
+Part = tuple[Places, Mapping[str, Array], Array]
+"""Places, maps by their names and figures of some grasps."""
+
+
+@dataclass(frozen=True, eq=False)
+class Responses(Maps):
+    """The maps of those of many grasps that were not refused, in their order: leading axis N."""
+
+    grasps: GraspStack
+    """The N grasps."""
+    places: Places
+    """(N,) where each of them stood among the grasps asked about."""
+    restraint: Decisions
+    """(N,) the rank decisions on G'."""
+    figures: Array
+    """(N, 12, 4) how well the maps are known: the fields of `Accuracy` for every map in the order of `FIGURES`."""
+    refusals: Mapping[int, InputError | Refusal]
+    """What `respond` raises for the others, by their place among the grasps asked about."""
+    one_by_one: Places
+    """Places among the grasps asked about that float64 was not enough for, or that were refused."""
+
+    def at(self, index: int) -> Response:
+        """Return the response of one of the N grasps, as `respond` would."""
+        index = range(len(self.places))[index]
+        grasp, rows = self.grasps[index], self.figures[index].tolist()
+        maps = {field.name: frozen(getattr(self, field.name)[index]) for field in fields(Maps)}
+        accuracy = {name: Accuracy(*row) for name, row in zip(FIGURES, rows, strict=True)}
+        return Response(**maps, grasp=grasp, scale=scale_of(grasp), restraint=self.restraint.at(index),
+                        accuracy=accuracy)  # fmt: skip
+
+    def taken(self, indices: Any) -> Responses:
+        """Return the responses of some of the N grasps (whole numbers or a slice), in their order."""
+        maps = {field.name: getattr(self, field.name)[indices] for field in fields(Maps)}
+        return Responses(**maps, grasps=self.grasps.taken(indices), places=self.places[indices],
+                         restraint=self.restraint.taken(indices), figures=self.figures[indices],
+                         refusals=self.refusals, one_by_one=self.one_by_one)  # fmt: skip
+
+
+def respond_many(grasps: Sequence[Grasp]) -> Responses:
+    """Return the response maps of many grasps: those that `respond` returns, many times as fast.
+
+    Args:
+        grasps: grasps of one form (a sequence of them, or a `GraspStack`).
+
+    Returns:
+        the maps with a leading axis; a grasp that `respond` refuses is among its `refusals` and raises nothing.
+
+    Raises:
+        InputError: no grasps, or grasps whose contacts, joints or synergies are not alike.
+
+    Example:
+        >>> responses = respond_many([grasp, softer])
+        >>> responses.dlambda_dzr.shape  # (2, n_l, n_z)
+    """
+    stack = GraspStack.of(grasps)
+    restraint = restraints(stack.matrices.G, stack.metric)
+    parts = _in_chunks(stack, restraint.ranks == 6)
+    left = np.setdiff1d(np.arange(len(stack)), np.concatenate([places for places, _, _ in parts]))
+    refusals: dict[int, InputError | Refusal] = {}
+    for place in left.tolist():
+        try:
+            parts.append(_part(place, respond(stack[place])))
+        except (InputError, Refusal) as refusal:
+            refusals[place] = refusal
+    answered = np.setdiff1d(np.arange(len(stack)), np.array(list(refusals), dtype=np.int64))
+    maps, known = _joined(parts, answered)
+    kept = answered if refusals else slice(None)
+    return Responses(**maps, grasps=stack.taken(kept), places=answered, restraint=restraint.taken(kept),
+                     figures=known, refusals=refusals, one_by_one=left)  # fmt: skip
+
+
+def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
+    """Return what float64 answers, chunk by chunk on all processors: NumPy lets go of Python's lock as it reckons."""
+    chunks = [slice(start, min(start + CHUNK, len(stack))) for start in range(0, len(stack), CHUNK)]
+
+    def worked_out(chunk: slice) -> list[Part]:
+        matrices, metric = stack.matrices.taken(chunk), stack.metric.taken(chunk)
+        together = restrained[chunk] & ~is_rigid(matrices, metric)
+        kept = slice(None) if together.all() else np.flatnonzero(together)
+        places = np.arange(chunk.start, chunk.stop)[kept]
+        return list(_answered(matrices.taken(kept), metric.taken(kept), places))
+
+    if len(chunks) == 1:
+        return worked_out(chunks[0])
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        return [part for parts in threads.map(worked_out, chunks) for part in parts]
+
+
+def _answered(matrices: Matrices, metric: Metric, places: Places) -> Iterator[Part]:
+    """Yield what float64 answers of the grasps at some places."""
+    try:
+        maps, known = maps_in_float64(matrices, metric)
+    except np.linalg.LinAlgError:  # of one grasp or more: look for them by halves
+        middle = len(places) // 2
+        for half in (slice(0, middle), slice(middle, None)) if middle else ():
+            yield from _answered(matrices.taken(half), metric.taken(half), places[half])
+        return
+    enough = is_enough(known)
+    kept = slice(None) if enough.all() else enough
+    yield places[kept], {name: each[kept] for name, each in maps.items()}, known[kept]
+
+
+def _part(place: int, response: Response) -> Part:
+    maps = {field.name: getattr(response, field.name)[None] for field in fields(Maps)}
+    accuracy = [response.accuracy[name] for name in FIGURES]
+    return np.array([place]), maps, np.array([[[a.size, a.terms, a.lost, a.changed] for a in accuracy]])
+
+
+def _joined(parts: Sequence[Part], answered: Places) -> tuple[dict[str, Array], Array]:
+    """Return maps and figures of all parts in the order of the places that are answered."""
+    slots = [np.searchsorted(answered, places) for places, _, _ in parts]
+
+    def joined(pieces: Sequence[Array]) -> Array:
+        whole = np.empty((len(answered), *pieces[0].shape[1:]))
+        for slot, piece in zip(slots, pieces, strict=True):
+            whole[slot] = piece
+        whole.setflags(write=False)
+        return whole
+
+    maps = {name: joined([each[name] for _, each, _ in parts]) for name in parts[0][1]}
+    return maps, joined([each for _, _, each in parts])

@@ -1,0 +1,100 @@
+"""The controlled subspaces and Theorem 1 of many grasps at once, those of like dimensions together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.linalg import Decisions, Places, frozen
+from synergrip.statics.responses import Responses
+from synergrip.statics.subspaces import (
+    Bases,
+    ContactMotions,
+    Moving,
+    Subspaces,
+    controllable_forces,
+    free_motions,
+)
+from synergrip.statics.theorem1 import Coordinates, coordinates_of
+
+
+@dataclass(frozen=True, eq=False)
+class SubspaceGroup(Bases):
+    """The bases of N grasps whose subspaces have the same dimensions: leading axis N."""
+
+    responses: Responses
+    """Of these N grasps."""
+    decisions: Mapping[str, Decisions]
+    """(N,) each: the decisions of `Subspaces`."""
+
+    @property
+    def places(self) -> Places:
+        """(N,) where each of them stood among the grasps asked about."""
+        return self.responses.places
+
+    @property
+    def ambiguous(self) -> NDArray[np.bool_]:
+        """(N,) True when a singular value lies in the grey zone, or the force map disagrees with (34)."""
+        return np.any([decision.ambiguous for decision in self.decisions.values()], axis=0)
+
+    def at(self, index: int) -> Subspaces:
+        """Return the subspaces of one of the N grasps, as `subspaces` would."""
+        bases = {field.name: frozen(getattr(self, field.name)[index]) for field in fields(Bases)}
+        return Subspaces(**bases, decisions={name: each.at(index) for name, each in self.decisions.items()})
+
+
+def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
+    """Return the controlled subspaces of many grasps: the bases that `subspaces` returns, many times as fast.
+
+    Args:
+        responses: of the grasps, from `respond_many`.
+
+    Returns:
+        one group for each triple of dimensions that occurs, the largest dim E_s first, then the largest dim
+        Gamma_ucs; within a group the grasps keep their order.
+
+    Example:
+        >>> for group in subspaces_many(respond_many(grasps)):
+        ...     print(group.dimensions, group.places, group.E_s.shape)
+    """
+    moved = ContactMotions.of(responses.grasps.matrices, responses.grasps.metric)
+    groups = []
+    for rank, alike in _by_rank(moved.rigid.ranks):
+        same, theirs = moved.taken(alike), responses.taken(alike)
+        moving = same.moving(rank)
+        for moves, within in _by_rank(moving.ranks):
+            groups.append(_group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves))
+    return tuple(groups)
+
+
+def coordinates_many(group: SubspaceGroup) -> Coordinates:
+    """Return M of (35) and its inverse for each grasp of a group, (N, n_z, n_z).
+
+    Args:
+        group: from `subspaces_many`.
+
+    Example:
+        >>> alpha, beta, gamma = coordinates_many(group).coordinates(dz_r)  # dz_r (N, T, n_z)
+    """
+    return coordinates_of(group.responses, group, group.responses.grasps.metric)
+
+
+def _by_rank(ranks: Places) -> list[tuple[int, Any]]:
+    """Return every rank, the largest first, and where it is; a slice where it is everywhere, which copies nothing."""
+    found = np.unique(ranks)[::-1].tolist()
+    return [(rank, slice(None) if len(found) == 1 else np.flatnonzero(ranks == rank)) for rank in found]
+
+
+def _group(responses: Responses, moved: ContactMotions, moving: Moving, rank: int, moves: int) -> SubspaceGroup:
+    metric, known = responses.grasps.metric, responses.figures[:, 0]  # of the force map, size terms lost changed
+    unknown = known[:, 2:].max(axis=-1)
+    E_s, forces = controllable_forces(responses.dlambda_dzr, unknown, moved, metric, rank)
+    Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, metric, moves)
+    decisions = {
+        "restraint": responses.restraint, "redundancy": moved.redundancy, "rigid": moved.rigid, "forces": forces,
+    }  # fmt: skip
+    return SubspaceGroup(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, responses, decisions)
