@@ -37,7 +37,7 @@ class SynergyAcceleration:
         ratio, step = _steps(formulation.times)
         room = step[:, None] * self.limit[keep]
         unit = room.max(axis=0)
-        matrix = formulation.reference.matrix[keep] / unit[:, None]
+        matrix = formulation.reference.matrix[..., keep, :] / unit[:, None]
         z = formulation.reference.constant[:, keep]
         known = (z[2:] - (1 + ratio[:, None]) * z[1:-1] + ratio[:, None] * z[:-2]) / unit
         names = [name for name, kept in zip(formulation.response.grasp.synergies, keep, strict=True) if kept]

@@ -35,7 +35,7 @@ class SynergyRate:
         moved = np.diff(formulation.reference.constant[:, keep], axis=0) / steps
         # one matrix serves all steps, so the steps are compared in the unit of the longest
         unit = steps.max(axis=0)
-        matrix = formulation.reference.matrix[keep] / unit[:, None]
+        matrix = formulation.reference.matrix[..., keep, :] / unit[:, None]
         result = []
         for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen((1.0 + sign * moved) * steps / unit))
