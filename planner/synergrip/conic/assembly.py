@@ -21,7 +21,7 @@ ROUNDING = 1e-15
 class Band:
     """The rows of one knot, which repeat down the diagonal: ``matrix v_k``, earlier knots' parts, and the scalar's."""
 
-    matrix: Array  # (h, n_v)
+    matrix: Array  # (h, n_v), or (T, h, n_v) with one for each knot
     earlier: tuple[Earlier, ...]
     scalar: Array
     """(h,) entries in the last column, that of the goal's scalar."""
@@ -41,7 +41,7 @@ class _Part:
     """Rows of a copy."""
     row: NDArray[np.intp]  # (e,) within the copy, ascending
     column: NDArray[np.intp]  # (e,) within the knot
-    value: Array  # (e,)
+    value: Array  # (e,), or (count, e) when they differ from copy to copy
 
     @property
     def knots(self) -> tuple[int, int]:
@@ -58,18 +58,18 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
         n_v: unknowns of a knot.
         extra: columns beyond those of the knots: 1 with a scalar, else 0.
     """
-    tops = np.cumsum([0, *(len(band.matrix) * band.count for band in bands)])
+    tops = np.cumsum([0, *(band.matrix.shape[-2] * band.count for band in bands)])
     placed = list(zip(bands, tops.tolist(), strict=False))
     parts = [part for band, top in placed for part in _parts(band, top, knots)]
     scalars = [_scalar_column(band, top) for band, top in placed] if extra else []
-    total = sum(part.value.size * len(part.weights) for part in parts) + sum(len(rows) for rows, _ in scalars)
+    total = sum(part.row.size * len(part.weights) for part in parts) + sum(len(rows) for rows, _ in scalars)
     index: type[np.int32 | np.int64] = np.int32 if max(total, tops[-1]) < 2**31 else np.int64
     lengths = np.zeros(knots * n_v + extra, dtype=index)
     data, indices = np.empty(total), np.empty(total, dtype=index)
     at = 0
     for first, last in pairwise(sorted({0, knots, *(end for part in parts for end in part.knots)})):
         there = [part for part in parts if part.knots[0] <= first and last <= part.knots[1]]
-        shape = last - first, sum(part.value.size for part in there)
+        shape = last - first, sum(part.row.size for part in there)
         here = slice(at, at + shape[0] * shape[1])
         one = _fill(there, first, n_v, data[here].reshape(shape), indices[here].reshape(shape))
         lengths[first * n_v : last * n_v] = np.tile(one, last - first)
@@ -84,11 +84,14 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
 
 def _parts(band: Band, top: int, knots: int) -> list[_Part]:
     """Return what a band says of its own knots, and of those before them."""
-    height, first = len(band.matrix), knots - band.count
+    height, first = band.matrix.shape[-2], knots - band.count
     result = []
     for part in (Earlier(0, band.matrix, np.ones(band.count)), *sorted(band.earlier, key=lambda part: part.lag)):
-        row, column = np.nonzero(without_rounding(part.matrix))
-        value = part.matrix[row, column]
+        entries = without_rounding(part.matrix)
+        row, column = np.nonzero(entries if entries.ndim == 2 else entries.any(axis=0))
+        value = entries[..., row, column]
+        if value.ndim > 1:
+            value = value[first - part.lag : first - part.lag + band.count]
         result.append(_Part(first - part.lag, part.weights, top, height, row, column, value))
     return result
 
@@ -96,7 +99,7 @@ def _parts(band: Band, top: int, knots: int) -> list[_Part]:
 def without_rounding(matrix: Array) -> Array:
     """Return the matrix with 0 where an entry is rounding beside the largest of its row."""
     size = np.abs(matrix)
-    return np.where(size > ROUNDING * size.max(axis=1, keepdims=True, initial=0.0), matrix, 0.0)
+    return np.where(size > ROUNDING * size.max(axis=-1, keepdims=True, initial=0.0), matrix, 0.0)
 
 
 def _scalar_column(band: Band, top: int) -> tuple[NDArray[np.intp], Array]:
@@ -115,7 +118,7 @@ def _fill(
     for part in parts:
         where = place[start : start + len(part.column)]
         copies = np.arange(len(data)) + first - part.first_knot
-        data[:, where] = part.weights[copies, None] * part.value
+        data[:, where] = part.weights[copies, None] * (part.value if part.value.ndim == 1 else part.value[copies])
         indices[:, where] = part.first_row + copies[:, None] * part.height + part.row
         start += len(part.column)
     return np.bincount(column, minlength=n_v)

@@ -35,7 +35,7 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
-    bounds = np.tile(variable_bounds(formulation, limits), T)
+    bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
     bounds = np.concatenate([bounds, np.full(extra, farthest(formulation))])
@@ -58,7 +58,12 @@ def _matrix(rows: Sequence[Rows], knots: int, n_v: int, extra: int) -> sparse.cs
 
 def _between(rows: Rows, shares: sparse.csr_matrix, extra: int) -> sparse.csc_matrix:
     """Return the matrix of rows at instants (K,) that have `shares` (K, T) of the knots."""
-    body = sparse.kron(shares, sparse.csr_matrix(without_rounding(rows.matrix)))
+    matrix = without_rounding(rows.matrix)
+    if matrix.ndim == 2:
+        body = sparse.kron(shares, sparse.csr_matrix(matrix))
+    else:
+        of_knots = sparse.block_diag([sparse.csr_matrix(each) for each in matrix], format="csr")
+        body = sparse.kron(shares, sparse.eye_array(matrix.shape[1], format="csr"), format="csr") @ of_knots
     scalar = sparse.csr_matrix(np.tile(rows.epigraph, len(rows.constant))[:, None])
     return sparse.csc_matrix(sparse.hstack([body, scalar]) if extra else body)
 
@@ -89,7 +94,7 @@ def _quadratic(
     n = (knots * n_v if basis is None else basis.shape[1]) + extra
     P, q = sparse.csc_matrix((n, n)), np.zeros(n)
     for part in squares:
-        band = Band(part.matrix, part.earlier, np.zeros(len(part.matrix)), len(part.constant))
+        band = Band(part.matrix, part.earlier, np.zeros(part.matrix.shape[-2]), len(part.constant))
         B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
         P, q = P + sparse.csc_matrix(B.T @ B), q + B.T @ part.constant.ravel()
     return P, q

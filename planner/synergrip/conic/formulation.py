@@ -9,31 +9,27 @@ more than forces, beta as far as the wanted motion fixes it. Then
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.conic.affine import Affine as Affine  # limits and goals speak of it beside the formulation
+from synergrip.conic.affine import Affine as Affine
+from synergrip.conic.affine import times as product
 from synergrip.conic.basis import longest, moves
+from synergrip.conic.each_knot import Statics, judge_each, to_beta
 from synergrip.conic.intersample import Intersample
+from synergrip.conic.units import Units as Units
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
 from synergrip.values import Value
 
 if TYPE_CHECKING:
     from scipy import sparse
-
-
-@dataclass(frozen=True)
-class Units:
-    """Sizes of forces, references and motions."""
-
-    force: float  # [N]
-    reference: float
-    motion: float = 1.0  # [m]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,6 +56,9 @@ class Formulation(Value):
     """What happens between the knots, when the program is to allow for it."""
     free_basis: sparse.csc_matrix | None = None
     """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
+    each: tuple[Analysis, ...] | None = None
+    """(T,) response, subspaces and coordinates at every knot, as many and of the same sizes; None when those above are
+    the same for all. What is above then tells names, contacts and lengths only."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
@@ -71,7 +70,7 @@ class Formulation(Value):
     @property
     def n_v(self) -> int:
         """Unknowns at each knot."""
-        return int(self.alpha.matrix.shape[1])
+        return int(self.alpha.matrix.shape[-1])
 
     @property
     def unknowns(self) -> int:
@@ -120,47 +119,54 @@ class Formulation(Value):
         """[N]."""
         return self.units.force
 
+    def map_of(self, of: Callable[[Statics], Array]) -> Array:
+        """Return a map of the statics, (...) when it is the same at all knots and (T, ...) when each has its own."""
+        return of(self) if self.each is None else np.stack([of(statics) for statics in self.each])
+
     @cached_property
     def load_change(self) -> Array:
         """(T, 6) wrench on the object beyond the one at the start."""
-        return frozen(self.wrench - self.response.grasp.w_0)
+        return frozen(self.wrench - self.map_of(lambda at: at.response.grasp.w_0))
 
     @cached_property
     def force(self) -> Affine:
         """Contact forces lambda (n_l) [N, N m]."""
-        known = forces_at_start(self.response) - self.load_change @ self.response.right_inverse.T
-        return self.alpha.after(self.spaces.E_s).plus(known)
+        of_load = self.map_of(lambda at: at.response.right_inverse)
+        known = self.map_of(lambda at: forces_at_start(at.response)) - product(of_load, self.load_change)
+        return self.alpha.after(self.map_of(lambda at: at.spaces.E_s)).plus(known)
 
     @cached_property
     def torque(self) -> Affine:
         """Joint torques tau = J' lambda (n_q) (6) [N m]."""
-        return self.force.after(self.response.grasp.J.T)
+        return self.force.after(self.map_of(lambda at: at.response.grasp.J.T))
 
     @cached_property
     def effort(self) -> Affine:
         """Actuator efforts sigma = S' tau (n_z)."""
-        return self.torque.after(self.response.grasp.S.T)
+        return self.torque.after(self.map_of(lambda at: at.response.grasp.S.T))
 
     @cached_property
     def reference(self) -> Affine:
         """Synergy references dz_r (n_z) by (35)."""
-        parts = (self.alpha, self.beta, self.gamma)
-        inverse = self.coordinates.inverse
-        return Affine(
-            frozen(inverse @ np.vstack([part.matrix for part in parts])),
-            frozen(np.hstack([part.constant for part in parts]) @ inverse.T),
-        )
+        matrices, constants = zip(*((part.matrix, part.constant) for part in self._parts), strict=True)
+        return Affine(np.vstack(matrices), np.hstack(constants)).after(self.map_of(lambda at: at.coordinates.inverse))
 
     @cached_property
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
-        return self.reference.after(self.response.dq_dzr).plus(self.load_change @ self.response.dq_dw.T)
+        of_load = self.map_of(lambda at: at.response.dq_dw)
+        return self.reference.after(self.map_of(lambda at: at.response.dq_dzr)).plus(product(of_load, self.load_change))
 
     @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
-        rigid, sag = self.beta.after(self.spaces.Gamma_ucs), self.load_change @ self.response.du_dw.T
+        sag, rigid = product(self.map_of(lambda at: at.response.du_dw), self.load_change), self.rigid
         return Affine(frozen(self.elastic.matrix + rigid.matrix), frozen(self.elastic.constant + rigid.constant + sag))
+
+    @cached_property
+    def rigid(self) -> Affine:
+        """Rigid part Gamma_ucs beta of the object displacement (6) [m, rad]."""
+        return self.beta.after(self.map_of(lambda at: at.spaces.Gamma_ucs))
 
     @cached_property
     def elastic(self) -> Affine:
@@ -168,20 +174,20 @@ class Formulation(Value):
 
         By (35) that comes from alpha alone; taken from it, no rounding makes it depend on gamma.
         """
-        of_alpha = self.response.du_dzr @ self.coordinates.inverse[:, : self.coordinates.dimensions[0]]
-        return self.alpha.after(of_alpha)
+        n_alpha = self.coordinates.dimensions[0]
+        return self.alpha.after(self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[:, :n_alpha]))
+
+    def rigid_motion(self, dz_r: Array) -> Array:
+        """Return the rigid motion Gamma_ucs beta (T, 6) [m, rad] of the object under references (T, n_z)."""
+        return product(self.map_of(lambda at: at.spaces.Gamma_ucs), product(self.map_of(to_beta), dz_r))
 
     def in_units(self, units: Units) -> Formulation:
         """Return the same formulation, of which nothing is determined, with its unknowns in other units."""
-
-        def scaled(part: Affine, factor: float) -> Affine:
-            return replace(part, matrix=frozen(part.matrix * factor))
-
         old = self.units
         return replace(
-            self, units=units, alpha=scaled(self.alpha, units.force / old.force),
-            gamma=scaled(self.gamma, units.reference / old.reference),
-            beta=scaled(self.beta, units.motion / old.motion),
+            self, units=units, alpha=self.alpha.in_units(units.force / old.force),
+            gamma=self.gamma.in_units(units.reference / old.reference),
+            beta=self.beta.in_units(units.motion / old.motion),
         )  # fmt: skip
 
     def column_units(self, units: Units) -> Array:
@@ -199,20 +205,23 @@ class Formulation(Value):
             v: (T, n_v) one of the plans.
             free_basis: (T n_v, m) orthogonal columns, each a change of the stacked unknowns.
         """
-        alpha, beta, gamma = (
-            replace(part, constant=frozen(part.at(v))) for part in (self.alpha, self.beta, self.gamma)
-        )
+        alpha, beta, gamma = (replace(part, constant=frozen(part.at(v))) for part in self._parts)
         return replace(self, alpha=alpha, beta=beta, gamma=gamma, free_basis=free_basis, unreduced=self.whole)
 
     def parts(self, v: Array) -> tuple[Array, Array, Array]:
         """Return alpha (T, dim E_s) [N], beta (T, dim Gamma_ucs) [m] and gamma (T, dim Gamma_zr) of v (T, n_v)."""
         return self.alpha.at(v), self.beta.at(v), self.gamma.at(v)
 
+    @property
+    def _parts(self) -> tuple[Affine, Affine, Affine]:
+        return self.alpha, self.beta, self.gamma
+
 
 def formulate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array | None = None, target: Array | None = None, stated: Units | None = None,
+    each: Sequence[Analysis] | None = None,
 ) -> Formulation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -228,7 +237,12 @@ def formulate(
         beta_basis: (dim Gamma_ucs, m) orthonormal directions in which beta may differ from what is given; none.
         target: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
         stated: units in which weights are stated; those of the unknowns when None.
+        each: (T,) the grasp at every knot, when it is not the same at all.
+
+    Raises:
+        InputError: `each` do not fit the knots, or the grasp.
     """
+    judge_each(each, response, spaces, len(times))
     n_alpha, n_beta, n_gamma = spaces.dimensions
     basis = np.zeros((n_beta, 0)) if beta_basis is None else beta_basis
     blocks = (np.eye(n_alpha) * units.force, np.eye(n_gamma)[:, : n_gamma * redundancy] * units.reference,
@@ -236,9 +250,11 @@ def formulate(
     whole = block_diagonal(blocks)
     alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
     zeros = np.zeros((len(times), n_alpha + n_gamma))
+    rigid = spaces.Gamma_ucs if each is None else np.stack([at.spaces.Gamma_ucs for at in each])
     return Formulation(
         response, spaces, coords, frozen(times), frozen(wrench),
         Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
         Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
-        frozen(beta @ spaces.Gamma_ucs.T if target is None else target), units, stated or units, units.force,
+        frozen(product(rigid, beta) if target is None else target), units, stated or units, units.force,
+        each=None if each is None else tuple(each),
     )  # fmt: skip

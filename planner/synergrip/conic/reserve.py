@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.affine import Affine
+from synergrip.conic.beside_knots import beside
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.intersample import Intersample, Looks, knots_in
+from synergrip.conic.intersample import Intersample, knots_in
 from synergrip.conic.rows import Kind, Rows
-from synergrip.linalg import Array, frozen, interpolated
+from synergrip.linalg import Array, frozen
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Reserve:
     def of(cls, formulation: Formulation, intersample: Intersample) -> Reserve:
         """Return what lies between the knots of a formulation."""
         corners, chords, curved = (
-            _at(formulation, looks) for looks in (intersample.corners, intersample.chords, intersample.curved)
+            beside(formulation, looks) for looks in (intersample.corners, intersample.chords, intersample.curved)
         )
         return cls(intersample, knots_in(corners.times, formulation.times), corners, chords, curved)
 
@@ -58,18 +58,6 @@ class Reserve:
                 constant = frozen(inside.constant - needed[self.intersample.corner])
                 result.append(replace(inside, constant=constant, inside=self.shares))
         return result
-
-
-def _at(formulation: Formulation, looks: Looks) -> Formulation:
-    """Return the formulation at instants between the knots, under a wrench and with a wish (J, 6) of their own."""
-
-    def moved(part: Affine) -> Affine:
-        return replace(part, constant=frozen(interpolated(looks.times, formulation.times, part.constant)))
-
-    return replace(
-        formulation, times=looks.times, alpha=moved(formulation.alpha), beta=moved(formulation.beta),
-        gamma=moved(formulation.gamma), wrench=looks.wrench, target=looks.target,
-    )  # fmt: skip
 
 
 def _lost(rows: Rows, departure: Array) -> Array:

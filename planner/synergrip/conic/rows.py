@@ -53,7 +53,8 @@ class Earlier(Value):
     """What an earlier knot adds to a row: ``weights[k] matrix v_(k-lag)``."""
 
     lag: int
-    matrix: Array  # (len(items) * dim, n_v)
+    matrix: Array
+    """(len(items) * dim, n_v), or (T, len(items) * dim, n_v): the k-th is what knot k adds to the rows of k + lag."""
     weights: Array
     """(K,) one for each of the K knots that have rows."""
 
@@ -69,14 +70,15 @@ class Rows(Value):
     """Rows of each cone."""
     items: tuple[Item, ...]
     """What the cones of one knot are about."""
-    matrix: Array  # (len(items) * dim, n_v)
+    matrix: Array  # (len(items) * dim, n_v), or (T, len(items) * dim, n_v) with one for each knot
     constant: Array
     """(K, len(items) * dim); K = T, or T - lag for rows that couple a knot to one that is `lag` earlier."""
     epigraph: Array  # (len(items) * dim,) coefficient of the goal's scalar s
     earlier: tuple[Earlier, ...] = ()
     inside: sparse.csr_matrix | None = None
     """(K, T) what each knot has of each instant, for rows at instants between the knots; None for rows at the knots.
-    The value is then ``matrix (inside v)_k + ...``."""
+    The value is then ``matrix (inside v)_k + ...``, or, with one matrix for each knot, the knots' ``matrix v`` in their
+    shares."""
     friction: bool = False
     """Whether the cones are friction cones: those alone have pyramids, and what they clash with says that it slips."""
 
@@ -95,17 +97,19 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
         value: m affine quantities of one unit.
         bound: greater than 0.
     """
-    matrix = np.vstack([np.zeros(value.matrix.shape[1]), value.matrix / bound])
+    matrix = np.concatenate([np.zeros_like(value.matrix[..., :1, :]), value.matrix / bound], axis=-2)
     constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
-    zero = frozen(np.zeros(len(matrix)))
-    return Rows(limit, Kind.SECOND_ORDER, len(matrix), (Item(item, "norm"),), frozen(matrix), frozen(constant), zero)
+    zero = frozen(np.zeros(constant.shape[1]))
+    return Rows(
+        limit, Kind.SECOND_ORDER, constant.shape[1], (Item(item, "norm"),), frozen(matrix), frozen(constant), zero
+    )
 
 
 def with_room(rows: Rows, room: float) -> Rows:
     """Return rows whose cones are all kept but for `room`; equations stay."""
     if rows.kind is Kind.ZERO:
         return rows
-    heads = np.zeros(len(rows.matrix))
+    heads = np.zeros(rows.constant.shape[1])
     heads[:: rows.dim] = room
     return replace(rows, constant=frozen(rows.constant + heads))
 
@@ -127,7 +131,7 @@ def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, uppe
         if not np.any(keep):
             continue
         slack = sign * (value.constant - bound) / unit
-        rows = Affine(frozen((sign * value.matrix / unit[:, None])[keep]), frozen(slack[:, keep]))
+        rows = Affine(frozen((sign * value.matrix / unit[:, None])[..., keep, :]), frozen(slack[:, keep]))
         items = items_of((name for name, kept in zip(names, keep, strict=True) if kept), side)
         result.append(nonnegative(limit, items, rows))
     return result

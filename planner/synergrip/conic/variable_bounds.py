@@ -24,7 +24,7 @@ FARTHEST = 1e12
 
 
 def variable_bounds(formulation: Formulation, limits: Sequence[Limit]) -> Array:
-    """Return bounds (n_v,) on |v_k| that hold for every v that keeps all the limits."""
+    """Return bounds (n_v,), or (T, n_v), on |v_k| that hold for every v that keeps all the limits."""
     result = np.full(formulation.n_v, np.inf)
     cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
     for limit in limits:
@@ -40,10 +40,19 @@ def farthest(formulation: Formulation) -> float:
 
 
 def _implied(value: Affine, limit: Array) -> Array:
-    """Return bounds on |v| from ``|matrix v + constant| <= limit``; infinite where the matrix leaves v free."""
+    """Return bounds on |v| from ``|matrix v + constant| <= limit``; infinite where the matrix leaves v free.
+
+    They are (n_v,) for one matrix, (T, n_v) for one at each knot.
+    """
     rows = np.isfinite(limit)
-    matrix, room = value.matrix[rows], limit[rows] + np.abs(value.constant[:, rows]).max(axis=0, initial=0.0)
-    bounds = np.full(value.matrix.shape[1], np.inf)
+    room = limit[rows] + np.abs(value.constant[:, rows]).max(axis=0, initial=0.0)
+    if value.matrix.ndim == 2:
+        return _of_matrix(value.matrix[rows], room)
+    return np.array([_of_matrix(matrix[rows], room) for matrix in value.matrix])
+
+
+def _of_matrix(matrix: Array, room: Array) -> Array:
+    bounds = np.full(matrix.shape[1], np.inf)
     if not matrix.size:
         return bounds
     normed = matrix / np.where(room > 0, room, 1.0)[:, None]

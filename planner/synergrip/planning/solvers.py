@@ -163,9 +163,14 @@ def _weighed(question: Question) -> Question:
 def _sizes(part: Squares) -> Iterator[float]:
     """Yield sums of squares over the knots: of what is known, and of what unknowns of size 1 add to it."""
     yield float((part.constant**2).sum())
-    yield len(part.constant) * float((part.matrix**2).sum())
+    yield len(part.constant) * _square(part.matrix)
     for earlier in part.earlier:
-        yield float((earlier.weights**2).sum() * (earlier.matrix**2).sum())
+        yield float((earlier.weights**2).sum()) * _square(earlier.matrix)
+
+
+def _square(matrix: Array) -> float:
+    """Return the sum of squares of a matrix, or the mean of these over the knots."""
+    return float((matrix**2).sum()) / (len(matrix) if matrix.ndim > 2 else 1)
 
 
 def _in_its_units(found: Answered) -> Question | None:

@@ -120,8 +120,7 @@ def _joint_torque(model: Model, limit: JointTorque) -> tuple[Cone, ...]:
 
 
 def _actuator_effort(model: Model, limit: ActuatorEffort) -> tuple[Cone, ...]:
-    grasp = model.response.grasp
-    return _symmetric(limit.key, grasp.synergies, model.torque @ grasp.S, limit.limit)
+    return _symmetric(limit.key, model.response.grasp.synergies, model.effort, limit.limit)
 
 
 def _synergy_reference(model: Model, limit: SynergyReference) -> tuple[Cone, ...]:
@@ -156,7 +155,7 @@ def _least_effort(model: Model, goal: LeastEffort) -> Written:
     elif goal.of == "torque":
         share = model.torque / (model.force_unit * scale.length)
     else:
-        share = model.torque @ model.response.grasp.S / (model.force_unit * scale.length)
+        share = model.effort / (model.force_unit * scale.length)
     return Written(0.5 * cp.sum_squares(share))
 
 

@@ -23,6 +23,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.referee.formulas import friction, write_goal, write_limit
+from synergrip.referee.maps import mapped
 from synergrip.referee.model import Expression, Model, Posed, Written, pose, pose_relaxed, write_model
 from synergrip.referee.reserve import cones_of
 from synergrip.referee.targets import followed
@@ -161,7 +162,8 @@ def _written(formulation: Formulation, looks: Looks, references: Expression | No
         formulation.response, formulation.coordinates, times=looks.times, wrench=looks.wrench,
         beta=interpolated(looks.times, formulation.times, whole.beta.constant), units=formulation.units,
         redundancy=whole.frees_gamma, beta_basis=formulation.beta_basis, target=looks.target,
-        rigid_basis=formulation.spaces.Gamma_ucs, references=references, stated=formulation.stated,
+        rigid_basis=formulation.map_of(lambda at: at.spaces.Gamma_ucs), references=references,
+        stated=formulation.stated, each=formulation.each or (),
     )  # fmt: skip
 
 
@@ -173,13 +175,18 @@ def _references(formulation: Formulation) -> Expression | None:
         return None
     matrix, constant = formulation.reference.matrix, formulation.reference.constant
     free = formulation.free_basis @ cp.Variable(formulation.unknowns)
-    return constant + cp.reshape(free, (formulation.knots, formulation.n_v), order="C") @ matrix.T
+    return constant + mapped(matrix, cp.reshape(free, (formulation.knots, formulation.n_v), order="C"))
 
 
 def _unknowns(program: Program, formulation: Formulation, model: Model, objective: Written) -> Array:
     """Return x (n,) of the references found."""
     reference = formulation.reference
-    v = np.linalg.lstsq(reference.matrix, (model.dz_r.value - reference.constant).T, rcond=None)[0].T
+    missing = model.dz_r.value - reference.constant
+    if reference.matrix.ndim == 2:
+        v = np.linalg.lstsq(reference.matrix, missing.T, rcond=None)[0].T
+    else:
+        pairs = zip(reference.matrix, missing, strict=True)
+        v = np.array([np.linalg.lstsq(matrix, row, rcond=None)[0] for matrix, row in pairs])
     return program.solution(v, None if objective.scalar is None else objective.scalar.value)
 
 

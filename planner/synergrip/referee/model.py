@@ -17,11 +17,11 @@ import numpy as np
 from synergrip.conic.formulation import Units
 from synergrip.conic.rows import Item, items_of
 from synergrip.linalg import Array
+from synergrip.referee.maps import Expression as Expression
+from synergrip.referee.maps import Maps, mapped
 from synergrip.statics import Coordinates, Response
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import forces_at_start
-
-Expression = Any
-"""A CVXPY expression, variable, constraint or problem: CVXPY has no types to speak of."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +60,13 @@ class Cone:
 class Model:
     """A task as expressions in dz_r; SI units."""
 
-    response: Response
+    maps: Maps
     times: Array  # (T,) [s]
     wrench: Array  # (T, 6) external wrench on the object
     dz_r: Expression  # (T, n_z)
     force: Expression  # (T, n_l) [N, N m]
     beta: Expression  # (T, dim Gamma_ucs) [m]
-    rigid_basis: Array  # (6, dim Gamma_ucs)
+    rigid_basis: Array  # (6, dim Gamma_ucs), or (T, 6, dim Gamma_ucs)
     beta_free: Expression
     """(T, m) beta beyond what is given, in the directions in which it may leave it [m]."""
     gamma: Expression  # (T, dim Gamma_zr)
@@ -81,6 +81,11 @@ class Model:
     """Of goals in a weighted sum."""
 
     @property
+    def response(self) -> Response:
+        """Response at the start, for names, contacts and lengths."""
+        return self.maps.response
+
+    @property
     def force_unit(self) -> float:
         """[N]."""
         return self.units.force
@@ -88,17 +93,37 @@ class Model:
     @property
     def moved(self) -> Expression:
         """Object motion U dz_r (T, 6) that the references make [m, rad]."""
-        return self.dz_r @ self.response.du_dzr.T
+        return mapped(self.maps.of(lambda at: at.response.du_dzr), self.dz_r)
+
+    @property
+    def sag(self) -> Array:
+        """Object motion (T, 6) that the change of the load makes [m, rad]."""
+        return np.asarray(mapped(self.maps.of(lambda at: at.response.du_dw), self._load_change))
 
     @property
     def rigid(self) -> Expression:
         """Its rigid part Gamma_ucs beta (T, 6) [m, rad]."""
-        return self.beta @ self.rigid_basis.T
+        return mapped(self.rigid_basis, self.beta)
 
     @property
     def torque(self) -> Expression:
         """Joint torques J' lambda (T, n_q) (6) [N m]."""
-        return self.force @ self.response.grasp.J
+        return mapped(self.maps.of(lambda at: at.response.grasp.J.T), self.force)
+
+    @property
+    def effort(self) -> Expression:
+        """Actuator efforts S' tau (T, n_z)."""
+        return mapped(self.maps.of(lambda at: at.response.grasp.S.T), self.torque)
+
+    @property
+    def joints(self) -> Expression:
+        """Joint displacements (T, n_q) [rad or m]."""
+        of_load = np.asarray(mapped(self.maps.of(lambda at: at.response.dq_dw), self._load_change))
+        return mapped(self.maps.of(lambda at: at.response.dq_dzr), self.dz_r) + of_load
+
+    @property
+    def _load_change(self) -> Array:
+        return self.wrench - self.maps.of(lambda at: at.response.grasp.w_0)
 
 
 @dataclass(frozen=True)
@@ -114,29 +139,35 @@ def write_model(
     response: Response, coordinates: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array, target: Array, rigid_basis: Array, references: Expression | None = None,
-    stated: Units | None = None,
+    stated: Units | None = None, each: Sequence[Analysis] = (),
 ) -> Model:  # fmt: skip
-    """Write a task down; the arguments are those of `formulate`, and the references when they are not wholly free."""
+    """Write a task down; the arguments are those of `formulate`, and the references when they are not wholly free.
+
+    `rigid_basis` is (T, 6, dim Gamma_ucs) when there is a grasp for `each` knot.
+    """
     import cvxpy as cp
 
     grasp, dz_r = response.grasp, references
     if dz_r is None:
         dz_r = cp.Variable((len(times), grasp.n_z)) * _reference_size(response, units.force)
-    known = forces_at_start(response) + (wrench - grasp.w_0) @ response.dlambda_dw.T
+    maps = Maps(response, coordinates, tuple(each))
+    of_load, change = maps.of(lambda at: at.response.dlambda_dw), wrench - maps.of(lambda at: at.response.grasp.w_0)
+    known = maps.of(lambda at: forces_at_start(at.response)) + np.asarray(mapped(of_load, change))
     n_alpha, n_beta, _ = coordinates.dimensions
-    _, to_beta, to_gamma = np.split(coordinates.M, [n_alpha, n_alpha + n_beta])
-    gamma = dz_r @ to_gamma.T
+    M = maps.of(lambda at: at.coordinates.M)
+    to_beta, to_gamma = M[..., n_alpha : n_alpha + n_beta, :], M[..., n_alpha + n_beta :, :]
+    gamma = mapped(to_gamma, dz_r)
     tracking = []
-    beyond = dz_r @ to_beta.T - beta
+    beyond = mapped(to_beta, dz_r) - beta
     fixed = np.linalg.svd(beta_basis, full_matrices=True)[0][:, beta_basis.shape[1] :]  # where beta may not leave it
     if fixed.size and references is None:  # else they are such that beta is as wanted, and gamma as it is to be
-        sizes = np.linalg.norm(fixed.T @ to_beta, axis=1)
+        sizes = np.linalg.norm(fixed.T @ coordinates.M[n_alpha : n_alpha + n_beta], axis=1)
         tracking.append(_equal("beta", beyond @ (fixed / sizes)))
-    if len(to_gamma) and not redundancy and references is None:
+    if to_gamma.shape[-2] and not redundancy and references is None:
         tracking.append(_equal("gamma", gamma))
     return Model(
-        response, times, wrench, dz_r, known + dz_r @ response.dlambda_dzr.T,
-        dz_r @ to_beta.T, rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, target, units,
+        maps, times, wrench, dz_r, known + mapped(maps.of(lambda at: at.response.dlambda_dzr), dz_r),
+        mapped(to_beta, dz_r), rigid_basis, beyond @ beta_basis, gamma, tuple(tracking), redundancy, target, units,
         stated or units,
     )  # fmt: skip
 

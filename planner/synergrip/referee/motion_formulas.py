@@ -41,9 +41,7 @@ def times_rows(weights: Array, value: Expression) -> Expression:
 
 def joint_range(model: Model, limit: JointRange) -> tuple[Cone, ...]:
     """Write every joint within its range down."""
-    names, response = model.response.grasp.joints, model.response
-    known = (model.wrench - response.grasp.w_0) @ response.dq_dw.T + limit.start
-    q = model.dz_r @ response.dq_dzr.T + known
+    names, q = model.response.grasp.joints, model.joints + limit.start[None, :]
     half = (limit.upper - limit.lower) / 2
     unit = np.where(np.isfinite(half) & (half > 0), half, 1.0)
     cones = []
@@ -63,8 +61,7 @@ def elastic_motion(model: Model, limit: ElasticMotion) -> tuple[Cone, ...]:
 
 def object_error(model: Model, limit: ObjectError) -> tuple[Cone, ...]:
     """Write the object near where it is wanted down."""
-    sag = (model.wrench - model.response.grasp.w_0) @ model.response.du_dw.T
-    reached = model.moved + sag if limit.part == "whole" else model.rigid
+    reached = model.moved + model.sag if limit.part == "whole" else model.rigid
     sizes = np.array([1.0, 1.0, 1.0, *[model.response.scale.length] * 3])
     columns = [COLUMNS[axis] for axis in limit.axes]
     error = (reached - model.target)[:, columns] @ np.diag(sizes[columns] / limit.limit)

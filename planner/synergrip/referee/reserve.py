@@ -13,6 +13,7 @@ from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array, interpolated
+from synergrip.referee.beside_knots import beside
 from synergrip.referee.formulas import write_goal, write_limit
 from synergrip.referee.model import Cone, Expression, Model, Written
 
@@ -35,10 +36,14 @@ class Instants:
     def of(cls, model: Model, intersample: Intersample, write: Writer) -> Instants:
         """Write the task of `model` down with `write`: at other instants, with given references or any."""
         corners = intersample.corners
-        inside = write(corners, _shares(corners.times, model.times) @ model.dz_r) if len(corners.times) else None
+
+        def at(looks: Looks, references: Expression | None) -> Model:
+            return beside(model, looks) if model.maps.each else write(looks, references)
+
+        inside = at(corners, _shares(corners.times, model.times) @ model.dz_r) if len(corners.times) else None
         if intersample.exact:
             return cls(intersample, inside, None, None)
-        return cls(intersample, inside, write(intersample.chords, None), write(intersample.curved, None))
+        return cls(intersample, inside, at(intersample.chords, None), at(intersample.curved, None))
 
     def kept(
         self, at: Sequence[Cone], inside: Sequence[Cone], again: Callable[[Model], Sequence[Cone]]

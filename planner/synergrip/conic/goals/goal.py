@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.conic.affine import Affine, times
 from synergrip.conic.arguments import Complete
-from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.rows import Earlier, Rows
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent, Value
@@ -24,17 +25,17 @@ if TYPE_CHECKING:
 class Squares(Value):
     """Half the sum of squares of ``matrix v_k + constant[k]``, and of what earlier knots add to it."""
 
-    matrix: Array  # (m, n_v)
+    matrix: Array  # (m, n_v), or (T, m, n_v) with one for each knot
     constant: Array  # (K, m); K = T, or T - lag when earlier knots add to it
     earlier: tuple[Earlier, ...] = ()
 
     def at(self, v: Array) -> Array:
         """Return the values (K, m) whose squares are summed, at unknowns v (T, n_v)."""
         count = len(self.constant)
-        value = self.constant + v[len(v) - count :] @ self.matrix.T
+        value = self.constant + times(self.matrix, v)[len(v) - count :]
         for part in self.earlier:
             start = len(v) - count - part.lag
-            value = value + part.weights[:, None] * (v[start : start + count] @ part.matrix.T)
+            value = value + part.weights[:, None] * times(part.matrix, v)[start : start + count]
         return np.asarray(value)
 
 
@@ -125,5 +126,5 @@ def in_words(name: str) -> str:
 
 def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     """Return the squares of affine quantities (m) times `weights` (m,), at every knot."""
-    each = np.broadcast_to(np.asarray(weights, dtype=float), (len(value.matrix),))
+    each = np.broadcast_to(np.asarray(weights, dtype=float), (value.constant.shape[1],))
     return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))

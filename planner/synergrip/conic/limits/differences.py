@@ -37,7 +37,7 @@ class Differences(Symmetric):
             return []
         room = step[:, None] * limit[keep]
         unit = room.max(axis=0)  # one matrix serves all steps
-        matrix = formulation.reference.matrix[keep] / unit[:, None]
+        matrix = formulation.reference.matrix[..., keep, :] / unit[:, None]
         known = _summed(formulation.reference.constant[:, keep], weights) / unit
         names = [name for name, kept in zip(grasp.synergies, keep, strict=True) if kept]
         result = []

@@ -57,9 +57,7 @@ class ElasticMotion(Limit):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return its size."""
-        spaces, coordinates = formulation.spaces, formulation.coordinates
-        _, beta, _ = coordinates.coordinates(motion.dz_r)
-        elastic = motion.du - motion.sag - beta @ spaces.Gamma_ucs.T
+        elastic = motion.du - motion.sag - formulation.rigid_motion(motion.dz_r)
         size = np.linalg.norm(formulation.response.scale.twist(elastic), axis=1)
         return norm_usage("elastic motion", "m", "object", size, self.limit, motion.times)
 

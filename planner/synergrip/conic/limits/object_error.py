@@ -80,15 +80,12 @@ class ObjectError(Limit):
         """Return the size of the error."""
         reached = motion.du
         if self.part == "rigid":
-            _, beta, _ = formulation.coordinates.coordinates(motion.dz_r)
-            reached = beta @ formulation.spaces.Gamma_ucs.T
+            reached = formulation.rigid_motion(motion.dz_r)
         size = np.linalg.norm((reached - formulation.target) @ self._weights(formulation).T, axis=1)
         return norm_usage(self.title, "m", "object", size, self.limit, motion.times)
 
     def _error(self, formulation: Formulation) -> Affine:
-        whole = (
-            formulation.displacement if self.part == "whole" else formulation.beta.after(formulation.spaces.Gamma_ucs)
-        )
+        whole = formulation.displacement if self.part == "whole" else formulation.rigid
         return whole.plus(-formulation.target).after(self._weights(formulation))
 
     def _weights(self, formulation: Formulation) -> Array:
