@@ -3,38 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments
 from synergrip.errors import InputError, one_of
+from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array
 from synergrip.values import ByContent, same
 
 UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
-
-
-@dataclass(frozen=True, eq=False)
-class PointMotion(ByContent):
-    """Where a point of a link is, and how it moves with the joints, in the palm frame."""
-
-    position: Array
-    """(3,) position of the point [m]."""
-    rotation: Array
-    """(3, 3) orientation of its link: link coordinates to palm coordinates."""
-    jacobian: Array
-    """(6, n_q) rows v (point velocity), omega, for unit joint rates [m or 1, rad or rad/m]."""
-
-
-class Kinematics(Protocol):
-    """The one thing asked of a kinematics library."""
-
-    def at(self, q: Array, points: Sequence[tuple[str, Array]]) -> tuple[PointMotion, ...]:
-        """Return the motion of each (link name, point in link coordinates [m]) at joint values `q` (n_q,)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,6 +117,11 @@ class SynergySet(ByContent):
         judge.finish()
         for name, value in (("synergies", names), ("S", S), ("offset", offset), ("effort_limits", limits)):
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        """Return name, synergies and size, in one line."""
+        names = ", ".join(self.synergies[:8]) + (", ..." if len(self.synergies) > 8 else "")
+        return f"<SynergySet {self.name!r}: {names}; S {self.S.shape[0]} x {self.S.shape[1]}>"
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,6 +52,10 @@ class Contact(ByContent):
         object.__setattr__(self, "point", point)
         object.__setattr__(self, "frame", frame)
 
+    def __repr__(self) -> str:
+        """Return name, kind and place, in one line."""
+        return f"<Contact {self.name!r}: {self.kind} at {self.point.round(6).tolist()} m>"
+
     @property
     def n_rows(self) -> int:
         """Number of force components."""

@@ -53,4 +53,4 @@ class EllipticSoftFinger(ContactKind):
 
     def with_friction(self, friction: float) -> Self:
         """Return it with another friction along t, and one across in the same proportion."""
-        return replace(self, friction=friction, cross_friction=friction * self.cross_friction / self.friction)
+        return replace(self, friction=friction, cross_friction=friction * (self.cross_friction / self.friction))
