@@ -405,3 +405,28 @@ def test_arrays_of_values_cannot_be_changed() -> None:
     with pytest.raises(ValueError, match="read-only"):
         grasp.C_s[0, 0] = 1.0
     assert frozen(mine)[0, 0] == 5.0
+
+
+def test_all_six_rows_of_a_patch_are_motions_of_the_link_and_of_the_object() -> None:
+    """Finite differences: of the joints for J, of a moved object for G."""
+    patch = sg.PatchContact(friction=0.6, spin_friction=0.004, patch_radius=0.007)
+    grasp = ball(contacts=tips(patch, spin_stiffness=2.0, tilt_stiffness=3.0))
+    held, step = grasp.held, 1e-6
+    assert held is not None
+    assert grasp.components[:6] == tuple((TIPS[0], c) for c in ("n", "t", "o", "m", "m_t", "m_o"))
+    assert np.diag(grasp.C_s)[:6] == pytest.approx([1 / 8e3] * 3 + [1 / 2, 1 / 3, 1 / 3])
+    links = [(touch.pad.link, touch.pad.point) for touch in held.touches]
+    start = BARRETT.kinematics.at(held.q, links)
+    for joint in range(grasp.n_q):
+        ahead, behind = (BARRETT.kinematics.at(held.q + s * step * np.eye(8)[joint], links) for s in (1, -1))
+        for contact, rows, now, a, b in zip(grasp.contacts, grasp.rows, start, ahead, behind, strict=True):
+            arm = now.rotation.T @ (contact.point + held.body.position - now.position)
+            velocity = (a.position + a.rotation @ arm - b.position - b.rotation @ arm) / (2 * step)
+            spin = (a.rotation - b.rotation) @ now.rotation.T / (2 * step)
+            omega = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+            expected = np.concatenate([contact.frame.T @ velocity, contact.frame.T @ omega])
+            np.testing.assert_allclose(grasp.J[rows, joint], expected, atol=1e-8)
+    twist = np.array([0.3, -0.2, 0.5, 1.0, -2.0, 0.7])
+    for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
+        moved = contact.frame.T @ (twist[:3] + np.cross(twist[3:], contact.point))
+        np.testing.assert_allclose(grasp.G[:, rows].T @ twist, [*moved, *(contact.frame.T @ twist[3:])], atol=1e-12)
