@@ -288,6 +288,42 @@ def test_mistakes_in_grasp_from_matrices(changes: dict[str, Any], key: str, frag
     assert any(issue.key == key and fragment in issue.message for issue in caught.value.issues), caught.value
 
 
+@pytest.mark.parametrize(
+    ("make", "key", "fragment"),
+    [
+        (lambda: sg.HardFinger(), "HardFinger.friction", "missing"),
+        (lambda: sg.HardFinger(fricton=0.6), "HardFinger.fricton", "did you mean 'friction'?"),
+        (lambda: sg.HardFinger(0.6), "HardFinger", "1 values without a name; write friction=..."),
+        (lambda: sg.SoftFinger(friction=0.6), "SoftFinger.spin_friction", "missing"),
+        (lambda: sg.Frictionless(friction=0.6), "Frictionless.friction", "no such argument"),
+        (lambda: sg.Sphere(), "Sphere.radius", "missing"),
+        (lambda: sg.Sphere(0.05, radius=0.05), "Sphere.radius", "given twice"),
+        (lambda: sg.Object(weight=2.0), "Object.weight", "there are mass, shape, position, title"),
+        (lambda: sg.ContactAt("a"), "ContactAt.kind", "missing"),
+        (lambda: sg.ContactAt("a", HARD, stifness=1e3), "ContactAt.stifness", "did you mean 'stiffness'?"),
+        (lambda: sg.make_grasp(BARRETT, BALL, contacts=tips()), "posture", "missing"),
+        (lambda: sg.make_grasp(BARRETT, BALL, postur="ball", contacts=tips()), "postur", "did you mean 'posture'?"),
+        (lambda: sg.grasp_from_matrices(G=EYE), "C_s", "missing"),
+        (lambda: sg.Grasp("title"), "Grasp", "1 values without a name"),
+        (lambda: replace(BALL, mas=3.0), "Object.mas", "did you mean 'mass'?"),
+    ],
+)
+def test_arguments_that_are_missing_misspelt_or_without_a_name(make: Any, key: str, fragment: str) -> None:
+    with pytest.raises(InputError) as caught:
+        make()
+    assert any(issue.key == key and fragment in issue.message for issue in caught.value.issues), caught.value
+
+
+def test_a_type_error_from_further_inside_is_not_hidden() -> None:
+    class Odd(sg.HardFinger):
+        @property
+        def least_friction(self) -> float:
+            raise TypeError("odd")
+
+    with pytest.raises(TypeError, match="odd"):
+        sg.make_grasp(BARRETT, BALL, posture="ball", contacts=tips(Odd(friction=0.5))).contacts[0].friction  # noqa: B018
+
+
 # values
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from synergrip.documents.judging import described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.given import given, numbered
@@ -19,6 +20,7 @@ from synergrip.grasps.matrices import GivenContact, Matrices
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE, unbalanced
 
 
+@naming_arguments
 def grasp_from_matrices(
     *,
     G: ArrayLike,

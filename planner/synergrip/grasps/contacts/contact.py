@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent
@@ -15,6 +16,7 @@ ORTHONORMAL = 1e-4
 """How far the products of the columns of a frame may be from those of unit vectors normal to each other."""
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contact(ByContent):
     """One contact of a grasp. The normal points toward the object: lambda_n >= 0 is pushing.
