@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
@@ -28,11 +30,14 @@ from synergrip.tasks.tracking import rigid_coordinates
 
 RADIUS = 0.02  # [m] of the object
 LEVER = 0.05  # [m] from a joint to its contact
+Shares = Mapping[str, float]
+"""Name of a kind of contact -> how often there is one."""
+USUAL: Shares = {"hard": 0.75, "soft": 0.25}
 
 
-def random_task_on_grasp(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
+def random_task_on_grasp(rng: np.random.Generator, kinds: Shares = USUAL) -> tuple[Grasp, TimedTask]:
     """A grasp that can squeeze and a task on it; a third asks for 0.99 to 1.01 times the largest margin there is."""
-    grasp = hand_like_grasp(rng)
+    grasp = hand_like_grasp(rng, kinds)
     task = _task(rng, grasp)
     draw = rng.uniform()
     if draw < 0.4:
@@ -44,9 +49,9 @@ def random_task_on_grasp(rng: np.random.Generator) -> tuple[Grasp, TimedTask]:
     return grasp, replace(task, margin=float(factor * largest))
 
 
-def hand_like_grasp(rng: np.random.Generator) -> Grasp:
+def hand_like_grasp(rng: np.random.Generator, kinds: Shares = USUAL) -> Grasp:
     """A thumb against two or three fingers around a 40 mm object, each with two or three joints of its own."""
-    contacts = _contacts(rng, int(rng.integers(3, 5)))
+    contacts = _contacts(rng, int(rng.integers(3, 5)), kinds)
     fingers = [_finger(rng, contact) for contact in contacts]
     idle = rng.uniform() < 0.25  # a joint that moves no contact
     J = np.hstack([block_diagonal(fingers), np.zeros((sum(c.n_rows for c in contacts), int(idle)))])
@@ -61,7 +66,7 @@ def hand_like_grasp(rng: np.random.Generator) -> Grasp:
     if idle:
         S[:, -1] = np.eye(n_q)[-1]
         S = S @ (np.eye(n_z) + 0.7 * rng.normal(size=(n_z, n_z)))
-    soft = np.array([1e4 if component == "m" else 1.0 for c in contacts for component in c.kind.components])
+    soft = np.array([1e4 if is_moment(component) else 1.0 for c in contacts for component in c.kind.components])
     C_s = 10 ** rng.uniform(-4, -3) * np.diag(soft * rng.uniform(0.7, 1.4, len(soft)))
     C_q = rng.choice([0.0, 0.02]) * np.diag(rng.uniform(0.5, 2.0, n_q))
     C_z = rng.choice([0.0, 0.05]) * np.diag(rng.uniform(0.5, 2.0, n_z))
@@ -73,7 +78,7 @@ def hand_like_grasp(rng: np.random.Generator) -> Grasp:
     return _preloaded(rng, grasp) if rng.uniform() < 0.2 else grasp
 
 
-def _contacts(rng: np.random.Generator, count: int) -> tuple[Contact, ...]:
+def _contacts(rng: np.random.Generator, count: int, kinds: Shares) -> tuple[Contact, ...]:
     """The thumb at angle pi, the fingers spread about angle 0 and in height."""
     contacts = []
     for i in range(count):
@@ -82,12 +87,13 @@ def _contacts(rng: np.random.Generator, count: int) -> tuple[Contact, ...]:
         height = 0.3 * rng.normal()
         point = RADIUS * np.array([np.cos(angle), np.sin(angle), height])
         normal = -np.array([np.cos(angle), np.sin(angle), 0.3 * height]) + 0.1 * rng.normal(size=3)
-        kind = str(rng.choice(["hard", "soft"], p=[0.75, 0.25]))
-        spin = float(rng.uniform(0.002, 0.01)) if kind == "soft" else 0.0
+        name = str(rng.choice(list(kinds), p=list(kinds.values())))
+        spin = float(rng.uniform(0.002, 0.01)) if name not in ("hard", "frictionless") else 0.0
         mu = float(rng.uniform(0.5, 1.2))
-        contacts.append(
-            Contact(name=f"C{i + 1}", kind=made_kind(kind, mu, spin), point=frozen(point), frame=contact_frame(normal))
-        )
+        more = {"cross_friction": mu * rng.uniform(0.5, 2.0)} if name == "soft-elliptic" else {}
+        more |= {"patch_radius": rng.uniform(0.003, 0.02)} if name == "patch" else {}
+        kind = made_kind(name, mu, spin, **more)
+        contacts.append(Contact(name=f"C{i + 1}", kind=kind, point=frozen(point), frame=contact_frame(normal)))
     return tuple(contacts)
 
 

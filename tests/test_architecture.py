@@ -67,7 +67,9 @@ def test_a_room_imports_only_rooms_to_its_left(name: str) -> None:
             assert there == here or PLACES[there] < PLACES[here], f"{name} imports {imported}"
 
 
-@pytest.mark.parametrize("library", ["documents", "statics", "conic", "tasks", "referee", "planning", "explain"])
+@pytest.mark.parametrize(
+    "library", ["documents", "hands", "grasps", "statics", "conic", "tasks", "referee", "planning", "explain"]
+)
 def test_the_library_stands_without_the_problem_file(library: str) -> None:
     for path in (PACKAGE / library).rglob("*.py"):
         allowed = LOOK_RIGHT.get(path.relative_to(PACKAGE).as_posix(), "-")

@@ -13,7 +13,8 @@ from small_hands import hand_of, hinge, pad, slide, touching
 from synergrip.errors import InputError
 from synergrip.grasps.closing import close
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere, Turned, turn
-from synergrip.hands.hand import Coupling, Hand, Pad, PointMotion
+from synergrip.hands.hand import Coupling, Hand, Pad
+from synergrip.hands.point_motion import PointMotion
 from synergrip.linalg import Array, frozen
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from synergrip.grasps.objects import Box, Cylinder, Shape, Sphere, Turned, turn
+from synergrip.grasps.shapes.shapes import SHAPES as REGISTRY
 
 SPHERE, BOX, CYLINDER = Sphere(0.03), Box((0.04, 0.06, 0.1)), Cylinder(0.02, 0.08)
 AXIS = np.array([2, -3, 6]) / 7
@@ -52,6 +56,29 @@ def _inside(shape: Shape, point: np.ndarray) -> bool:
 def _gradient(shape: Shape, point: np.ndarray) -> np.ndarray:
     steps = STEP * np.eye(3)
     return np.array([shape.surface(point + d)[0] - shape.surface(point - d)[0] for d in steps]) / (2 * STEP)
+
+
+def test_every_shape_that_a_file_can_name_is_tested_and_documented() -> None:
+    documented = (Path(__file__).parents[2] / "docs" / "problem-file.md").read_text()
+    for name, shape in REGISTRY.items():
+        assert any(type(each) is shape for each in SHAPES), f"{name} is not in SHAPES of this file"
+        assert [size.name for size in shape.sizes] == [each.name for each in fields(shape)]  # type: ignore[arg-type]
+        assert f"{name} = " in documented, f"{name} is not in docs/problem-file.md"
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=_titled)
+def test_the_farthest_point_is_on_the_surface_and_none_is_farther(shape: Shape) -> None:
+    rng = np.random.default_rng(8)
+    inside = [point for point in rng.uniform(-0.08, 0.08, (4000, 3)) if shape.surface(point)[0] <= 0]
+    assert len(inside) > 30
+    for direction in rng.normal(size=(20, 3)):
+        along = direction / np.linalg.norm(direction)
+        farthest = shape.farthest(along)
+        assert shape.surface(farthest)[0] == pytest.approx(0, abs=1e-12)
+        assert np.max(np.array(inside) @ along) <= farthest @ along + 1e-12
+        drawn = np.vstack(shape.lines())
+        assert np.max(drawn @ along) <= farthest @ along + 1e-12
+    assert max(abs(shape.surface(point)[0]) for line in shape.lines() for point in line) < 1e-12
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=_titled)

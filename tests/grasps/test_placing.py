@@ -18,7 +18,8 @@ from synergrip.grasps.contacts.kind import EXAMPLE_OF
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Box, Cylinder, Object, Shape, Sphere
 from synergrip.grasps.placing import Touch, place
-from synergrip.hands.hand import Hand, Joint, Kinematics, Pad, PointMotion, SynergySet
+from synergrip.hands.hand import Hand, Joint, Pad, SynergySet
+from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array, frozen
 
 FINGERS = 3

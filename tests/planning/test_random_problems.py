@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from named_goals import name_of
-from random_tasks import random_task_on_grasp
+from random_tasks import USUAL, Shares, random_task_on_grasp
 
 from synergrip.errors import SelfCheckError
+from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.stages import SLACKS
@@ -54,9 +55,9 @@ def _differences(outcome: Plan | Infeasible, answer: RefereeAnswer) -> list[str]
     return wrong
 
 
-def _judge(seed: int) -> tuple[RefereeAnswer, list[str]]:
+def _judge(seed: int, kinds: Shares = USUAL) -> tuple[RefereeAnswer, list[str]]:
     """Return the referee's answer and what is wrong with the plan, each line with its seed."""
-    grasp, task = random_task_on_grasp(np.random.default_rng(seed))
+    grasp, task = random_task_on_grasp(np.random.default_rng(seed), kinds)
     answer = referee(analyse(grasp), task)
     try:
         outcome = plan(grasp, task)
@@ -74,6 +75,15 @@ def test_plan_agrees_with_the_referee(chunk: int) -> None:
     assert not wrong, "\n".join(wrong)
     feasible = sum(answer.verdict == "feasible" for answer, _ in judged)
     assert CHUNK // 5 <= feasible <= CHUNK - CHUNK // 5, "the problems are to be about half feasible"
+
+
+@pytest.mark.parametrize("name", sorted(KINDS.keys() - {*USUAL, "frictionless"}))
+def test_plan_agrees_with_the_referee_on_every_other_kind_of_contact(name: str) -> None:
+    """Hard fingers in half of the places."""
+    judged = [_judge(seed, {"hard": 0.5, name: 0.5}) for seed in range(20)]
+    wrong = [line for _, lines in judged for line in lines]
+    assert not wrong, "\n".join(wrong)
+    assert 3 <= sum(answer.verdict == "feasible" for answer, _ in judged) <= 17
 
 
 @pytest.mark.parametrize("seed", HARD)

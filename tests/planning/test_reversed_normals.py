@@ -11,11 +11,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from driven_grasp import driven
 from made_kinds import made_kind
 from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
 from synergrip.grasps.contacts.contact import Contact, contact_frame
+from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
@@ -234,3 +236,18 @@ def test_a_normal_stated_on_a_link_the_wrong_way_round_is_named_by_its_key() -> 
     assert isinstance(outcome, Infeasible)
     (hint,) = outcome.hints
     assert hint.endswith("by changing the sign of contact[1].normal")
+
+
+@pytest.mark.parametrize("name", sorted(KINDS))
+def test_a_normal_the_other_way_reverses_pushing_and_nothing_that_friction_holds(name: str) -> None:
+    kind = made_kind(name, 0.5, 0.004, cross_friction=0.3, patch_radius=0.007)
+    frame = contact_frame(np.array([1.0, 0.2, 0.1]))
+    points = np.vstack([np.zeros(3), 0.02 * np.eye(3)[1:]])
+    contacts = [Contact(name=f"C{i}", kind=kind, point=point, frame=frame) for i, point in enumerate(points)]
+    grasp = driven(contacts)
+    other = reversed_normals(grasp, (1,))
+    rng, rows = np.random.default_rng(0), grasp.rows[1]
+    for force in rng.normal(size=(20, kind.selection.shape[0])):
+        turned = force * ([-1] + [1] * (len(force) - 1))
+        np.testing.assert_allclose(other.G[:, rows] @ turned, grasp.G[:, rows] @ force, atol=1e-15)
+        assert other.contacts[1].slip_margin(force) == grasp.contacts[1].slip_margin(force)

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from synergrip.documents.judging import Arguments, described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import one_of
 from synergrip.grasps.contacts.kind import EXAMPLE_OF, ContactKind
 from synergrip.linalg import Array, frozen
@@ -17,6 +18,7 @@ SOFTEST = 1e-6
 """A contact that yields a kilometre under a millinewton holds nothing [N/m, N m/rad]."""
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class LinkPlace:
     """A place on a link, in its frame.
@@ -47,6 +49,7 @@ class LinkPlace:
         judge.finish()
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class ContactAt:
     """A contact of a hand: which pad or place touches, of which kind the contact is, how stiff.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from synergrip.documents.judging import described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.given import given, numbered
@@ -19,6 +20,7 @@ from synergrip.grasps.matrices import GivenContact, Matrices
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE, unbalanced
 
 
+@naming_arguments
 def grasp_from_matrices(
     *,
     G: ArrayLike,
@@ -56,11 +58,16 @@ def grasp_from_matrices(
 
     Example:
         >>> from synergrip.grasps.contacts.hard_finger import HardFinger
-        >>> G = np.vstack([np.eye(3, 6), np.zeros((3, 6))])
+        >>> G = np.zeros((6, 6))  # two fingers 40 mm apart on x: columns are unit forces and their moments about B
+        >>> G[:3, :3], G[:3, 3:] = np.eye(3), np.diag([-1, 1, -1])
+        >>> G[3:, 1:3], G[3:, 4:] = [[0, 0], [0, 0.02], [-0.02, 0]], [[0, 0], [0, 0.02], [0.02, 0]]
+        >>> squeeze = [[1], [0], [0], [1], [0], [0]]
         >>> hard = HardFinger(friction=0.5)
-        >>> grasp_from_matrices(
-        ...     G=G, J=np.eye(6), S=np.eye(6, 2), contacts=[("C1", hard), ("C2", hard)], C_s=1e-4
-        ... )  # doctest: +SKIP
+        >>> grasp = grasp_from_matrices(
+        ...     G=G, J=np.eye(6), S=squeeze, contacts=[("left", hard), ("right", hard)], C_s=1e-4
+        ... )
+        >>> [contact.point.round(6).tolist() for contact in grasp.contacts]
+        [[-0.02, 0.0, 0.0], [0.02, 0.0, 0.0]]
     """
     judge = Judge("")
     told = _told(judge, contacts)

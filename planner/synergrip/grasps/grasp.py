@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp_judging import Judge
@@ -22,6 +23,7 @@ MOST_SHOWN = 6
 """Contacts that a repr names."""
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grasp(ByContent):
     """A grasp and all that its statics need, in SI units; contact rows (n, t, o [, moments about them]).

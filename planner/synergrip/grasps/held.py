@@ -34,6 +34,11 @@ class Held(ByContent):
     gaps: tuple[float | None, ...]
     """Distance of each pad from the surface, > 0 outside [m]; None for an object without a shape."""
 
+    def __repr__(self) -> str:
+        """Return hand, object and pads, in one line."""
+        pads = ", ".join(touch.pad.name for touch in self.touches)
+        return f"<Held: hand {self.hand.name!r} holds {self.body.title!r}; pads {pads}>"
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What is doubtful about it, though it is no error."""

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.judging import Arguments, described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.closing import close as closed
 from synergrip.grasps.closing import unknown_surface
@@ -32,6 +33,7 @@ Synergies = int | str | Sequence[str] | SetChoice | SynergySet
 EXAMPLE = 'ContactAt("finger1/tip", HardFinger(friction=0.6), stiffness=8e3)'
 
 
+@naming_arguments
 def make_grasp(
     hand: Hand | str | Path,
     object: Object,

@@ -15,6 +15,7 @@ from pydantic import Field, create_model
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.contacts.kind import ContactKind
@@ -27,6 +28,7 @@ MOST_CONTACTS = 250
 UNIT = 1e-6  # how far the length of a normal may be from 1
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GivenContact(ByContent):
     """One contact of a grasp given as matrices; place and normal are in G, too, and may be left out.

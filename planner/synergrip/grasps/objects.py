@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.box import Box as Box
 from synergrip.grasps.shapes.cylinder import Cylinder as Cylinder
 from synergrip.grasps.shapes.shape import Shape as Shape
@@ -21,6 +22,7 @@ ROTATION = 1e-9
 """How far the products of the columns of a rotation may be from those of unit vectors normal to each other."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class Turned(Shape, ByContent):
     """A shape turned about its centre.
@@ -83,6 +85,7 @@ def turn(axis: Sequence[float], angle: float) -> Array:
     return frozen(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Object(ByContent):
     """The grasped object. Its frame B sits at `position`, with the axes of the palm.

@@ -14,7 +14,8 @@ from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.objects import Object, Sphere
-from synergrip.hands.hand import Hand, Pad, PointMotion, SynergySet
+from synergrip.hands.hand import Hand, Pad, SynergySet
+from synergrip.hands.point_motion import PointMotion
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.values import ByContent
 

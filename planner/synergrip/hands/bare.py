@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from synergrip.errors import InputError
+from synergrip.hands.drives import Drives
 from synergrip.hands.follower_ranges import FollowerRanges, led
-from synergrip.hands.hand import Coupling, Drives, Hand, Joint, SynergySet
+from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
 from synergrip.hands.kinematics import kinematics
 from synergrip.hands.models.tree import LinkTree
 from synergrip.hands.synergies.matrix import JOINTS, coupling_map, drivers, joint_posture, joint_set

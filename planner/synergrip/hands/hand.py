@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
+from synergrip.hands.drives import Drives
+from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array
 from synergrip.values import ByContent, same
 
@@ -18,25 +20,7 @@ UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
 
 
-@dataclass(frozen=True, eq=False)
-class PointMotion(ByContent):
-    """Where a point of a link is, and how it moves with the joints, in the palm frame."""
-
-    position: Array
-    """(3,) position of the point [m]."""
-    rotation: Array
-    """(3, 3) orientation of its link: link coordinates to palm coordinates."""
-    jacobian: Array
-    """(6, n_q) rows v (point velocity), omega, for unit joint rates [m or 1, rad or rad/m]."""
-
-
-class Kinematics(Protocol):
-    """The one thing asked of a kinematics library."""
-
-    def at(self, q: Array, points: Sequence[tuple[str, Array]]) -> tuple[PointMotion, ...]:
-        """Return the motion of each (link name, point in link coordinates [m]) at joint values `q` (n_q,)."""
-
-
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class Joint:
     """One joint, in the order of q."""
@@ -72,6 +56,7 @@ class Joint:
             object.__setattr__(self, name, value)
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Pad(ByContent):
     """A place on a link that is made to touch things."""
@@ -103,6 +88,7 @@ class Pad(ByContent):
             object.__setattr__(self, name, value)
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SynergySet(ByContent):
     """A named synergy matrix S (9)."""
@@ -137,6 +123,11 @@ class SynergySet(ByContent):
         for name, value in (("synergies", names), ("S", S), ("offset", offset), ("effort_limits", limits)):
             object.__setattr__(self, name, value)
 
+    def __repr__(self) -> str:
+        """Return name, synergies and size, in one line."""
+        names = ", ".join(self.synergies[:8]) + (", ..." if len(self.synergies) > 8 else "")
+        return f"<SynergySet {self.name!r}: {names}; S {self.S.shape[0]} x {self.S.shape[1]}>"
+
 
 @dataclass(frozen=True, eq=False)
 class Coupling(ByContent):
@@ -151,29 +142,7 @@ class Coupling(ByContent):
     """Where that stands, for messages: file and line, or the key of the problem."""
 
 
-@dataclass(frozen=True, eq=False)
-class Drives(ByContent):
-    """What a model file says of motors and springs, for the joints that no motor moves."""
-
-    compliance: Array
-    """(n_q, n_q) yield of the joints to torques, by springs that no motor holds [rad/(N m)]."""
-    sprung: Mapping[str, float] = field(default_factory=dict)
-    """Joint that springs alone hold -> where they hold it [rad or m]."""
-    loose: Mapping[str, str] = field(default_factory=dict)
-    """Joint of which the file does not say how it moves, and how far it yields -> why not, as a clause."""
-    notes: tuple[str, ...] = ()
-    """What was taken for something else, or not read, though it is no error."""
-    pulls: Array | None = None
-    """(n_a, n_q) joint torque per force of each actuator; None when nothing says what an effort is."""
-    forces: Array | None = None
-    """(n_a,) largest force of each actuator; infinity when none is stated."""
-
-    @property
-    def idle(self) -> tuple[str, ...]:
-        """Joints that are no synergies, because no motor of the file is known to move them."""
-        return (*self.sprung, *self.loose)
-
-
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Hand(ByContent):
     """A robot hand as data; `load_hand` makes one."""

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from synergrip.hands.hand import Coupling, Drives
+from synergrip.hands.drives import Drives
+from synergrip.hands.hand import Coupling
 from synergrip.hands.hand_file import HandFile
 from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import frozen

@@ -11,8 +11,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from synergrip.errors import InputError, one_of
-from synergrip.hands.hand import PointMotion
 from synergrip.hands.models.tree import LinkTree
+from synergrip.hands.point_motion import PointMotion
 from synergrip.linalg import Array, frozen
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent
@@ -15,6 +16,7 @@ ORTHONORMAL = 1e-4
 """How far the products of the columns of a frame may be from those of unit vectors normal to each other."""
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Contact(ByContent):
     """One contact of a grasp. The normal points toward the object: lambda_n >= 0 is pushing.
@@ -51,6 +53,10 @@ class Contact(ByContent):
         judge.finish()
         object.__setattr__(self, "point", point)
         object.__setattr__(self, "frame", frame)
+
+    def __repr__(self) -> str:
+        """Return name, kind and place, in one line."""
+        return f"<Contact {self.name!r}: {self.kind} at {self.point.round(6).tolist()} m>"
 
     @property
     def n_rows(self) -> int:

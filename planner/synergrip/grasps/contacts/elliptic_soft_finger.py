@@ -7,10 +7,12 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class EllipticSoftFinger(ContactKind):
     """Soft finger that slips more easily one way: ``(t / mu_t)^2 + (o / mu_o)^2 + (m / nu)^2 <= n^2``.
@@ -53,4 +55,4 @@ class EllipticSoftFinger(ContactKind):
 
     def with_friction(self, friction: float) -> Self:
         """Return it with another friction along t, and one across in the same proportion."""
-        return replace(self, friction=friction, cross_friction=friction * self.cross_friction / self.friction)
+        return replace(self, friction=friction, cross_friction=friction * (self.cross_friction / self.friction))

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class Frictionless(ContactKind):
     """One component: the normal force. Its margin is the distance to lift-off, n itself.

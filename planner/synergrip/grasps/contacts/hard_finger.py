@@ -7,10 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class HardFinger(ContactKind):
     """Point contact with friction: three force components; cone ``||(t, o)|| <= mu n``.

@@ -7,10 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class PatchContact(ContactKind):
     """A flat round patch of radius r: six components, and two cones.

@@ -7,10 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
 from synergrip.linalg import Array, frozen
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class SoftFinger(ContactKind):
     """Four components; cone ``sqrt((t^2 + o^2) / mu^2 + (m / nu)^2) <= n``.

@@ -9,10 +9,12 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size
 from synergrip.linalg import Array
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class Box(Shape):
     """A box with faces normal to the axes.

@@ -8,10 +8,12 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class Cylinder(Shape):
     """A cylinder about z.

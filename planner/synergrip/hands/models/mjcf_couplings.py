@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.errors import InputError
-from synergrip.hands.hand import Coupling, Drives
+from synergrip.hands.drives import Drives
+from synergrip.hands.hand import Coupling
 from synergrip.hands.models.mjcf import Equality, Mjcf
 from synergrip.hands.models.mjcf_arms import Arms, arms_of
 from synergrip.hands.models.mjcf_drives import driven, pulls_of, undriven

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.hands.hand import Drives
+from synergrip.hands.drives import Drives
 from synergrip.hands.models.mjcf import Mjcf
 from synergrip.hands.models.mjcf_arms import Arms
 from synergrip.hands.models.mjcf_readable import NEAR, Readable, readable

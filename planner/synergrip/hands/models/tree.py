@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from synergrip.hands.hand import Coupling, Drives
+from synergrip.hands.drives import Drives
+from synergrip.hands.hand import Coupling
 
 MOST_MOVING = 200
 """Joints that move; a file with more is no hand."""
