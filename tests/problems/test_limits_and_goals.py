@@ -41,7 +41,7 @@ def test_nothing_of_it_is_asked_unless_stated() -> None:
     for name in ("synergy_acceleration", "joint_range", "elastic_motion", "drift"):
         assert getattr(problem.limits, name) is None
     assert (problem.goal.names, dict(problem.goal.weights)) == (("effort",), {})
-    assert (problem.task.tracking, problem.timed.tolerance, problem.timed.axes) == ("rigid", None, AXES)
+    assert (problem.task.tracking, problem.task.tolerance, problem.task.axes) == ("rigid", None, AXES)
     assert problem.task.drift is None
 
 

@@ -134,6 +134,6 @@ def waypoints_of(tables: Sequence[WaypointTable], profile: WaypointProfile) -> W
     """Return the motion through one or more waypoints."""
     times = [point.time for point in tables]
     if tables[0].modes is not None:
-        return Waypoints(times=times, modes=[point.modes for point in tables], profile=profile)
+        return Waypoints(times=times, modes=[point.modes or () for point in tables], profile=profile)
     positions, rotations = [point.position for point in tables], [point.rotation for point in tables]
     return Waypoints(times=times, positions=positions, rotations=rotations, profile=profile)

@@ -14,6 +14,7 @@ from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.limits.limit import Limit
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, kind_of, raise_issues
 from synergrip.grasps.grasp import Grasp
@@ -53,7 +54,7 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
     if wrench is None:
         wrench = frozen(np.tile(task.load_factor * grasp.w_0, (len(times), 1)))
     margin, limits = _margin_and_others(task)
-    order, weights = _named(task.goals)
+    order, weights = _named(tuple(task.goals))
     return TimedTask(
         times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
         margin=margin, limits=limits, order=order, weights=weights, tolerance=task.tolerance, tracking=task.tracking,
@@ -111,7 +112,7 @@ def _over(parts: Mapping[str, Stated], setting: Setting) -> dict[str, Profile]:
     return found
 
 
-def _margin_and_others(task: Task) -> tuple[float, tuple[FrictionCone, ...]]:
+def _margin_and_others(task: Task) -> tuple[float, tuple[Limit, ...]]:
     """Return the slip margin [N] that is asked for, and all limits but the friction cones."""
     cones = [limit for limit in task.limits if isinstance(limit, FrictionCone)]
     others = tuple(limit for limit in task.limits if not isinstance(limit, FrictionCone))
