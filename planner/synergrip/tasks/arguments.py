@@ -75,7 +75,10 @@ class Arguments(Judge):
     def times(self, name: str, values: Any, apart: float = 0.0) -> Array:
         """Return increasing times (K,) [s], each at least `apart` [s] after the one before."""
         given = np.asarray(values, dtype=object)
-        count = len(given) if given.ndim == 1 and given.size else 1
+        if not given.size:
+            self.refuse(name, "expected one or more instants in seconds, got none")
+            raise_issues(self.issues)  # whatever goes by the times cannot be judged
+        count = len(given) if given.ndim == 1 else 1
         before = len(self.issues)
         found = self.rows(name, values, (count,), "one or more instants in seconds")
         early = (found[1:] <= found[:-1]) | (found[1:] < found[:-1] + apart)
