@@ -9,13 +9,14 @@ import numpy as np
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
+from synergrip.documents.source import Source
 from synergrip.explain.repairs import repairs
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.provenance import KEY as PROVENANCE
-from synergrip.planning.provenance import Source, provenance_document
+from synergrip.planning.provenance import provenance_document
 from synergrip.planning.told import (
     between_document,
     check_document,
