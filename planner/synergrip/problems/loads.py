@@ -117,7 +117,7 @@ def _load(
     palm = _palm(task, tables, start, end)
     if task.gravity is not None:
         weight = mass * np.array(task.gravity)
-        found.append(Weight(frozen(weight), palm) if palm else Constant(frozen([*weight, 0, 0, 0])))
+        found.append(Weight(frozen(weight), palm))
     if palm is not None and task.palm is not None and task.palm.inertia:
         found.append(inertia(body, mass, palm))
     return found

@@ -67,20 +67,22 @@ class PalmMotion:
 
 @dataclass(frozen=True, eq=False)
 class Weight:
-    """The weight of the object in a palm that moves."""
+    """The weight of the object, also in a palm that moves."""
 
     force: Array
     """(3,) in the palm frame at the start [N]."""
-    palm: Palm
+    palm: Palm | None
+    """None when it stands still."""
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B; the centre of mass is there."""
-        return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
+        force = np.tile(self.force, (len(times), 1)) if self.palm is None else self.palm.seen(self.force, times)
+        return np.hstack([force, np.zeros((len(times), 3))])
 
     @property
     def marks(self) -> Marks:
         """Those of the motion of the palm."""
-        return marks_of(self.palm)
+        return Marks() if self.palm is None else marks_of(self.palm)
 
 
 def marks_of(palm: Palm) -> Marks:

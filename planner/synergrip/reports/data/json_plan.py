@@ -25,6 +25,8 @@ from synergrip.planning.told import (
     series_document,
     structure_document,
 )
+from synergrip.reports.data.execution import KEY as EXECUTION
+from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
 from synergrip.tasks.scaling import units_of
 
@@ -61,6 +63,8 @@ def _plan(plan: Plan) -> dict[str, Any]:
     for each in ARRAYS:
         place = document.setdefault(each.key, {}) if each.inside else document
         place[each.inside or each.key] = each.of(plan.moved)
+    if (execution := execution_document(plan)) is not None:
+        document[EXECUTION] = execution
     return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,
