@@ -1,4 +1,4 @@
-"""Another program that executes a plan: plan.json, a reader of URDF files of its own and NumPy, nothing of synergrip."""
+"""Another program that executes a plan: plan.json, its own reader of URDF files and NumPy, nothing of synergrip."""
 
 from __future__ import annotations
 

@@ -26,8 +26,8 @@ NAMES = (
     "robonaut-handle-knock", "table2-soft-joints",
 )  # fmt: skip
 KEYS = (
-    "hand_file sha256 root_link joints q_0 S C_q C_z joint_range joint_torque followers lambda_0 tau_0 gravity_m_s2 palm "
-    "object contacts load interpolation"
+    "hand_file sha256 root_link joints q_0 S C_q C_z joint_range joint_torque followers lambda_0 tau_0 gravity_m_s2 "
+    "palm object contacts load interpolation"
 )
 CONTACT_KEYS = "name link point_m frame kind parameters compliance pad_radius_m pad_centre_m"
 
@@ -72,7 +72,8 @@ def test_the_block_has_every_key_and_agrees_with_itself(name: str) -> None:
         away = np.linalg.norm(p + R @ contact["pad_centre_m"] - contact["point_m"])
         assert away == pytest.approx(contact["pad_radius_m"], abs=1e-9)
         assert np.array(contact["frame"]) @ np.array(contact["frame"]).T == pytest.approx(np.eye(3), abs=1e-12)
-    for follower in block["followers"]:
+    every = np.array_equal(block["S"], np.eye(len(q)))  # each joint a synergy, followers too
+    for follower in () if every else block["followers"]:
         i, j = (block["joints"].index(follower[key]) for key in ("joint", "driver"))
         alone = sum(each["joint"] == follower["joint"] for each in block["followers"]) == 1
         assert not alone or np.allclose(np.array(block["S"])[i], follower["ratio"] * np.array(block["S"])[j])
@@ -95,15 +96,13 @@ def test_the_load_is_that_of_the_plan_and_has_its_corners(name: str) -> None:
 
 
 def test_a_jump_of_the_load_stands_twice() -> None:
-    problem = load_problem(
-        "barrett-ball-hold",
-        ['task.push=[{force="1 N", direction=[1,0,0], start="0.5 s", end="1.03 s", profile="step"}]'],
-    )
+    push = 'task.push=[{force="1 N", direction=[1,0,0], start="0.5 s", end="1.05 s", profile="step"}]'
+    problem = load_problem("barrett-ball-hold", [push])
     answer = plan(problem.grasp, problem.task)
     assert isinstance(answer, Plan)
     load = outcome_document("", problem.grasp, answer)["execution"]["load"]
-    for time in (0.5, 1.03):
-        there = [w[0] for t, w in zip(load["times_s"], load["wrench"], strict=True) if t == time]
+    for time in (0.5, 1.05):
+        there = [w[0] for t, w in zip(load["times_s"], load["wrench"], strict=True) if abs(t - time) < 1e-9]
         assert len(there) == 2
         assert abs(there[1] - there[0]) == pytest.approx(1.0)
 
