@@ -10,13 +10,40 @@ if TYPE_CHECKING:
     from typing import Any
 
     from synergrip.conic.certificate import Certificate as Certificate
+    from synergrip.conic.goals.centred_joints import CentredJoints as CentredJoints
+    from synergrip.conic.goals.goal import Goal as Goal
+    from synergrip.conic.goals.largest_margin import LargestMargin as LargestMargin
+    from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort
+    from synergrip.conic.goals.least_motion import LeastMotion as LeastMotion
+    from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
+    from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration as LeastReconfiguration
+    from synergrip.conic.goals.weighted_sum import WeightedSum as WeightedSum
+    from synergrip.conic.limits.actuator_effort import ActuatorEffort as ActuatorEffort
+    from synergrip.conic.limits.elastic_motion import ElasticMotion as ElasticMotion
+    from synergrip.conic.limits.joint_range import JointRange as JointRange
+    from synergrip.conic.limits.joint_torque import JointTorque as JointTorque
+    from synergrip.conic.limits.limit import Limit as Limit
+    from synergrip.conic.limits.limit import Usage as Usage
+    from synergrip.conic.limits.normal_force import NormalForce as NormalForce
+    from synergrip.conic.limits.object_error import ObjectError as ObjectError
+    from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration as SynergyAcceleration
+    from synergrip.conic.limits.synergy_rate import SynergyRate as SynergyRate
+    from synergrip.conic.limits.synergy_reference import SynergyReference as SynergyReference
     from synergrip.conic.program import Program as Program
     from synergrip.errors import InputError as InputError
     from synergrip.errors import Refusal as Refusal
     from synergrip.errors import SynergripError as SynergripError
+    from synergrip.errors import VerdictError as VerdictError
     from synergrip.grasps.contacts.contact import Contact as Contact
+    from synergrip.grasps.contacts.frictionless import Frictionless as Frictionless
+    from synergrip.grasps.contacts.hard_finger import HardFinger as HardFinger
+    from synergrip.grasps.contacts.soft_finger import SoftFinger as SoftFinger
     from synergrip.grasps.grasp import Grasp as Grasp
     from synergrip.grasps.matrices import read_matrices as read_matrices
+    from synergrip.grasps.objects import Box as Box
+    from synergrip.grasps.objects import Cylinder as Cylinder
+    from synergrip.grasps.objects import Object as Object
+    from synergrip.grasps.objects import Sphere as Sphere
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
     from synergrip.planning.outcome import Infeasible as Infeasible
@@ -35,20 +62,42 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "errors": ("SynergripError", "InputError", "Refusal"),
-    "hands.hand": ("Hand",),
+    "errors": ("SynergripError", "InputError", "VerdictError", "Refusal"),
     "hands.folder": ("load_hand",),
+    "hands.hand": ("Hand",),
+    "grasps.objects": ("Object", "Sphere", "Box", "Cylinder"),
+    "grasps.contacts.hard_finger": ("HardFinger",),
+    "grasps.contacts.soft_finger": ("SoftFinger",),
+    "grasps.contacts.frictionless": ("Frictionless",),
     "grasps.contacts.contact": ("Contact",),
     "grasps.grasp": ("Grasp",),
     "grasps.matrices": ("read_matrices",),
+    "statics.analysis": ("analyse", "Analysis"),
     "statics": ("respond", "subspaces", "coordinates"),
+    "conic.limits.normal_force": ("NormalForce",),
+    "conic.limits.joint_torque": ("JointTorque",),
+    "conic.limits.actuator_effort": ("ActuatorEffort",),
+    "conic.limits.joint_range": ("JointRange",),
+    "conic.limits.synergy_reference": ("SynergyReference",),
+    "conic.limits.synergy_rate": ("SynergyRate",),
+    "conic.limits.synergy_acceleration": ("SynergyAcceleration",),
+    "conic.limits.object_error": ("ObjectError",),
+    "conic.limits.elastic_motion": ("ElasticMotion",),
+    "conic.limits.limit": ("Limit", "Usage"),
+    "conic.goals.goal": ("Goal",),
+    "conic.goals.largest_margin": ("LargestMargin",),
+    "conic.goals.least_effort": ("LeastEffort",),
+    "conic.goals.least_peak": ("LeastPeak",),
+    "conic.goals.least_motion": ("LeastMotion",),
+    "conic.goals.least_reconfiguration": ("LeastReconfiguration",),
+    "conic.goals.centred_joints": ("CentredJoints",),
+    "conic.goals.weighted_sum": ("WeightedSum",),
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
-    "statics.analysis": ("Analysis", "analyse"),
     "tasks.timed_task": ("TimedTask",),
-    "problems.problem": ("Problem", "load_problem"),
-    "planning.outcome": ("Plan", "Infeasible", "Unknown"),
+    "problems.problem": ("load_problem", "Problem"),
     "planning.planning": ("plan",),
+    "planning.outcome": ("Plan", "Infeasible", "Unknown"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -62,3 +111,8 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(f"synergrip.{_HOME_OF[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """Return the public names, loaded or not."""
+    return list(__all__)

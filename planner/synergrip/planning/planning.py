@@ -18,6 +18,7 @@ from synergrip.conic.relaxed import proof
 from synergrip.documents.quantities import apart
 from synergrip.errors import NotRestrainedError, Refusal, SelfCheckError
 from synergrip.grasps.grasp import Grasp
+from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
@@ -43,10 +44,18 @@ def plan(grasp: Grasp, task: TimedTask, solver: Answerer = SOLVERS["clarabel"]) 
         InputError: the grasp is rigid in some contact direction, or the modes do not fit it.
         SelfCheckError: the answer failed the physical check (a defect of synergrip).
     """
+    outcome = _planned(grasp, task, solver)
+    LOG.info("%r", outcome)
+    return outcome
+
+
+def _planned(grasp: Grasp, task: TimedTask, solver: Answerer) -> Outcome:
+    LOG.info("planning on %d contacts with %d synergies: %r", grasp.n_c, grasp.n_z, task)
     try:
         analysis = analyse(grasp, task.wrench)
     except NotRestrainedError as refusal:
         return _refused(grasp, task, None, refusal)
+    LOG.info("%r", analysis)
     try:
         formulation = formulated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
@@ -81,6 +90,7 @@ class _Planner:
 
     def outcome(self) -> Outcome:
         first, *others = goals_of(self.task)
+        LOG.info("first '%s': %d knots, %d unknowns each", first.name, self.formulation.knots, self.formulation.n_v)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
         if not best.decision.acceptable:
