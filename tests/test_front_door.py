@@ -7,6 +7,7 @@ import pydoc
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -51,8 +52,9 @@ def test_importing_loads_nothing_heavy() -> None:
         "import sys, synergrip; dir(synergrip); "
         "print([m for m in ('numpy', 'scipy', 'pydantic', 'logging', 'typing') if m in sys.modules])"
     )
-    done = subprocess.run((sys.executable, "-S", "-c", code), capture_output=True, text=True, check=False,
-                          env={"PYTHONPATH": str(next(iter(synergrip.__path__)).removesuffix("/synergrip"))})  # fmt: skip
+    source = Path(synergrip.__path__[0]).parent
+    command = (sys.executable, "-S", "-c", code)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env={"PYTHONPATH": str(source)})
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
 
 
