@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from synergrip.errors import InputError as InputError
     from synergrip.errors import Refusal as Refusal
     from synergrip.errors import SynergripError as SynergripError
+    from synergrip.errors import VerdictError as VerdictError
     from synergrip.grasps.contact_at import ContactAt as ContactAt
     from synergrip.grasps.contact_at import LinkPlace as LinkPlace
     from synergrip.grasps.contacts.contact import Contact as Contact
@@ -72,14 +73,27 @@ if TYPE_CHECKING:
     from synergrip.statics import subspaces as subspaces
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
+    from synergrip.tasks.gravity import Gravity as Gravity
+    from synergrip.tasks.hold import Hold as Hold
+    from synergrip.tasks.motion_tables import ModesTable as ModesTable
+    from synergrip.tasks.motion_tables import MotionTable as MotionTable
+    from synergrip.tasks.moves import ModeMove as ModeMove
+    from synergrip.tasks.moves import Move as Move
+    from synergrip.tasks.palm_motion import Palm as Palm
+    from synergrip.tasks.palm_path import PalmPath as PalmPath
+    from synergrip.tasks.pushes import Push as Push
+    from synergrip.tasks.task import Task as Task
     from synergrip.tasks.timed_task import TimedTask as TimedTask
+    from synergrip.tasks.waypoints import Waypoints as Waypoints
+    from synergrip.tasks.wrenches import Wrench as Wrench
+    from synergrip.tasks.wrenches import WrenchTable as WrenchTable
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "errors": ("SynergripError", "InputError", "Refusal"),
-    "hands.hand": ("Hand",),
+    "errors": ("SynergripError", "InputError", "VerdictError", "Refusal"),
     "hands.folder": ("load_hand",),
+    "hands.hand": ("Hand",),
     "grasps.objects": ("Object", "Turned"),
     "grasps.shapes.shape": ("Shape",),
     "grasps.shapes.sphere": ("Sphere",),
@@ -88,54 +102,54 @@ _HOMES = {
     "grasps.contacts.kind": ("ContactKind",),
     "grasps.contacts.hard_finger": ("HardFinger",),
     "grasps.contacts.soft_finger": ("SoftFinger",),
-    "grasps.contacts.frictionless": ("Frictionless",),
     "grasps.contacts.elliptic_soft_finger": ("EllipticSoftFinger",),
     "grasps.contacts.patch_contact": ("PatchContact",),
+    "grasps.contacts.frictionless": ("Frictionless",),
     "grasps.contacts.contact": ("Contact",),
     "grasps.contact_at": ("ContactAt", "LinkPlace"),
     "grasps.grasp": ("Grasp",),
     "grasps.making": ("make_grasp",),
     "grasps.from_matrices": ("grasp_from_matrices",),
     "grasps.matrices": ("GivenContact", "read_matrices"),
+    "statics.analysis": ("analyse", "Analysis"),
     "statics": ("respond", "subspaces", "coordinates"),
-    "conic.limits.limit": (
-        "Limit",
-        "Usage",
-    ),
+    "conic.limits.limit": ("Limit", "Usage"),
     "conic.limits.slip_margin": ("SlipMargin",),
     "conic.limits.friction_reserve": ("FrictionReserve",),
     "conic.limits.normal_force": ("NormalForce",),
     "conic.limits.joint_torque": ("JointTorque",),
     "conic.limits.actuator_effort": ("ActuatorEffort",),
+    "conic.limits.joint_range": ("JointRange",),
     "conic.limits.synergy_reference": ("SynergyReference",),
     "conic.limits.synergy_rate": ("SynergyRate",),
     "conic.limits.synergy_acceleration": ("SynergyAcceleration",),
-    "conic.limits.joint_range": ("JointRange",),
     "conic.limits.elastic_motion": ("ElasticMotion",),
     "conic.limits.object_error": ("ObjectError",),
-    "conic.goals.goal": (
-        "Goal",
-        "Objective",
-        "squares_of",
-    ),
+    "conic.rows": ("within", "norm_within"),
+    "conic.goals.goal": ("Goal", "Objective", "squares_of"),
     "conic.goals.largest_margin": ("LargestMargin",),
     "conic.goals.least_peak": ("LeastPeak",),
     "conic.goals.least_effort": ("LeastEffort",),
+    "conic.goals.steady_forces": ("SteadyForces",),
     "conic.goals.least_motion": ("LeastMotion",),
     "conic.goals.centred_joints": ("CentredJoints",),
-    "conic.goals.steady_forces": ("SteadyForces",),
     "conic.goals.weighted_sum": ("WeightedSum",),
-    "conic.rows": (
-        "within",
-        "norm_within",
-    ),
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
-    "statics.analysis": ("Analysis", "analyse"),
+    "tasks.hold": ("Hold",),
+    "tasks.moves": ("Move", "ModeMove"),
+    "tasks.waypoints": ("Waypoints",),
+    "tasks.motion_tables": ("MotionTable", "ModesTable"),
+    "tasks.gravity": ("Gravity",),
+    "tasks.wrenches": ("Wrench", "WrenchTable"),
+    "tasks.pushes": ("Push",),
+    "tasks.palm_motion": ("Palm",),
+    "tasks.palm_path": ("PalmPath",),
+    "tasks.task": ("Task",),
     "tasks.timed_task": ("TimedTask",),
-    "problems.problem": ("Problem", "load_problem"),
-    "planning.outcome": ("Plan", "Infeasible", "Unknown"),
+    "problems.problem": ("load_problem", "Problem"),
     "planning.planning": ("plan",),
+    "planning.outcome": ("Plan", "Infeasible", "Unknown"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -149,3 +163,8 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(f"synergrip.{_HOME_OF[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """Return the public names, loaded or not."""
+    return list(__all__)

@@ -256,7 +256,7 @@ def test_the_csv_file_has_a_line_per_knot_that_agrees_with_the_document() -> Non
     expected = np.column_stack([*(found[part] for part in parts), found["margin"]["per_contact_N"]])
     assert np.array_equal(values, expected)
     assert len(header) == values.shape[1]
-    assert header[:6] == ["t_s", "zr_1", "zr_2", "zr_3", "zr_4", "lambda_C1_n_N"]
+    assert header[:6] == ["t_s", "zr_z1", "zr_z2", "zr_z3", "zr_z4", "lambda_C1_n_N"]
     with np.load("here/plan.npz", allow_pickle=False) as stored:
         assert np.array_equal(stored["dz_r"], found["dz_r"])
         assert np.array_equal(stored["margin"], found["margin"]["per_contact_N"])

@@ -22,7 +22,7 @@ KEYS = {
     "gap", "time_s", "time_ratio",
 }  # fmt: skip
 ELASTIC = 'limits.elastic_motion="2 mm"'
-VOLATILE = ("programs", "pyramids")
+VOLATILE = ("programs", "pyramids", "provenance")
 """Times are in both."""
 
 

@@ -35,7 +35,7 @@ def front(
         except SynergripError as error:
             raise located(loaded, error) from None
         if not isinstance(best, Plan):
-            document = outcome_document(loaded.title, loaded.grasp, best, loaded.notes)
+            document = outcome_document(loaded.title, loaded.grasp, best, loaded.notes, loaded.source)
             show(form, lambda: "\n".join(verdict_lines(loaded, best, color())), lambda: document)
             raise typer.Exit(best.exit_code)
         points, interrupted = [], best.interrupted

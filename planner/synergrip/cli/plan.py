@@ -86,7 +86,7 @@ def plan(
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
                 outcome = _found(make, loaded, answers)
-                document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes)
+                document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
                 with writing("--output", folder):
                     written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)

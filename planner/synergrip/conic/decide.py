@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from synergrip.conic.certificate import TIGHT, Certificate, judge_infeasible, judge_optimal, judge_unbounded
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
+from synergrip.log import LOG
 from synergrip.values import Value
 
 Solver = Callable[[Program, Settings], Solution]
@@ -68,6 +69,11 @@ def decide(goal: str, program: Program, solver: Solver, violation: float = TIGHT
         solution = solver(program, settings)
         seconds += solution.seconds
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
+        LOG.debug(
+            "%s, attempt %d of %d: %s says '%s' after %d iterations; %s %s", goal, attempt, len(ATTEMPTS),
+            solution.solver, solution.status, solution.iterations, decision.certificate.kind,
+            "verified" if decision.certificate.verified else "not verified",
+        )  # fmt: skip
         if best is None or rank(decision) < rank(best):
             best = decision
         if decision.certificate.tight(violation):

@@ -78,7 +78,7 @@ def load_hand(
         try:
             chosen = override(tree.couplings, coupling, at)
             _any_follower(chosen, follower_ranges, beside)
-            return bare_hand(path.stem, tree, chosen, follower_ranges or "keep")
+            return replace(bare_hand(path.stem, tree, chosen, follower_ranges or "keep"), file=str(path.resolve()))
         except InputError as error:
             raise error.located(lambda issue: issue if issue.key else replace(issue, key=key)) from None
     document = read_document(path, "hand file")
@@ -95,7 +95,8 @@ def load_hand(
     if follower_ranges is not None:
         file = file.model_copy(update={"follower_ranges": follower_ranges})
     try:
-        return _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
+        hand = _hand(path.parent, file, tree, chosen, judge_postures=coupling is None)
+        return replace(hand, file=str((path.parent / file.model).resolve()))
     except InputError as error:
         raise error.located(document.locate) from None
 

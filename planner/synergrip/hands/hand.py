@@ -166,6 +166,8 @@ class Hand(ByContent):
     """None when no file says what drives what."""
     still: tuple[str, ...] = ()
     """Links and joints of its file that stand still, because the palm is a link that they carry, or hang beside it."""
+    file: str = ""
+    """Its model file; empty when it comes from no file."""
 
     def __post_init__(self) -> None:
         """Judge the values.

@@ -19,6 +19,7 @@ from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.quantities import apart
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
+from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
@@ -65,6 +66,13 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     """
     answers = answerer(solver, "solver")
     known, asked = _judged(grasp, task)
+    outcome = _analysed(known, asked, answers)
+    LOG.info("%r", outcome)
+    return outcome
+
+
+def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> Outcome:
+    """Work out what the grasp can do, and plan."""
     if isinstance(known, Analysis):
         return _planned(known, asked, answers)
     try:
@@ -93,6 +101,8 @@ def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | An
 def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
     """Plan a task on a grasp that can hold its object."""
     grasp = analysis.grasp
+    LOG.info("planning on %d contacts with %d synergies: %r", grasp.n_c, grasp.n_z, task)
+    LOG.info("%r", analysis)
     try:
         formulation = formulated(analysis, task, redundancy=task.watches_references)
     except Refusal as refusal:
@@ -133,6 +143,7 @@ class _Planner:
 
     def outcome(self) -> Outcome:
         first, *others = self.task.goals
+        LOG.info("first '%s': %d knots, %d unknowns each", first.name, self.formulation.knots, self.formulation.n_v)
         limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
         best = self._ask(limits, first)
         if not best.decision.acceptable:

@@ -2,34 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from datetime import UTC, datetime
-from hashlib import sha256
-from json import dumps
 from typing import Any, Protocol
 
 from synergrip import __version__
+from synergrip.documents.source import Source
 from synergrip.planning.outcome import Outcome
 
 KEY = "provenance"
-
-
-@dataclass(frozen=True)
-class Source:
-    """What was asked, as it was written."""
-
-    name: str
-    content: str | Mapping[str, Any]
-    """The text of a file, or a dict of its structure."""
-    overrides: tuple[str, ...] = ()
-
-    @property
-    def sha256(self) -> str:
-        """Of the text in UTF-8, or of the dict as JSON with sorted keys."""
-        content = self.content
-        text = content if isinstance(content, str) else dumps(content, sort_keys=True, separators=(",", ":"))
-        return sha256(text.encode()).hexdigest()
 
 
 class Asked(Protocol):

@@ -23,6 +23,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
+from synergrip.log import LOG
 from synergrip.values import Value
 
 Answerer = Callable[[Question, Program, Settings], Solution]
@@ -138,6 +139,7 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:
             break
+        LOG.debug("%s: asked again in the units %s", question.goal.name, other.formulation.units)
         found = _decided(other, solver)
         best = min(best, found, key=lambda each: each.place)
     return _beside_its_value(_less_closely(best, solver))

@@ -17,6 +17,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array
+from synergrip.log import LOG
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.tasks.timed_task import unbounded
 from synergrip.values import Value
@@ -111,6 +112,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
         decision = answered.decision
+        LOG.info("then '%s': %s", goal.name, "optimal" if decision.optimal else decision.solution.status)
         if decision.unbounded:
             raise unbounded(goal)
         best = replace(

@@ -12,6 +12,7 @@ import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
@@ -61,6 +62,12 @@ class Problem:
     def title(self) -> str:
         """Title of the problem, or its name."""
         return self.file.title or self.name
+
+    @property
+    def source(self) -> Source:
+        """Its text as it was read, or the dict it was made of, and what was put over it."""
+        document = self.document
+        return Source(self.name, document.text or document.data, tuple(each.text for each in document.overrides))
 
 
 def bundled_problems() -> tuple[str, ...]:

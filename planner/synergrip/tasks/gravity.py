@@ -11,7 +11,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Arguments, Numbers, keep
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.palm_in_world import PalmInWorld, marks_of
-from synergrip.tasks.profiles import Constant, Profile
+from synergrip.tasks.profiles import Profile
 from synergrip.tasks.stated import Load, Setting
 
 
@@ -49,24 +49,24 @@ class Gravity(Load):
             message = f"gravity needs the mass of the object: {given if setting.body is None else 'give Object.mass'}"
             raise InputError.at("", message)
         weight = setting.body.mass * np.array(self.acceleration)
-        if setting.palm is None:
-            return Constant(frozen([*weight, 0, 0, 0]))
         return Weight(frozen(weight), setting.palm)
 
 
 @dataclass(frozen=True, eq=False)
 class Weight:
-    """The weight of the object in a palm that moves."""
+    """The weight of the object, also in a palm that moves."""
 
     force: Array
     """(3,) in the palm frame at the start [N]."""
-    palm: PalmInWorld
+    palm: PalmInWorld | None
+    """None when it stands still."""
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B; the centre of mass is there."""
-        return np.hstack([self.palm.seen(self.force, times), np.zeros((len(times), 3))])
+        force = np.tile(self.force, (len(times), 1)) if self.palm is None else self.palm.seen(self.force, times)
+        return np.hstack([force, np.zeros((len(times), 3))])
 
     @property
     def marks(self) -> Marks:
         """Those of the motion of the palm."""
-        return marks_of(self.palm)
+        return Marks() if self.palm is None else marks_of(self.palm)

@@ -9,13 +9,14 @@ import numpy as np
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
+from synergrip.documents.source import Source
 from synergrip.explain.repairs import repairs
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.provenance import KEY as PROVENANCE
-from synergrip.planning.provenance import Source, provenance_document
+from synergrip.planning.provenance import provenance_document
 from synergrip.planning.told import (
     between_document,
     check_document,
@@ -24,6 +25,8 @@ from synergrip.planning.told import (
     series_document,
     structure_document,
 )
+from synergrip.reports.data.execution import KEY as EXECUTION
+from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
 from synergrip.tasks.scaling import units_of
 
@@ -60,6 +63,8 @@ def _plan(plan: Plan) -> dict[str, Any]:
     for each in ARRAYS:
         place = document.setdefault(each.key, {}) if each.inside else document
         place[each.inside or each.key] = each.of(plan.moved)
+    if (execution := execution_document(plan)) is not None:
+        document[EXECUTION] = execution
     return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,

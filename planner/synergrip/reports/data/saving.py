@@ -7,11 +7,12 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TypeVar
 
+from synergrip.documents.source import Source
 from synergrip.errors import InputError, OutputError, one_of
 from synergrip.files import IMPOSSIBLE
 from synergrip.planning.answer import FORMATS
 from synergrip.planning.outcome import Outcome, Plan
-from synergrip.planning.provenance import Asked, Source
+from synergrip.planning.provenance import Asked
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import write_outcome
 

@@ -1,0 +1,13 @@
+"""What the library tells while it works, to whoever listens: the logger "synergrip" of the standard library.
+
+Stages of planning are told at INFO, attempts and changes of units at DEBUG. Nothing is printed unless a program asks:
+
+    logging.basicConfig(level=logging.INFO)
+"""
+
+from __future__ import annotations
+
+import logging
+
+LOG = logging.getLogger("synergrip")
+LOG.addHandler(logging.NullHandler())

@@ -1,0 +1,156 @@
+"""What another program needs to execute a plan of a hand without knowing synergrip: the `execution` of plan.json."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from synergrip.files import bundled
+from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.held import Held
+from synergrip.grasps.objects import Object, Turned
+from synergrip.grasps.shapes.shape import Shape
+from synergrip.grasps.shapes.sphere import Sphere
+from synergrip.hands.hand import Coupling, Hand
+from synergrip.linalg import Array
+from synergrip.planning.outcome import Plan
+from synergrip.planning.told import finite
+from synergrip.statics.motion import forces_at_start
+from synergrip.tasks.gravity import Weight
+from synergrip.tasks.palm_in_world import PalmInWorld
+from synergrip.tasks.palm_motion import PalmMotion
+from synergrip.tasks.palm_path import PalmSpline
+from synergrip.tasks.timed_task import TimedTask
+
+KEY = "execution"
+
+
+def execution_document(plan: Plan) -> dict[str, Any] | None:
+    """Return hand, object, contacts and load of a plan, SI units, palm frame at the start; None for matrices."""
+    held, grasp = plan.grasp.held, plan.grasp
+    if held is None:
+        return None
+    forces = forces_at_start(plan.analysis.response)
+    gravity, palm = _surroundings(plan.task, held.body.mass)
+    return {
+        **_hand(held.hand), "q_0": held.q, "S": grasp.S, "C_q": grasp.C_q, "C_z": grasp.C_z,
+        "lambda_0": forces, "tau_0": forces @ grasp.J, "gravity_m_s2": gravity,
+        "palm": None if palm is None else _poses(palm, plan.time),
+        "object": _object(held.body), "contacts": _contacts(plan, held), "load": _load(plan.task, held.body),
+        "interpolation": "linear",
+    }  # fmt: skip
+
+
+def _hand(hand: Hand) -> dict[str, Any]:
+    limits = [finite(joint.torque_limit) for joint in hand.joints]
+    return {
+        **_file(hand.file), "root_link": hand.links[0], "joints": list(hand.joint_names),
+        "joint_range": [[finite(joint.lower), finite(joint.upper)] for joint in hand.joints], "joint_torque": limits,
+        "followers": [each for name, coupling in hand.couplings.items() for each in _follower(name, coupling)],
+    }  # fmt: skip
+
+
+def _file(name: str) -> dict[str, Any]:
+    """Return the model file, a bundled one by its place in the repository, and what was in it."""
+    path = Path(name)
+    if not name or not path.is_file():
+        return {"hand_file": name or None, "sha256": None}
+    inside = bundled("models").resolve()
+    shown = f"models/{path.relative_to(inside).as_posix()}" if path.is_relative_to(inside) else path.as_posix()
+    return {"hand_file": shown, "sha256": sha256(path.read_bytes()).hexdigest()}
+
+
+def _follower(name: str, coupling: Coupling) -> list[dict[str, Any]]:
+    """Return an entry for each driver; what they move adds up, and the first one has the offset."""
+    return [
+        {"joint": name, "driver": driver, "ratio": ratio, "offset_rad": 0.0 if i else coupling.offset,
+         "rigid": coupling.rigid}
+        for i, (driver, ratio) in enumerate(coupling.ratios.items())
+    ]  # fmt: skip
+
+
+def _object(body: Object) -> dict[str, Any]:
+    tensor = body.mass * body.shape.inertia if body.shape is not None and body.mass else None
+    return {
+        "position_m": body.position, "mass_kg": body.mass, "inertia_kg_m2": tensor, "shape": _shape(body.shape)
+    }  # fmt: skip
+
+
+def _shape(shape: Shape | None, rotation: Array | None = None) -> dict[str, Any] | None:
+    """Return a shape by its name, with its sizes; the rotation has its own axes as columns."""
+    if shape is None:
+        return None
+    turned = np.eye(3) if rotation is None else rotation
+    if isinstance(shape, Turned):
+        return _shape(shape.shape, turned @ shape.rotation)
+    sizes: dict[str, Any] = {f"{size.name}_m": getattr(shape, size.name) for size in shape.sizes}
+    return {shape.name: sizes if isinstance(shape, Sphere) else sizes | {"rotation": turned}}
+
+
+def _contacts(plan: Plan, held: Held) -> list[dict[str, Any]]:
+    grasp = plan.grasp
+    each = zip(grasp.contacts, grasp.rows, held.touches, strict=True)
+    return [
+        {
+            "name": contact.name, "link": touch.pad.link, "point_m": contact.point + held.body.position,
+            "frame": contact.frame.T, "kind": contact.kind.name, "parameters": _parameters(contact),
+            "compliance": grasp.C_s[rows, rows], "pad_radius_m": touch.pad.radius, "pad_centre_m": touch.pad.point,
+        }
+        for contact, rows, touch in each
+    ]  # fmt: skip
+
+
+def _parameters(contact: Contact) -> Mapping[str, float]:
+    """Return the parameters of a contact's cone."""
+    return {parameter.key: getattr(contact.kind, parameter.name) for parameter in contact.kind.parameters}
+
+
+def _load(task: TimedTask, body: Object) -> dict[str, Any]:
+    """Return the external wrench at every knot and corner, straight in between but where it is curved.
+
+    Where it jumps an instant stands twice, with the wrench before and after.
+    """
+    lines = [(float(t), 0, wrench) for t, wrench in zip(task.times, task.wrench, strict=True)]
+    marks = task.course.marks if task.course is not None else None
+    curved: list[list[float]] = []
+    if marks is not None and task.course is not None:
+        instants = np.concatenate([marks.corners, [jump.time for jump in marks.jumps]])
+        inside = np.unique(instants[(instants >= task.times[0]) & (instants <= task.times[-1])])
+        found = task.course.load_at(inside)
+        there = np.tile(task.wrench[0], (len(inside), 1)) if found is None else found
+        known = set(task.times.tolist())
+        lines += [(float(t), 0, w) for t, w in zip(inside, there, strict=True) if float(t) not in known]
+        at = {time: wrench for time, _, wrench in lines}
+        lines += [(float(jump.time), jump.side, at[float(jump.time)] + jump.change)
+                  for jump in marks.jumps if float(jump.time) in at]  # fmt: skip
+        curved = [[float(start), float(end)] for start, end in marks.curved]
+    ordered = sorted(lines, key=lambda line: line[:2])
+    return {
+        "times_s": [time for time, _, _ in ordered], "wrench": np.array([wrench for _, _, wrench in ordered]),
+        "axes": "palm", "point": body.position, "curved_s": curved,
+    }  # fmt: skip
+
+
+def _surroundings(task: TimedTask, mass: float) -> tuple[Array | None, PalmInWorld | None]:
+    """Return gravity [m/s^2] in the palm frame at the start, and how the palm moves; None for what is not stated."""
+    gravity, palm = None, None
+    for part in getattr(task.course, "load", ()):
+        if isinstance(part, Weight) and mass:
+            gravity = part.force / mass
+        palm = getattr(part, "palm", None) or palm
+    return gravity, palm
+
+
+def _poses(palm: PalmInWorld, times: Array) -> list[dict[str, Any]]:
+    """Return position and rotation of the palm at the knots, in its frame at the start."""
+    seen = np.stack([palm.seen(axis, times) for axis in np.eye(3)], axis=1)  # R' e_i in rows, so that the rows are R
+    places = np.zeros((len(times), 3))
+    if isinstance(palm, PalmMotion):
+        places = np.outer(palm.profile.at(times), palm.shift)
+    elif isinstance(palm, PalmSpline):
+        places = (palm.poses(times)[:, :3] - palm.poses(palm.corners[:1])[0, :3]) @ palm.upright
+    return [{"position_m": place, "rotation": turned} for place, turned in zip(places, seen, strict=True)]
