@@ -25,7 +25,9 @@ ONLY_IN = {
     "clarabel": {"conic/solvers/clarabel_.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
-    "cvxpy": {f"referee/{name}.py" for name in ("judge", "model", "formulas", "motion_formulas", "motion_goals")},
+    "cvxpy": {
+        f"referee/{name}.py" for name in ("judge", "maps", "model", "formulas", "motion_formulas", "motion_goals")
+    },
     "typer": {f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "synergies")},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
