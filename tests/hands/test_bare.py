@@ -116,7 +116,7 @@ def test_couplings_that_leave_nothing_to_move_are_refused_at_the_key(tmp_path):
     path = write(tmp_path, plain("a", "b", after=f"<equality>{equalities}</equality>"), "h.xml")
     with pytest.raises(InputError, match="nothing is left to move") as caught:
         load_hand(path)
-    assert caught.value.issues[0].key == "hand.model"
+    assert caught.value.issues[0].key == "name_or_path"
 
 
 def test_couplings_whose_ratios_multiply_beyond_reason_are_refused():
@@ -130,7 +130,7 @@ def test_paths_are_relative_to_the_problem(tmp_path):
     assert load_hand("pincer.urdf", relative_to=tmp_path).name == "pincer"
     with pytest.raises(InputError, match=r"not found; did you mean 'pincer\.urdf'") as caught:
         load_hand("pincr.urdf", relative_to=tmp_path)
-    assert (caught.value.issues[0].key, caught.value.issues[0].file) == ("hand.model", "")
+    assert (caught.value.issues[0].key, caught.value.issues[0].file) == ("name_or_path", "")
     with pytest.raises(InputError, match=r"nor a folder with hand\.toml nor a \.urdf, \.xml or \.mjcf file"):
         load_hand("pincer", relative_to=tmp_path)
     (tmp_path / "odd.urdf").mkdir()
@@ -142,7 +142,7 @@ def test_paths_are_relative_to_the_problem(tmp_path):
 def test_what_cannot_be_the_name_of_a_file_is_refused(tmp_path, name):
     with pytest.raises(InputError) as caught:
         load_hand(name, relative_to=tmp_path)
-    assert caught.value.issues[0].key == "hand.model"
+    assert caught.value.issues[0].key == "name_or_path"
 
 
 def test_the_coupling_of_a_problem_replaces_that_of_the_file(tmp_path):
@@ -151,7 +151,7 @@ def test_the_coupling_of_a_problem_replaces_that_of_the_file(tmp_path):
     assert load_hand(path, coupling={"follow": 0.75}).couplings["follow"] == Coupling({"lead": 0.75}, -0.1)
     with pytest.raises(InputError, match="'push' follows no other joint") as caught:
         load_hand(path, coupling={"push": 1.0})
-    assert caught.value.issues[0].key == "hand.coupling.push"
+    assert caught.value.issues[0].key == "coupling.push"
     locked = fingers(("a", ""), ("b", ""), after='<equality><joint joint1="b" polycoef="0.1"/></equality>')
     hand = load_hand(write(tmp_path, locked, "locked.xml"))
     assert hand.synergy_sets["free"].title == "each joint that follows no other one; 'b' is locked"

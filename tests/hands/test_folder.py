@@ -154,7 +154,7 @@ def test_an_unknown_hand_is_refused_with_the_bundled_names(tmp_path, wish):
     with pytest.raises(InputError) as caught:
         load_hand(wish, relative_to=tmp_path)
     (issue,) = caught.value.issues
-    assert issue.key == "hand.model"
+    assert issue.key == "name_or_path"
     assert "(barrett, barrett-table2" in issue.message
     assert ("did you mean 'barrett'?" in issue.message) == (wish == "baret")
 
@@ -162,9 +162,9 @@ def test_an_unknown_hand_is_refused_with_the_bundled_names(tmp_path, wish):
 @pytest.mark.parametrize(
     ("name", "coupling", "key", "fragment"),
     [
-        ("barrett", {"finger1_outr": 1.0}, "hand.coupling.finger1_outr", "did you mean 'finger1_outer'?"),
-        ("barrett", {"finger1_inner": 1.0}, "hand.coupling.finger1_inner", "follows no other joint"),
-        ("bare", 0.5, "hand.coupling", "no joint of this hand follows another one"),
+        ("barrett", {"finger1_outr": 1.0}, "coupling.finger1_outr", "did you mean 'finger1_outer'?"),
+        ("barrett", {"finger1_inner": 1.0}, "coupling.finger1_inner", "follows no other joint"),
+        ("bare", 0.5, "coupling", "no joint of this hand follows another one"),
     ],
 )
 def test_a_coupling_the_hand_does_not_have_is_refused(tmp_path, name, coupling, key, fragment):

@@ -41,7 +41,7 @@ def test_what_a_file_holds_decides_whatever_its_name_is(tmp_path, text, name):
 def test_macros_are_to_be_expanded_first(tmp_path, name, result, text):
     (tmp_path / name).write_text(text, encoding="utf-8")
     issue = refused(tmp_path / name)
-    assert issue.key == "hand.model"
+    assert issue.key == "name_or_path"
     assert f"expand it first, with `xacro {name} > {result}`" in issue.message
     (tmp_path / "hand.toml").write_text(
         f'schema = 1\ntitle = "h"\nmodel = "{name}"\njoint = [{{ name = "a" }}]\n', encoding="utf-8"
@@ -101,7 +101,7 @@ def test_what_macros_leave_behind_is_no_macro(tmp_path):
 def test_files_of_other_kinds_are_told_by_their_names(tmp_path, name, fragment):
     (tmp_path / name).write_bytes(b"\0\1\2 whatever")
     issue = refused(tmp_path / name)
-    assert (issue.key, issue.file) == ("hand.model", "")
+    assert (issue.key, issue.file) == ("name_or_path", "")
     assert f"'{name}' is {fragment}" in issue.message
     assert re.search(r"; (give|unpack)", issue.message)
     problem = tmp_path / "p.toml"

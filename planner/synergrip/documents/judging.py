@@ -72,7 +72,8 @@ class Arguments:
     def numbers(self, name: str, value: object, wanted: str, *, infinite: bool = False) -> Array | None:
         """Return an array of finite numbers, None after noting why not."""
         try:
-            found = np.asarray(value, dtype=np.float64)
+            given = np.asarray(value)
+            found = None if given.dtype.kind in "cSU" else given.astype(np.float64, copy=False)
         except (TypeError, ValueError):
             found = None
         if found is None or value is None or isinstance(value, bool | str):

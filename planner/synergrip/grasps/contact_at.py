@@ -96,10 +96,10 @@ class ContactAt:
         if not isinstance(self.at, LinkPlace):
             judge.text("at", self.at, empty=False)
         if judge.one("kind", self.kind, ContactKind, "HardFinger(friction=0.6)") is not None:
-            if self.tangential_stiffness is None and self.stiffness is not None:
-                object.__setattr__(self, "tangential_stiffness", self.stiffness)
             for name in EXAMPLE_OF:
                 object.__setattr__(self, name, self._judged(judge, name))
+            if self.tangential_stiffness is None and "tangential_stiffness" in self.kind.stiffnesses():
+                object.__setattr__(self, "tangential_stiffness", self.stiffness)
         if self.normals not in (None, "object", "pad"):
             judge.refuse("normals", one_of(described(self.normals).strip("'"), ("object", "pad")))
         if self.tangent is not None:
@@ -121,7 +121,7 @@ class ContactAt:
                 judge.refuse(name, f"a {self.kind.name} contact has no {name.replace('_', ' ')}; leave it out")
             return None
         if value is None:
-            if name != "tangential_stiffness":  # or the one message says it twice
+            if name != "tangential_stiffness":  # which follows from the other
                 judge.refuse(name, f"missing; a {self.kind.name} contact needs it, in {unit}; math.inf when rigid")
             return None
         return judge.number(name, value, at_least=SOFTEST, unit=unit, infinite=True)

@@ -103,7 +103,7 @@ def make_grasp(
         q = _joint_values(hand, chosen, posture)
         C_q = _joint_compliance(hand, joint_compliance)
         C_z = diagonal(synergy_compliance, chosen.synergies, "synergy_compliance", "synergies")
-        direction = closing_direction(hand, chosen, close) if close is not None else None
+        direction = closing_direction(hand, chosen, _wish(close)) if close is not None else None
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
     raise_issues(issues)
@@ -130,6 +130,18 @@ def _synergies(hand: Hand, wish: Synergies | None, folder: Path) -> SynergySet:
         message = f"expected a number of synergies, a name, a file, a list of names or a set, got {described(wish)}"
         raise InputError.at("synergies", message)
     return select(hand, wish, "synergies", folder)
+
+
+def _wish(close: object) -> str | Mapping[str, float]:
+    """Return what the hand closes along, when it is a name or weights by name."""
+    judge = Arguments("")
+    if not isinstance(close, str | Mapping) or not close:
+        message = "expected the name of a synergy or joint, with '-' in front for the opposite direction, or weights by"
+        raise InputError.at("close", f"{message} name such as {{'s1': -1, 's2': 0.2}}, got {described(close)}")
+    for name, weight in close.items() if isinstance(close, Mapping) else ():
+        judge.number(f"close.{name}", weight)
+    judge.finish()
+    return close
 
 
 def _joint_values(hand: Hand, synergies: SynergySet, wish: object) -> Array:

@@ -51,7 +51,7 @@ def load_hand(
     coupling: Mapping[str, float] | float | None = None,
     palm: str = "",
     follower_ranges: FollowerRanges | None = None,
-    key: str = "hand.model",
+    key: str = "name_or_path",
 ) -> Hand:
     """Return a hand by the name of a bundled one, or by a path.
 
