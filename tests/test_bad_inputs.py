@@ -43,7 +43,7 @@ def read_everything(folder):
             read_given(document.beside(problem.grasp.file), "grasp.file")
         tables = {"wrench": WRENCH, "motion": MOTION, "modes": MODES}
         for name, columns in tables.items():
-            value = getattr(problem.timed, name)
+            value = getattr(problem.task, name)
             if isinstance(value, str):
                 read_table(document.beside(value), columns, f"task.{name}")
     except InputError as error:
