@@ -30,7 +30,7 @@ class Loads:
 
 def loads(table: TaskTable, folder: Path, mass: float = 0.0, body: Object | None = None) -> Loads:
     """What happens to an object, or to a bare mass at the origin of the palm."""
-    body = body or (Object("thing", mass, np.zeros(3), None) if mass else None)
+    body = body or (Object(mass=mass, position=np.zeros(3)) if mass else None)
     task, keys = task_of(table, folder)
     try:
         times, profiles = happening(task, body)

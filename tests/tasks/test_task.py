@@ -59,7 +59,7 @@ EXAMPLES: tuple[Load | Motion, ...] = (
     Waypoints(times=[1, 2], positions=[[0, 0, 1], [0, 1, 0]]), MotionTable([0, 2], np.ones((2, 6))),
     ModesTable([0, 2], np.ones((2, 3))),
 )  # fmt: skip
-BALL = Object("ball", 0.2, np.array([0.0, 0.0, 0.1]), Sphere(0.05))
+BALL = Object(title="ball", mass=0.2, position=np.array([0.0, 0.0, 0.1]), shape=Sphere(0.05))
 
 
 def same(one: TimedTask, other: TimedTask) -> None:
