@@ -58,7 +58,7 @@ class Judge:
     def _numbers(self, name: str, value: object, wanted: str) -> Array | None:
         try:
             found = np.asarray(value, dtype=np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             found = None
         if found is None or value is None or isinstance(value, bool | str):
             self.refuse(name, f"expected {wanted}, got {shown(value)}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
@@ -10,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
@@ -106,7 +106,7 @@ def limit_issues(limits: Any) -> Iterator[Issue]:
 def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
     """Yield an issue for each argument that is none of its words."""
     for name, (word, valid) in words.items():
-        if word not in valid:
+        if not isinstance(word, str) or word not in valid:
             yield Issue(one_of(word, valid), f"Task.{name}")
 
 
@@ -115,4 +115,5 @@ def _shown(value: Any) -> str:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and math.isfinite(value)
+    is_number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+    return bool(is_number and -LARGEST_NUMBER <= value <= LARGEST_NUMBER)
