@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import MISSING, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -262,3 +262,27 @@ def test_a_mistake_in_code_names_its_argument(mistake: Callable[[], Any], key: s
     (issue,) = caught.value.issues
     assert issue.key == key
     assert fragment in str(issue)
+
+
+NONSENSE: list[Any] = [
+    None, -1, float("nan"), float("inf"), "abc", "", [], [1], [[1, 2], [3]], {}, {1}, object(), True, 1j, int, b"x",
+    np.zeros((0, 6)), np.zeros((2, 3, 4)), np.array("a"), 10**400, [10**400], [None] * 3, ["x"] * 6,
+]  # fmt: skip
+LEAST: dict[str, Any] = {
+    "times": [1, 2, 3, 4], "values": np.zeros((4, 6)), "poses": np.zeros((4, 6)), "acceleration": (0, 0, -9),
+    "force": 1, "direction": "x", "axis": "x", "mode": 1, "amplitude": 1, "parts": (),
+}  # fmt: skip
+"""What must be given, with values that are right."""
+
+
+@pytest.mark.parametrize("kind", [*LOADS, *TARGETS, Task], ids=lambda kind: kind.__name__)
+def test_nonsense_in_any_argument_is_an_input_error_or_means_something(kind: Any) -> None:
+    needed = {field.name: LEAST[field.name] for field in fields(kind) if field.default is MISSING}
+    for name in (field.name for field in fields(kind)):
+        refused = 0
+        for value in NONSENSE:
+            try:
+                kind(**{**needed, name: value})
+            except InputError:
+                refused += 1
+        assert refused > len(NONSENSE) / 2

@@ -74,7 +74,7 @@ class Arguments:
         try:
             given = np.asarray(value)
             found = None if given.dtype.kind in "cSU" else given.astype(np.float64, copy=False)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             found = None
         if found is None or value is None or isinstance(value, bool | str):
             self.refuse(name, f"expected {wanted}, got {described(value)}")

@@ -58,7 +58,7 @@ class Palm(Load):
             judge.refuse(missing, f"is missing; it goes with {given}, for example axis='x', turn=1.57")
         if shift is not None and self.inertia is False:
             judge.refuse("shift", "a shift loads the object by its inertia only; give inertia=True")
-        if self.inertia is True and self.profile == "linear":
+        if self.inertia is True and isinstance(self.profile, str) and self.profile == "linear":
             what = "starts and stops at once, which no finite force does; use 'min-jerk' or 'cubic'"
             judge.refuse("profile", f"with inertia, a linear profile {what}")
         keep(self, judge, axis=axis, turn=turn, shift=shift)

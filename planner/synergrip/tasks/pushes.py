@@ -61,9 +61,10 @@ class Push(Load):
             "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0),
         }
         judge.word("profile", self.profile, get_args(PushProfile))
-        if self.profile == "trapezoid" and self.ramp is None:
+        profile = self.profile if isinstance(self.profile, str) else ""
+        if profile == "trapezoid" and self.ramp is None:
             judge.refuse("ramp", "a trapezoid needs ramp, the time to its full force in seconds, for example 0.1")
-        if self.profile != "trapezoid" and self.ramp is not None:
+        if profile != "trapezoid" and self.ramp is not None:
             judge.refuse("ramp", f"'ramp' is for a trapezoid; the profile is {self.profile!r}")
         keep(self, judge, **kept)
 

@@ -85,7 +85,7 @@ class Task:
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
         axes = _listed(judge, "axes", self.axes, str, f"names of axes, of {', '.join(AXES)}")
         factor = judge.real("load_factor", self.load_factor, at_least=0)
-        compliant = self.tracking == "compliant"
+        compliant = isinstance(self.tracking, str) and self.tracking == "compliant"
         judge.issues += [
             *limit_issues(limits), *goal_issues(goals), *_axis_issues(axes, self.drift),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
@@ -13,6 +12,7 @@ from synergrip.conic.arguments import is_number, told
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import MARGIN
+from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
@@ -83,9 +83,9 @@ def limit_issues(limits: Any) -> Iterator[Issue]:
 def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
     """Yield an issue for each argument that is none of its words."""
     for name, (word, valid) in words.items():
-        if word not in valid:
+        if not isinstance(word, str) or word not in valid:
             yield Issue(one_of(word, valid), f"Task.{name}")
 
 
 def _is_size(value: Any) -> bool:
-    return is_number(value) and math.isfinite(value)
+    return is_number(value) and bool(-LARGEST_NUMBER <= value <= LARGEST_NUMBER)
