@@ -13,8 +13,8 @@ import pytest
 
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.errors import InputError
 from synergrip.files import bundled
 from synergrip.grasps.objects import Object, Sphere
@@ -68,7 +68,7 @@ def same(one: TimedTask, other: TimedTask) -> None:
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
     np.testing.assert_array_equal(one.target.values, other.target.values)
     assert one.target.kind == other.target.kind
-    for name in ("margin", "order", "weights", "tolerance", "tracking", "axes", "drift", "between"):
+    for name in ("margin", "goals", "tolerance", "tracking", "axes", "drift", "between"):
         assert getattr(one, name) == getattr(other, name)
     assert one.course is not None
     assert other.course is not None
@@ -167,10 +167,10 @@ def test_a_task_is_varied_without_touching_the_first_one() -> None:
     lighter = problem.task.replace(duration=3.0, knots=7, loads=[Gravity((0, 0, -1.0))])
     assert lighter.timed(problem.grasp).times == pytest.approx(np.linspace(0, 3, 7))
     assert len(problem.task.timed(problem.grasp).times) == len(problem.timed.times)
-    strict = problem.task.replace(limits=[FrictionCone(1e3), NormalForce(0.0, 20.0)])
+    strict = problem.task.replace(limits=[SlipMargin(1e3), NormalForce(0.0, 20.0)])
     assert isinstance(plan(problem.grasp, strict), Infeasible)
     best = problem.task.replace(limits=[NormalForce(0.0, 20.0)], goals=[LargestMargin(), LeastEffort()])
-    assert best.timed(problem.grasp).order == ("margin", "effort")
+    assert best.timed(problem.grasp).goals == (LargestMargin(), LeastEffort())
 
 
 def test_an_analysis_stands_for_its_grasp_and_holds_the_load_too() -> None:

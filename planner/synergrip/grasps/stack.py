@@ -134,8 +134,8 @@ class GraspStack(Sequence[Grasp]):
         grasp, arrays = self.like, vars(self.matrices.taken(place))
         moved = zip(grasp.contacts, self.points[place], strict=True)
         contacts = tuple(replace(contact, point=frozen(point)) for contact, point in moved)
-        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None,
-                       **{name: frozen(value) for name, value in arrays.items()})  # fmt: skip
+        own: dict[str, Any] = {name: frozen(value) for name, value in arrays.items()}
+        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **own)
 
     def taken(self, places: Any) -> GraspStack:
         """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""

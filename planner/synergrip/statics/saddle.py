@@ -142,7 +142,7 @@ def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> d
 
 
 def about_centroid(metric: Metric) -> Array:
-    """Return T (..., 6, 6): ``T w`` is the wrench about the centroid of the contacts, ``T' u`` turns its motion to B's."""
+    """Return T (..., 6, 6): ``T w`` is the wrench about the contacts' centroid, ``T' u`` turns its motion to B's."""
     T = np.zeros_like(metric.motion)
     T[..., range(6), range(6)] = 1.0
     T[..., 3:, :3] = metric.motion[..., :3, 3:]
@@ -183,7 +183,7 @@ class _System(Generic[N]):
 def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
     """Return the inverse of the system, whose rows and columns are brought to about one size first."""
     JS, G = system.J @ system.S, turned @ system.G
-    C = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
+    C: N = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
     corner = arithmetic.number(np.zeros((*arithmetic.rounded(C).shape[:-2], 6, 6)))
     A = arithmetic.block([[C, G.mT], [G, corner]])
     sizes = np.abs(arithmetic.rounded(A))
@@ -191,4 +191,5 @@ def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int)
     motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
     size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
     both = size * size.mT
-    return arithmetic.inverse(A * both) * both
+    inverse: N = arithmetic.inverse(A * both) * both
+    return inverse

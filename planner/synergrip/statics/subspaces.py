@@ -91,7 +91,7 @@ def subspaces(response: Response) -> Subspaces:
 class Moving:
     """Synergy motions that cost no force, split into those that move contacts and those that move none."""
 
-    ranks: Array  # (...)
+    ranks: NDArray[np.intp]  # (...)
     directions: Array
     """(..., n_z, dim) orthonormal; as many as `ranks` says move contacts, the rest move none."""
 
