@@ -16,6 +16,7 @@ from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.program import Program
 from synergrip.conic.pyramids import inscribed
+from synergrip.conic.rows import Item
 from synergrip.documents.csv_cells import cells_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
@@ -110,11 +111,11 @@ def test_a_contact_named_object_is_no_drift_of_the_object() -> None:
     formulation = formulated(analysis, task, redundancy=True)
     (rows,) = drift.rows(formulation)
     assert rows.dim == 3
-    assert inscribed(rows, ["object", "b", "c"], 6) is rows
+    assert inscribed(rows, [Item(name) for name in ("object", "b", "c")], 6) is rows
 
 
 def test_what_two_contacts_are_called_is_refused_in_python() -> None:
-    for names, key in ((["a", "b", "a"], "Grasp.contacts[2]"), (["a", "", "c"], "Grasp.contacts[1]")):
+    for names, key in ((["a", "b", "a"], "Grasp.contacts[2]"), (["a", "", "c"], "Contact.name")):
         with pytest.raises(InputError) as caught:
             named(names)
         assert caught.value.issues[0].key == key
