@@ -116,9 +116,8 @@ def singular_values(matrices: Array) -> Array:
     """Return the n singular values (..., n) of matrices (..., m, n), descending; 0 where m is less than n."""
     values, clear = _from_squares(matrices)
     if not np.all(clear):
-        values[~clear] = _padded(
-            np.asarray(np.linalg.svd(matrices[~clear], compute_uv=False), dtype=np.float64), values.shape[-1]
-        )
+        exact = np.asarray(np.linalg.svd(matrices[~clear], compute_uv=False), dtype=np.float64)
+        values[~clear] = _padded(exact, values.shape[-1])
     return values
 
 

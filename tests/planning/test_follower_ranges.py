@@ -175,7 +175,7 @@ def test_a_follower_that_may_part_keeps_what_its_own_range_allows(tmp_path):
 def test_a_hand_without_followers_has_no_use_for_the_key(tmp_path):
     with pytest.raises(InputError, match="no joint of this hand follows another one") as caught:
         load_hand("gripper", follower_ranges="ignore")
-    assert caught.value.issues[0].key == "hand.follower_ranges"
+    assert caught.value.issues[0].key == "follower_ranges"
 
 
 def test_a_coupling_of_the_problem_is_named_by_its_key(tmp_path):

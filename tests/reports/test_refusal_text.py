@@ -17,7 +17,8 @@ margin = "0.5"
 """
 
 SHOWN = """\
-error contact[0].model: 'hrad' is not one of 'hard', 'soft' or 'frictionless'; did you mean 'hard'?
+error contact[0].model: 'hrad' is not one of 'hard', 'soft', 'frictionless', 'soft-elliptic' or \
+'patch'; did you mean 'hard'?
   --> {path}:4:9
    4 | model = "hrad"
      |         ^^^^^^

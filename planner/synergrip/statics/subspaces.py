@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
