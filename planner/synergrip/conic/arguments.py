@@ -8,7 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from synergrip.documents.validation import shown
+from synergrip.documents.judging import described
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 
@@ -32,7 +32,7 @@ def size(key: str, value: Any, wanted: str, *, above: float = -math.inf, at_leas
     """
     fits = is_number(value) and math.isfinite(value) and value > above and value >= at_least
     if not fits:
-        raise InputError.at(key, f"expected {wanted}, got {told(value)}")
+        raise InputError.at(key, f"expected {wanted}, got {described(value)}")
     return float(value)
 
 
@@ -67,7 +67,7 @@ def numbers(key: str, value: Any, of: str) -> Array:
     except (TypeError, ValueError):
         found = None
     if found is None or value is None or isinstance(value, bool | str):
-        raise InputError.at(key, f"expected {wanted}, got {told(value)}")
+        raise InputError.at(key, f"expected {wanted}, got {described(value)}")
     if found.ndim > 1:
         raise InputError.at(key, f"expected {wanted}, got an array of shape {found.shape}")
     return found if found is value and not found.flags.writeable else frozen(np.array(found))
@@ -90,11 +90,6 @@ def one_each(key: str, value: Array, names: Sequence[str], of: str) -> Array:
 def is_number(value: Any) -> bool:
     """Return whether a value is one number: `True` and texts are none."""
     return isinstance(value, int | float | np.number) and not isinstance(value, bool)
-
-
-def told(value: Any) -> str:
-    """Return a value as messages show it."""
-    return f"{float(value):g}" if isinstance(value, np.number) else shown(value)
 
 
 class Complete:

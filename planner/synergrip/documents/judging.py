@@ -128,7 +128,9 @@ class Arguments:
 
 def described(value: object) -> str:
     """Return what came, for a message: a number or a text itself, of anything else what it is."""
-    if value is None or isinstance(value, bool | int | float | str | list | dict):
+    if isinstance(value, np.number) and not np.iscomplexobj(value):
+        return f"{float(value):g}"
+    if value is None or isinstance(value, bool | int | float | str | list | tuple | dict):
         return shown(value)
     if isinstance(value, type):
         return f"the class {value.__name__} itself; make one with {value.__name__}(...)"

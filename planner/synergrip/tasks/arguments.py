@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.documents.documents import LARGEST_NUMBER
-from synergrip.documents.validation import shown
+from synergrip.documents.judging import described
 from synergrip.errors import one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, frozen, unit_vector
@@ -20,7 +20,7 @@ Rows = Sequence[Sequence[float]] | Array
 """What may be given as a table (K, m)."""
 
 
-class Arguments(Judge):
+class TaskArguments(Judge):
     """Judges the arguments of a load or a target, and returns each as it is kept: plain, immutable values."""
 
     def real(self, name: str, value: Any, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
@@ -29,7 +29,7 @@ class Arguments(Judge):
         wanted = f" of at least {at_least:g}" if at_least > -math.inf else wanted
         is_number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
         if not is_number or not above < value <= LARGEST_NUMBER or not max(at_least, -LARGEST_NUMBER) <= value:
-            self.refuse(name, f"expected a number{wanted}, got {plainly(value)}")
+            self.refuse(name, f"expected a number{wanted}, got {described(value)}")
             return math.nan
         return float(value)
 
@@ -70,7 +70,7 @@ class Arguments(Judge):
     def flag(self, name: str, value: Any) -> None:
         """Note what is neither true nor false."""
         if not isinstance(value, bool):
-            self.refuse(name, f"expected True or False, got {plainly(value)}")
+            self.refuse(name, f"expected True or False, got {described(value)}")
 
     def times(self, name: str, values: Any, apart: float = 0.0) -> Array:
         """Return increasing times (K,) [s], each at least `apart` [s] after the one before."""
@@ -87,11 +87,6 @@ class Arguments(Judge):
             least = f" by at least {1e6 * apart:.3g} us" if apart else ""
             self.refuse(name, f"times must increase{least}: {found[k + 1]:g} s comes after {found[k]:g} s; sort them")
         return found
-
-
-def plainly(value: Any) -> str:
-    """Return a value as messages show it."""
-    return f"{float(value):g}" if isinstance(value, np.number) else shown(value)
 
 
 def keep(of: object, judge: Judge, **values: object) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, keep
+from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.palm_in_world import PalmInWorld, marks_of
 from synergrip.tasks.profiles import Profile
@@ -34,7 +34,7 @@ class Gravity(Load):
 
     def __post_init__(self) -> None:
         """Judge the argument."""
-        judge = Arguments("Gravity")
+        judge = TaskArguments("Gravity")
         what = "3 accelerations in m/s^2, axes of the palm, such as (0, 0, -9.81)"
         keep(self, judge, acceleration=judge.vector("acceleration", self.acceleration, 3, what))
 

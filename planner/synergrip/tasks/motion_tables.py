@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.documents.time_table import MODES, MOTION, Table, read_table
 from synergrip.linalg import Array
-from synergrip.tasks.arguments import Arguments, Numbers, Rows, keep
+from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
 from synergrip.tasks.profiles import Tabled
 from synergrip.tasks.stated import Motion, Setting
 
@@ -36,7 +36,7 @@ class MotionTable(Motion):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("MotionTable")
+        judge = TaskArguments("MotionTable")
         times = judge.times("times", self.times)
         what = "x, y, z [m] and a rotation vector [rad] in each row"
         keep(self, judge, times=times, values=judge.rows("values", self.values, (len(times), 6), what))
@@ -90,7 +90,7 @@ class ModesTable(Motion):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("ModesTable")
+        judge = TaskArguments("ModesTable")
         times = judge.times("times", self.times)
         width = judge.width(self.values)
         what = "coordinates of Gamma_ucs [m], a column for each"

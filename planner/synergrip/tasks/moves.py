@@ -7,8 +7,9 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.judging import described
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, keep, plainly
+from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.marks import Marks, together
 from synergrip.tasks.profiles import PROFILES, ProfileName, Rise
 from synergrip.tasks.stated import Motion, Setting
@@ -59,7 +60,7 @@ class Move(_Addable):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("Move")
+        judge = TaskArguments("Move")
         axis = judge.direction("axis", self.axis)
         lift = None if self.lift is None else judge.real("lift", self.lift)
         roll = None if self.roll is None else judge.real("roll", self.roll)
@@ -97,10 +98,10 @@ class ModeMove(_Addable):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("ModeMove")
+        judge = TaskArguments("ModeMove")
         whole = isinstance(self.mode, int | np.integer) and not isinstance(self.mode, bool)
         if not whole or not 1 <= self.mode <= MOST_MODES:
-            judge.refuse("mode", f"expected a whole number from 1 to {MOST_MODES}, got {plainly(self.mode)}")
+            judge.refuse("mode", f"expected a whole number from 1 to {MOST_MODES}, got {described(self.mode)}")
         amplitude = judge.real("amplitude", self.amplitude)
         judge.word("profile", self.profile, tuple(PROFILES))
         keep(self, judge, mode=int(self.mode) if whole else 0, amplitude=amplitude)
@@ -134,12 +135,14 @@ class Moves(_Addable):
 
     def __post_init__(self) -> None:
         """Judge the parts."""
-        judge = Arguments("Moves")
+        judge = TaskArguments("Moves")
         parts = tuple(self.parts) if isinstance(self.parts, list | tuple) else (self.parts,)
         kinds = {type(part) for part in parts}
         if not kinds or not kinds <= {Move, ModeMove}:
             odd = next((part for part in parts if not isinstance(part, Move | ModeMove)), None)
-            judge.refuse("parts", f"expected one or more of Move and ModeMove, got {plainly(odd) if parts else 'none'}")
+            judge.refuse(
+                "parts", f"expected one or more of Move and ModeMove, got {described(odd) if parts else 'none'}"
+            )
         elif len(kinds) > 1:
             judge.refuse("parts", "moves along an axis and moves along a mode cannot be mixed")
         keep(self, judge, parts=parts)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, keep
+from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.inertia import Inertia, inertia
 from synergrip.tasks.palm_in_world import acceleration_of
 from synergrip.tasks.profiles import PROFILES, ProfileName, Rise
@@ -44,7 +44,7 @@ class Palm(Load):
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
-        judge = Arguments("Palm")
+        judge = TaskArguments("Palm")
         axis = None if self.axis is None else judge.direction("axis", self.axis)
         turn = None if self.turn is None else judge.real("turn", self.turn)
         what = "3 lengths in m, axes of the palm at the start"

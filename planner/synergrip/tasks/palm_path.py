@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.documents.time_table import MOTION, read_table
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, Rows, keep
+from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
 from synergrip.tasks.inertia import Inertia, inertia
 from synergrip.tasks.marks import SAME_TIME
 from synergrip.tasks.palm_in_world import acceleration_of
@@ -53,7 +53,7 @@ class PalmPath(Load):
 
     def __post_init__(self) -> None:
         """Judge the arguments, and the way between the poses."""
-        judge = Arguments("PalmPath")
+        judge = TaskArguments("PalmPath")
         times = judge.times("times", self.times)
         poses = judge.rows("poses", self.poses, (len(times), 6), "x, y, z [m] and a rotation vector [rad] in each row")
         judge.flag("inertia", self.inertia)
@@ -180,7 +180,7 @@ def _vector_between(p: Array, r: Array) -> Array:
     return np.asarray(p[:, 3:] * r[:, :3] - r[:, 3:] * p[:, :3] - np.cross(p[:, :3], r[:, :3]))
 
 
-def _judge_path(judge: Arguments, times: Array, poses: Array, inertia: bool) -> None:
+def _judge_path(judge: TaskArguments, times: Array, poses: Array, inertia: bool) -> None:
     """Note what does not say how the palm moves between its poses."""
     if len(times) < (LEAST_LINES_WITH_INERTIA if inertia else LEAST_LINES):
         needed = f"a path takes at least {LEAST_LINES} lines"

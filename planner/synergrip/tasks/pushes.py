@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, keep
+from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.marks import SAME_TIME, Jump, Marks
 from synergrip.tasks.stated import Corner, Load, Setting
 
@@ -51,7 +51,7 @@ class Push(Load):
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
-        judge = Arguments("Push")
+        judge = TaskArguments("Push")
         kept = {
             "force": judge.real("force", self.force, at_least=0),
             "direction": judge.direction("direction", self.direction),

@@ -12,9 +12,10 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName
+from synergrip.documents.judging import described
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
-from synergrip.tasks.arguments import Arguments, keep, plainly
+from synergrip.tasks.arguments import TaskArguments, keep
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.hold import Hold
 from synergrip.tasks.knots import MOST_KNOTS
@@ -74,12 +75,12 @@ class Task:
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
-        judge = Arguments("Task")
+        judge = TaskArguments("Task")
         duration = None if self.duration is None else judge.real("duration", self.duration, at_least=SHORTEST)
         knots = None if self.knots is None else _whole(judge, self.knots)
         if not isinstance(self.target, Motion):
             expected = "where the object is wanted, such as Hold(), Move(...) + Move(...) or Waypoints(...)"
-            judge.refuse("target", f"expected {expected}, got {plainly(self.target)}")
+            judge.refuse("target", f"expected {expected}, got {described(self.target)}")
         loads = _listed(judge, "loads", self.loads, Load, "loads such as Gravity(...), Wrench(...), Push(...)")
         limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(0.0, 20.0)")
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
@@ -124,22 +125,22 @@ class Task:
         return timed(self, grasp)
 
 
-def _whole(judge: Arguments, value: Any) -> int:
+def _whole(judge: TaskArguments, value: Any) -> int:
     whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not whole or not 1 <= value <= MOST_KNOTS:
-        judge.refuse("knots", f"expected a whole number from 1 to {MOST_KNOTS}, got {plainly(value)}")
+        judge.refuse("knots", f"expected a whole number from 1 to {MOST_KNOTS}, got {described(value)}")
     return int(value) if whole else 1
 
 
-def _listed(judge: Arguments, name: str, values: Any, of: type, what: str) -> tuple[Any, ...]:
+def _listed(judge: TaskArguments, name: str, values: Any, of: type, what: str) -> tuple[Any, ...]:
     """Return a list of values of a type as a tuple; an empty one after noting what is wrong."""
     if not isinstance(values, list | tuple):
         hint = f"; write {name}=[...] around it" if isinstance(values, of) and of is not object else ""
-        judge.refuse(name, f"expected a list of {what}; got {plainly(values)}{hint}")
+        judge.refuse(name, f"expected a list of {what}; got {described(values)}{hint}")
         return ()
     for index, value in enumerate(values):
         if not isinstance(value, of):
-            judge.refuse(f"{name}[{index}]", f"expected one of {what}; got {plainly(value)}")
+            judge.refuse(f"{name}[{index}]", f"expected one of {what}; got {described(value)}")
     return tuple(values)
 
 

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.conic.arguments import is_number, told
+from synergrip.conic.arguments import is_number
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import MARGIN
 from synergrip.documents.documents import LARGEST_NUMBER
+from synergrip.documents.judging import described
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
@@ -62,12 +63,12 @@ def goal_issues(goals: Any) -> Iterator[Issue]:
 def size_issues(margin: Any, tolerance: Any, drift: Any, compliant: bool) -> Iterator[Issue]:
     """Yield what is wrong with sizes: a margin [N], a tolerance [m], which compliant tracking needs, a drift [m]."""
     if not _is_size(margin) or margin < 0:
-        yield Issue(f"expected {MARGIN}, got {told(margin)}", "Task.margin")
+        yield Issue(f"expected {MARGIN}, got {described(margin)}", "Task.margin")
     if not _is_size(tolerance) or tolerance < 0 or (compliant and tolerance == 0):
         bound = "greater than 0, as compliant tracking needs it" if compliant else "of at least 0"
-        yield Issue(f"expected a length in metres {bound}, got {told(tolerance)}", "Task.tolerance")
+        yield Issue(f"expected a length in metres {bound}, got {described(tolerance)}", "Task.tolerance")
     if drift is not None and (not _is_size(drift) or drift <= 0):
-        yield Issue(f"expected a length in metres greater than 0, or None, got {told(drift)}", "Task.drift")
+        yield Issue(f"expected a length in metres greater than 0, or None, got {described(drift)}", "Task.drift")
 
 
 def limit_issues(limits: Any) -> Iterator[Issue]:

@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, Rows, keep
+from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.profiles import PROFILES, SHORTEST, WaypointProfile
 from synergrip.tasks.stated import Corner, Motion, Setting
@@ -46,7 +46,7 @@ class Waypoints(Motion):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("Waypoints")
+        judge = TaskArguments("Waypoints")
         times = judge.times("times", self.times, apart=SHORTEST)
         if not judge.issues and times[0] < SHORTEST:
             message = f"must be at least 1 us after the start, at 0 s, where the object is at rest; got {times[0]:g} s"
@@ -61,7 +61,7 @@ class Waypoints(Motion):
         judge.word("profile", self.profile, get_args(WaypointProfile))
         keep(self, judge, times=times, **poses)
 
-    def _judged(self, judge: Arguments, name: str, count: int) -> Array | None:
+    def _judged(self, judge: TaskArguments, name: str, count: int) -> Array | None:
         value: Any = getattr(self, name)
         if value is None:
             return None

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.documents.time_table import WRENCH, Table, read_table
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Arguments, Numbers, Rows, keep
+from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
 from synergrip.tasks.profiles import Constant, Tabled
 from synergrip.tasks.stated import Load, Setting
 
@@ -35,7 +35,7 @@ class Wrench(Load):
 
     def __post_init__(self) -> None:
         """Judge the argument."""
-        judge = Arguments("Wrench")
+        judge = TaskArguments("Wrench")
         keep(self, judge, values=judge.vector("values", self.values, 6, COLUMNS))
 
     def over(self, setting: Setting) -> Constant:
@@ -64,7 +64,7 @@ class WrenchTable(Load):
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
-        judge = Arguments("WrenchTable")
+        judge = TaskArguments("WrenchTable")
         times = judge.times("times", self.times)
         keep(self, judge, times=times, values=judge.rows("values", self.values, (len(times), 6), COLUMNS))
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from synergrip.conic.arguments import size, told
+from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
+from synergrip.documents.judging import described
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 
@@ -41,7 +42,9 @@ class WeightedSum(Goal):
         """Judge goals and weights."""
         pairs = list(self.goals) if isinstance(self.goals, Sequence) and not isinstance(self.goals, str) else []
         if not pairs:
-            message = f"expected pairs of a goal and its weight, got {told(self.goals) if self.goals != () else 'none'}"
+            message = (
+                f"expected pairs of a goal and its weight, got {described(self.goals) if self.goals != () else 'none'}"
+            )
             raise InputError.at("WeightedSum.goals", f"{message}; {EXAMPLE}")
         kept = tuple(_pair(f"WeightedSum.goals[{index}]", pair) for index, pair in enumerate(pairs))
         for index, (goal, _) in enumerate(kept):
@@ -79,7 +82,7 @@ class WeightedSum(Goal):
 def _pair(key: str, pair: Any) -> tuple[Goal, float]:
     """Return a goal and its weight, judged."""
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2 or not isinstance(pair[0], Goal):
-        raise InputError.at(key, f"expected a pair of a goal and its weight, got {told(pair)}; {EXAMPLE}")
+        raise InputError.at(key, f"expected a pair of a goal and its weight, got {described(pair)}; {EXAMPLE}")
     goal, weight = pair
     if goal.has_scalar:
         raise InputError.at(key, f"'{goal.name}' is no sum of squares; only sums of squares have weights")
