@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from synergrip.linalg import Decision, canonical, frozen, split
+from synergrip.linalg import Decision, canonical, frozen, left_singular, split
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -60,3 +60,20 @@ def test_frozen_arrays_cannot_be_changed() -> None:
     array = frozen([1.0, 2.0])
     with pytest.raises(ValueError, match="read-only"):
         array[0] = 3.0
+
+
+@pytest.mark.parametrize(("rows", "columns", "rank"), [(4, 6, 4), (4, 6, 2), (6, 4, 4), (6, 4, 3), (3, 3, 1)])
+def test_the_space_of_the_largest_singular_values(rows: int, columns: int, rank: int) -> None:
+    """Of wide and tall matrices, of full and of less rank, one and many at once."""
+    rng = np.random.default_rng(rows + 10 * columns + 100 * rank)
+    matrices = rng.normal(size=(5, rows, rank)) @ rng.normal(size=(5, rank, columns))
+    values, space = left_singular(matrices, rank)
+    assert values.shape == (5, columns)
+    expected = np.linalg.svd(matrices, compute_uv=False)
+    np.testing.assert_allclose(values[:, : min(rows, columns)], expected, atol=1e-7 * expected.max())
+    np.testing.assert_array_equal(values[:, min(rows, columns) :], 0.0)
+    for matrix, basis in zip(matrices, space, strict=True):
+        assert basis.shape == (rows, rank)
+        projector = basis @ np.linalg.pinv(basis)
+        np.testing.assert_allclose(projector @ matrix, matrix, atol=1e-9)
+    np.testing.assert_allclose(left_singular(matrices[2], rank)[1], space[2], atol=1e-12)

@@ -138,7 +138,7 @@ def right_singular(matrices: Array, references: Array) -> tuple[Array, Array]:
 
 
 def left_singular(matrices: Array, rank: int) -> tuple[Array, Array]:
-    """Return the singular values (..., n) of matrices (..., m, n), m >= n, and the space of the first `rank` of them.
+    """Return the n singular values (..., n) of matrices (..., m, n), and the space of the first `rank` of them.
 
     Columns (..., m, rank) span it; they are the matrix's own where all its columns count and are far from dependent.
     """
@@ -147,7 +147,7 @@ def left_singular(matrices: Array, rank: int) -> tuple[Array, Array]:
     columns = np.array(matrices[..., :rank])
     if values.size and not np.all(clear):
         vectors, own, _ = np.linalg.svd(matrices[~clear], full_matrices=False)
-        values[~clear], columns[~clear] = own, vectors[..., :rank]
+        values[~clear], columns[~clear] = _padded(own, values.shape[-1]), vectors[..., :rank]
     return values, columns
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from driven_grasp import driven
 
+from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.normal_force import NormalForce
@@ -183,7 +184,7 @@ def on_a_table(
 ) -> tuple[object, TimedTask]:
     """One contact from below at the origin; each component has a synergy of its own."""
     one = replace(contact(kind), frame=contact_frame(np.array([0.0, 0.0, 1.0])))
-    task = TimedTask(frozen([0.0]), frozen([wrench]), still(frozen([0.0])), 0.0, (), ("effort",))
+    task = TimedTask(frozen([0.0]), frozen([wrench]), still(frozen([0.0])), 0.0, (), (LeastEffort(),))
     return driven([one]), task
 
 
@@ -215,7 +216,7 @@ def pinched(kind: ContactKind, load: Array) -> tuple[Grasp, TimedTask]:
     right = replace(right, frame=frozen(right.frame * [-1, 1, -1]))
     wrench = frozen([[*(left.frame @ load), 0, 0, 0]])
     at = frozen([0.0])
-    return driven([left, right]), TimedTask(at, wrench, still(at), 0.0, (NormalForce(0.0, 1.0),), ("effort",))
+    return driven([left, right]), TimedTask(at, wrench, still(at), 0.0, (NormalForce(0.0, 1.0),), (LeastEffort(),))
 
 
 @pytest.mark.parametrize("solver", ["clarabel", "cvxpy"])

@@ -7,6 +7,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
+from named_goals import goals
 from random_tasks import moving_random_task
 from scipy import sparse
 
@@ -102,7 +103,7 @@ def test_both_formulations_agree_about_it(seed: int, order: tuple[str, ...], sol
     rng = np.random.default_rng(seed)
     grasp, task = moving_random_task(rng)
     weights = {"effort": 0.3, "steady": 2.0} if order == ("weighted",) else {}
-    task = replace(task, order=order, margin=0.0, weights=weights)  # type: ignore[arg-type]
+    task = replace(task, goals=goals(*order, weights=weights), margin=0.0)
     outcome = plan(grasp, task, SOLVERS[solver])
     assert isinstance(outcome, Plan), outcome
     scale, h = outcome.analysis.response.scale, np.diff(task.times)[:, None]
@@ -112,7 +113,7 @@ def test_both_formulations_agree_about_it(seed: int, order: tuple[str, ...], sol
     assert isinstance(expected, Plan)
     other = float((changes(expected.motion.forces * scale.force) ** 2 / h).sum())
     assert steady == pytest.approx(other, rel=1e-5)
-    step = plan(grasp, replace(task, order=("effort",), weights={}))
+    step = plan(grasp, replace(task, goals=goals("effort")))
     assert isinstance(step, Plan)
     if order[0] == "steady":
         assert steady <= float((changes(step.motion.forces * scale.force) ** 2 / h).sum()) * (1 + 1e-6)
