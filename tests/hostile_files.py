@@ -303,7 +303,8 @@ _csv("remarks", lambda: "#\n" * 99_000, "the file is empty")
 
 def _two_tables(folder: Path) -> None:
     """Lay out a wrench and a motion whose lines are at different times, and each of them a knot."""
-    wrench, motion = ("".join(f"{i}{half},0,0,0,0,0,0\n" for i in range(2, 60_000)) for half in ("", ".5"))
+    wrench, motion = ("".join(f"{i}{half},0,0,0,0,0,0\n" for i in range(2, 59_999)) for half in ("", ".5"))
+    wrench, motion = (table + "59999,0,0,0,0,0,0\n" for table in (wrench, motion))
     write(folder, "problem.toml", MATRICES.replace("knots = 2", 'motion = "motion.csv"'))
     write(folder, "grasp.json", GRASP)
     write(folder, "wrench.csv", WRENCH + wrench)

@@ -238,7 +238,7 @@ def test_an_elliptic_finger_slips_more_easily_one_way(load: tuple[float, ...], v
 @pytest.mark.parametrize("kind", EACH[3:], ids=lambda kind: kind.name)
 def test_limits_of_friction_use_every_cone(kind: ContactKind) -> None:
     grasp, task = pinched(kind, np.array([0.0, 0.2, 0.1]))
-    reserve = FrictionReserve(frozen([0.5, 0.8]))
+    reserve = FrictionReserve(ratios=[0.5, 0.8])
     found = plan(grasp, replace(task, limits=(*task.limits, reserve)))
     assert isinstance(found, Plan)
     parts = [found.motion.forces[:, rows] for rows in grasp.rows]

@@ -41,13 +41,13 @@ assert np.array_equal(np.load(folder / "plan.npz")["twice"], 2 * answer.dz_r)
 assert "twice_z1" in (folder / "plan.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
 assert "| `twice` |" in arrays.documentation()
 for path in files:
-    judged = judge_references(problem.grasp, problem.task, read_references(path, problem.grasp))
+    judged = judge_references(problem.grasp, problem.timed, read_references(path, problem.grasp))
     assert judged.verdict == "feasible" and not judged.claims.differences, path
     assert ("columns" if path.suffix == ".csv" else "twice") in judged.claims.right, path
 document["twice"][3][0] += 0.01
 del document["digest"]
 (folder / "plan.json").write_text(json.dumps(document), encoding="utf-8")
-wrong = judge_references(problem.grasp, problem.task, read_references(folder, problem.grasp)).claims.differences
+wrong = judge_references(problem.grasp, problem.timed, read_references(folder, problem.grasp)).claims.differences
 assert [each.key for each in wrong] == ["twice[3][0]"], wrong
 """
 

@@ -70,8 +70,10 @@ def test_each_goal_keeps_what_those_before_it_reached(seed: int, order: str) -> 
             goal.objective(formulation).squared((inverse @ z[:, :, None])[:, :, 0][:, _order(formulation)] / size)
             for z in (*references, best.formulation.reference.at(best.v))
         ]
+        # plans whose value is within a gap g of the best lie within its root of each other, and so do later values
+        close = 1e-5 if k == 0 else 1e-4
         assert worth[0] == pytest.approx(worth[2], rel=1e-5, abs=1e-8)
-        assert worth[1] == pytest.approx(worth[2], rel=1e-5, abs=1e-8)
+        assert worth[1] == pytest.approx(worth[2], rel=close, abs=1e-8)
 
 
 def _order(formulation: Formulation) -> list[int]:

@@ -50,8 +50,7 @@ class GraspStack(Sequence[Grasp]):
     Make one with `of` (from grasps) or `varied` (from one grasp and arrays); ``stack[i]`` is the grasp at a place.
 
     Example:
-        >>> stack = GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)
-        >>> analyses = analyse_many(stack)
+        ``stack = GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)``, then ``analyse_many(stack)``.
     """
 
     matrices: Matrices
