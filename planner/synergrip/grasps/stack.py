@@ -50,7 +50,8 @@ class GraspStack(Sequence[Grasp]):
     Make one with `of` (from grasps) or `varied` (from one grasp and arrays); ``stack[i]`` is the grasp at a place.
 
     Example:
-        ``stack = GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)``, then ``analyse_many(stack)``.
+        A thousand compliances: ``GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)``,
+        for `analyse_many`.
     """
 
     matrices: Matrices
