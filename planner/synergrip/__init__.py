@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.shapes.cylinder import Cylinder as Cylinder
     from synergrip.grasps.shapes.shape import Shape as Shape
     from synergrip.grasps.shapes.sphere import Sphere as Sphere
+    from synergrip.grasps.stack import GraspStack as GraspStack
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
     from synergrip.planning.outcome import Infeasible as Infeasible
@@ -71,6 +72,8 @@ if TYPE_CHECKING:
     from synergrip.statics import coordinates as coordinates
     from synergrip.statics import respond as respond
     from synergrip.statics import subspaces as subspaces
+    from synergrip.statics.analyses import Analyses as Analyses
+    from synergrip.statics.analyses import analyse_many as analyse_many
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
     from synergrip.tasks.gravity import Gravity as Gravity
@@ -112,6 +115,8 @@ _HOMES = {
     "grasps.from_matrices": ("grasp_from_matrices",),
     "grasps.matrices": ("GivenContact", "read_matrices"),
     "statics.analysis": ("analyse", "Analysis"),
+    "grasps.stack": ("GraspStack",),
+    "statics.analyses": ("analyse_many", "Analyses"),
     "statics": ("respond", "subspaces", "coordinates"),
     "conic.limits.limit": ("Limit", "Usage"),
     "conic.limits.slip_margin": ("SlipMargin",),
