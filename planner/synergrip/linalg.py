@@ -56,8 +56,8 @@ class Decision(Value):
         return Decisions.of(np.asarray(singular_values), np.asarray(reference)).at(())
 
 
-@dataclass(frozen=True, eq=False)
-class Decisions:
+@dataclass(frozen=True, eq=False, repr=False)
+class Decisions(Value):
     """The rank decisions on the matrices of a stack: leading axes (...), those of `Decision` for each matrix."""
 
     ranks: Places  # (...)

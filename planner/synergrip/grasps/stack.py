@@ -13,6 +13,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, metric_of
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
@@ -22,8 +23,8 @@ Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
 """Components of every contact, and the shape of S."""
 
 
-@dataclass(frozen=True, eq=False)
-class Matrices:
+@dataclass(frozen=True, eq=False, repr=False)
+class Matrices(Value):
     """What the statics of one grasp need, or of many (leading axes ...); SI units."""
 
     G: Array  # (..., 6, n_l)
@@ -43,8 +44,8 @@ class Matrices:
         return Matrices(*(getattr(self, field.name)[places] for field in fields(self)))
 
 
-@dataclass(frozen=True, eq=False)
-class GraspStack(Sequence[Grasp]):
+@dataclass(frozen=True, eq=False, repr=False)
+class GraspStack(Value, Sequence[Grasp]):
     """N grasps whose contacts are of the same kinds, with as many joints and synergies each.
 
     Make one with `of` (from grasps) or `varied` (from one grasp and arrays); ``stack[i]`` is the grasp at a place.

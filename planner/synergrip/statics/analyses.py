@@ -14,10 +14,11 @@ from synergrip.statics.analysis import Analysis
 from synergrip.statics.responses import Responses, respond_many
 from synergrip.statics.subspace_groups import SubspaceGroup, coordinates_many, subspaces_many
 from synergrip.statics.theorem1 import Coordinates
+from synergrip.values import Value
 
 
-@dataclass(frozen=True, eq=False)
-class AnalysisGroup:
+@dataclass(frozen=True, eq=False, repr=False)
+class AnalysisGroup(Value):
     """N grasps whose subspaces have the same dimensions, so that one program has the shape of all; leading axis N."""
 
     spaces: SubspaceGroup
@@ -46,8 +47,8 @@ class AnalysisGroup:
         return Analysis(response.grasp, response, self.spaces.at(index), own)
 
 
-@dataclass(frozen=True, eq=False)
-class Analyses:
+@dataclass(frozen=True, eq=False, repr=False)
+class Analyses(Value):
     """Everything that is true of many grasps before any task, those of like dimensions together."""
 
     groups: tuple[AnalysisGroup, ...]

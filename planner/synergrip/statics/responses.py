@@ -30,7 +30,7 @@ Part = tuple[Places, Mapping[str, Array], Array]
 """Places, maps by their names and figures of some grasps."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Responses(Maps):
     """The maps of those of many grasps that were not refused, in their order: leading axis N."""
 

@@ -22,7 +22,7 @@ from synergrip.statics.subspaces import (
 from synergrip.statics.theorem1 import Coordinates, coordinates_of
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SubspaceGroup(Bases):
     """The bases of N grasps whose subspaces have the same dimensions: leading axis N."""
 

@@ -88,8 +88,8 @@ def subspaces(response: Response) -> Subspaces:
     return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, decisions)
 
 
-@dataclass(frozen=True, eq=False)
-class Moving:
+@dataclass(frozen=True, eq=False, repr=False)
+class Moving(Value):
     """Synergy motions that cost no force, split into those that move contacts and those that move none."""
 
     ranks: NDArray[np.intp]  # (...)
@@ -101,8 +101,8 @@ class Moving:
         return Moving(self.ranks[places], self.directions[places])
 
 
-@dataclass(frozen=True, eq=False)
-class ContactMotions:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactMotions(Value):
     """How object and synergies move the contacts, in scaled coordinates; leading axes (...) for many grasps."""
 
     of_object: Array  # (..., n_l, 6) = G'
