@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.contacts.contact import Contact as Contact
     from synergrip.grasps.grasp import Grasp as Grasp
     from synergrip.grasps.matrices import read_matrices as read_matrices
+    from synergrip.grasps.stack import GraspStack as GraspStack
     from synergrip.hands.folder import load_hand as load_hand
     from synergrip.hands.hand import Hand as Hand
     from synergrip.planning.outcome import Infeasible as Infeasible
@@ -28,8 +29,13 @@ if TYPE_CHECKING:
     from synergrip.statics import coordinates as coordinates
     from synergrip.statics import respond as respond
     from synergrip.statics import subspaces as subspaces
+    from synergrip.statics.analyses import Analyses as Analyses
+    from synergrip.statics.analyses import analyse_many as analyse_many
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
+    from synergrip.statics.responses import respond_many as respond_many
+    from synergrip.statics.subspace_groups import coordinates_many as coordinates_many
+    from synergrip.statics.subspace_groups import subspaces_many as subspaces_many
     from synergrip.tasks.timed_task import TimedTask as TimedTask
 
 __version__ = "0.1.0"
@@ -41,10 +47,14 @@ _HOMES = {
     "grasps.contacts.contact": ("Contact",),
     "grasps.grasp": ("Grasp",),
     "grasps.matrices": ("read_matrices",),
+    "grasps.stack": ("GraspStack",),
     "statics": ("respond", "subspaces", "coordinates"),
     "conic.program": ("Program",),
     "conic.certificate": ("Certificate",),
     "statics.analysis": ("Analysis", "analyse"),
+    "statics.responses": ("respond_many",),
+    "statics.subspace_groups": ("subspaces_many", "coordinates_many"),
+    "statics.analyses": ("Analyses", "analyse_many"),
     "tasks.timed_task": ("TimedTask",),
     "problems.problem": ("Problem", "load_problem"),
     "planning.outcome": ("Plan", "Infeasible", "Unknown"),

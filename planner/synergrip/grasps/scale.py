@@ -48,7 +48,9 @@ class Metric:
     def scaled_grasp(self, G: Array) -> Array:
         """Return G' (..., n_l, 6) from scaled object motions to scaled contact motions; G is (..., 6, n_l)."""
         forces, moments, arm = G[..., :3, :].mT, G[..., 3:, :].mT, self.motion[..., :3, 3:]
-        return self.scaled_rows(np.concatenate([forces, (moments - forces @ arm) / self.motion[..., 3:4, 3:4]], axis=-1))
+        return self.scaled_rows(
+            np.concatenate([forces, (moments - forces @ arm) / self.motion[..., 3:4, 3:4]], axis=-1)
+        )
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ class SubspaceGroup(Bases):
     @property
     def ambiguous(self) -> NDArray[np.bool_]:
         """(N,) True when a singular value lies in the grey zone, or the force map disagrees with (34)."""
-        return np.any([decision.ambiguous for decision in self.decisions.values()], axis=0)
+        return np.asarray(np.any([decision.ambiguous for decision in self.decisions.values()], axis=0))
 
     def at(self, index: int) -> Subspaces:
         """Return the subspaces of one of the N grasps, as `subspaces` would."""

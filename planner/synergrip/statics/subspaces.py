@@ -20,6 +20,7 @@ from synergrip.linalg import (
     Array,
     Decision,
     Decisions,
+    Places,
     canonical,
     frozen,
     left_singular,
@@ -84,7 +85,7 @@ def subspaces(response: Response) -> Subspaces:
 class Moving:
     """Synergy motions that cost no force, split into those that move contacts and those that move none."""
 
-    ranks: Array  # (...)
+    ranks: Places  # (...)
     directions: Array
     """(..., n_z, dim) orthonormal; as many as `ranks` says move contacts, the rest move none."""
 
