@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from synergrip.linalg import Decision, canonical, frozen, left_singular, split
+from synergrip.linalg import (
+    Decision,
+    Decisions,
+    canonical,
+    decided,
+    frozen,
+    left_singular,
+    right_singular,
+    singular_values,
+    split,
+)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -62,18 +72,67 @@ def test_frozen_arrays_cannot_be_changed() -> None:
         array[0] = 3.0
 
 
-@pytest.mark.parametrize(("rows", "columns", "rank"), [(4, 6, 4), (4, 6, 2), (6, 4, 4), (6, 4, 3), (3, 3, 1)])
-def test_the_space_of_the_largest_singular_values(rows: int, columns: int, rank: int) -> None:
-    """Of wide and tall matrices, of full and of less rank, one and many at once."""
-    rng = np.random.default_rng(rows + 10 * columns + 100 * rank)
-    matrices = rng.normal(size=(5, rows, rank)) @ rng.normal(size=(5, rank, columns))
-    values, space = left_singular(matrices, rank)
-    assert values.shape == (5, columns)
-    expected = np.linalg.svd(matrices, compute_uv=False)
-    np.testing.assert_allclose(values[:, : min(rows, columns)], expected, atol=1e-7 * expected.max())
-    np.testing.assert_array_equal(values[:, min(rows, columns) :], 0.0)
-    for matrix, basis in zip(matrices, space, strict=True):
-        assert basis.shape == (rows, rank)
-        projector = basis @ np.linalg.pinv(basis)
-        np.testing.assert_allclose(projector @ matrix, matrix, atol=1e-9)
-    np.testing.assert_allclose(left_singular(matrices[2], rank)[1], space[2], atol=1e-12)
+def stack_of(rng: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Matrices of every rank, and with small singular values of every size."""
+    least = min(shape)
+    left, right = (np.linalg.qr(rng.normal(size=(30, side, side)))[0][..., :least] for side in shape)
+    values = np.sort(10.0 ** rng.uniform(-1, 1, (30, least)))[:, ::-1].copy()
+    values[5:25, -1] *= np.geomspace(1, 1e-14, 20)
+    values[25:, rng.integers(0, least) :] = 0.0
+    return np.asarray((left * values[:, None]) @ right.mT)
+
+
+@pytest.mark.parametrize("shape", [(9, 4), (4, 4), (3, 5), (6, 1)])
+def test_singular_values_of_a_stack_are_those_of_each(shape: tuple[int, int]) -> None:
+    stack = stack_of(np.random.default_rng(7), shape)
+    true = np.array([np.pad(np.linalg.svd(matrix)[1], (0, max(shape[1] - shape[0], 0))) for matrix in stack])
+    size = true[:, :1]
+    assert np.all(np.abs(singular_values(stack) - true) <= 1e-13 * size)
+    values, directions = right_singular(stack, true[:, 0])
+    assert np.all(np.abs(values - true) <= 1e-13 * size)
+    lengths = np.linalg.norm(stack @ directions, axis=-2)
+    small = true < 1e-3 * size  # the directions of small values are told apart from the others
+    assert np.all(np.abs(lengths - true)[small] <= 1e-13 * np.broadcast_to(size, true.shape)[small])
+    assert np.allclose(directions.mT @ directions, np.eye(shape[1]), atol=1e-13)
+    decisions = decided(stack)
+    for place, matrix in enumerate(stack):
+        alone = split(matrix).decision
+        assert (decisions.at(place).rank, decisions.at(place).ambiguous) == (alone.rank, alone.ambiguous)
+    for rank in range(1, min(shape) + 1):
+        values, columns = left_singular(stack, rank)
+        assert np.all(np.abs(values - true[:, : min(shape)]) <= 1e-13 * size)
+        for place in np.flatnonzero(true[:, rank - 1] > 0.01 * true[:, 0]):
+            vectors, own, _ = np.linalg.svd(stack[place])
+            if rank == len(own) or own[rank] < 0.5 * own[rank - 1]:  # the space is told apart
+                ours, theirs = np.linalg.qr(columns[place])[0], vectors[:, :rank]
+                assert np.allclose(ours @ ours.T, theirs @ theirs.T, atol=1e-11)
+
+
+def test_empty_matrices_have_no_singular_values() -> None:
+    assert singular_values(np.zeros((2, 3, 0))).shape == (2, 0)
+    values, directions = right_singular(np.zeros((2, 0, 3)), np.ones(2))
+    assert np.array_equal(values, np.zeros((2, 3)))
+    assert np.array_equal(directions[1], np.eye(3))
+    assert left_singular(np.zeros((2, 3, 0)), 0)[1].shape == (2, 3, 0)
+
+
+def test_canonical_bases_of_a_stack_are_those_of_each() -> None:
+    rng = np.random.default_rng(4)
+    stack = rng.normal(size=(2, 5, 8, 3))
+    stack[0, 1] = np.eye(8)[:, [6, 2, 4]] @ rng.normal(size=(3, 3))  # columns of the projector that tie
+    together = canonical(stack)
+    assert together.shape == stack.shape
+    for place in np.ndindex(2, 5):
+        assert np.allclose(together[place], canonical(stack[place]), rtol=0, atol=1e-14)
+
+
+def test_decisions_of_a_stack_follow_the_policy_of_one() -> None:
+    values = np.array([[1, 1e-7, 0], [1, 1e-9, 1e-9], [2, 1, 1], [0, 0, 0]])
+    references = np.array([1.0, 1.0, 2.0, 0.0])
+    together = Decisions.of(values, references)
+    for place, (row, reference) in enumerate(zip(values, references, strict=True)):
+        alone, mine = Decision.of(row, float(reference)), together.at(place)
+        assert (mine.rank, mine.ambiguous) == (alone.rank, alone.ambiguous)
+        assert np.array_equal(mine.singular_values, alone.singular_values)
+    assert together.ranks.tolist() == [2, 1, 3, 0]
+    assert together.ambiguous.tolist() == [True, True, False, False]

@@ -76,6 +76,9 @@ if TYPE_CHECKING:
     from synergrip.statics.analyses import analyse_many as analyse_many
     from synergrip.statics.analysis import Analysis as Analysis
     from synergrip.statics.analysis import analyse as analyse
+    from synergrip.statics.responses import respond_many as respond_many
+    from synergrip.statics.subspace_groups import coordinates_many as coordinates_many
+    from synergrip.statics.subspace_groups import subspaces_many as subspaces_many
     from synergrip.tasks.gravity import Gravity as Gravity
     from synergrip.tasks.hold import Hold as Hold
     from synergrip.tasks.motion_tables import ModesTable as ModesTable
@@ -118,6 +121,8 @@ _HOMES = {
     "grasps.stack": ("GraspStack",),
     "statics.analyses": ("analyse_many", "Analyses"),
     "statics": ("respond", "subspaces", "coordinates"),
+    "statics.responses": ("respond_many",),
+    "statics.subspace_groups": ("subspaces_many", "coordinates_many"),
     "conic.limits.limit": ("Limit", "Usage"),
     "conic.limits.slip_margin": ("SlipMargin",),
     "conic.limits.friction_reserve": ("FrictionReserve",),

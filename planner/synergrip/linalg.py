@@ -115,9 +115,9 @@ def decided(matrices: Array, references: Array | None = None) -> Decisions:
 def singular_values(matrices: Array) -> Array:
     """Return the n singular values (..., n) of matrices (..., m, n), descending; 0 where m is less than n."""
     values, clear = _from_squares(matrices)
-    if not np.all(clear):
-        exact = np.asarray(np.linalg.svd(matrices[~clear], compute_uv=False), dtype=np.float64)
-        values[~clear] = _padded(exact, values.shape[-1])
+    if matrices.size and not np.all(clear):
+        own = np.asarray(np.linalg.svd(matrices[~clear], compute_uv=False), dtype=np.float64)
+        values[~clear] = _padded(own, values.shape[-1])
     return values
 
 
@@ -131,23 +131,24 @@ def right_singular(matrices: Array, references: Array) -> tuple[Array, Array]:
     directions = np.zeros((*values.shape, values.shape[-1]))
     directions[..., range(values.shape[-1]), range(values.shape[-1])] = 1.0
     clear &= values.min(axis=-1, initial=np.inf) > CLEAR * references
-    if values.size and not np.all(clear):
+    if matrices.size and not np.all(clear):
         _, own, transposed = np.linalg.svd(matrices[~clear], full_matrices=matrices.shape[-2] < matrices.shape[-1])
         values[~clear], directions[~clear] = _padded(own, values.shape[-1]), transposed.mT
     return values, directions
 
 
 def left_singular(matrices: Array, rank: int) -> tuple[Array, Array]:
-    """Return the n singular values (..., n) of matrices (..., m, n), and the space of the first `rank` of them.
+    """Return the singular values (..., min(m, n)) of matrices (..., m, n), and the space of the first `rank`.
 
     Columns (..., m, rank) span it; they are the matrix's own where all its columns count and are far from dependent.
     """
     values, clear = _from_squares(matrices)
+    values = values[..., : matrices.shape[-2]]
     clear &= rank == values.shape[-1]
     columns = np.array(matrices[..., :rank])
-    if values.size and not np.all(clear):
+    if matrices.size and not np.all(clear):
         vectors, own, _ = np.linalg.svd(matrices[~clear], full_matrices=False)
-        values[~clear], columns[~clear] = _padded(own, values.shape[-1]), vectors[..., :rank]
+        values[~clear], columns[~clear] = own, vectors[..., :rank]
     return values, columns
 
 
@@ -157,8 +158,9 @@ def _from_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     Several times as fast as the singular values themselves, and as good to 1e-14 of the largest, unless the smallest
     is small beside it.
     """
-    if matrices.size == 0:
-        return np.zeros((*matrices.shape[:-2], matrices.shape[-1])), np.ones(matrices.shape[:-2], dtype=np.bool_)
+    *leading, rows, columns = matrices.shape
+    if rows < columns or columns == 0:  # the smallest is 0, or there is none
+        return np.zeros((*leading, columns)), np.full(leading, columns == 0)
     squares = np.linalg.eigvalsh(matrices.mT @ matrices)[..., ::-1]
     clear = squares[..., -1] > CLEAR**2 * squares[..., 0]
     return np.sqrt(np.maximum(squares, 0.0)), np.array(clear)

@@ -11,6 +11,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
 from synergrip.grasps.scale import Metric, metric_of
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -97,7 +98,8 @@ class GraspStack(Value, Sequence[Grasp]):
         """Return a stack of grasps that are like one but for some arrays.
 
         Args:
-            grasp: the grasp, which says all that the arrays do not.
+            grasp: the grasp, which says all that the arrays do not; of a grasp on a hand the stack keeps the matrices
+                and not the hand.
             **arrays: by the names in `VARIED`, with a leading axis of N: points (N, n_c, 3) of the contacts [m],
                 G (N, 6, n_l), J (N, n_l, n_q), S (N, n_q, n_z), C_s (N, n_l, n_l), C_q, C_z, w_0 (N, 6).
                 G does not follow from `points`: give both where the contacts move.
@@ -132,11 +134,11 @@ class GraspStack(Value, Sequence[Grasp]):
         place = range(len(self))[place]
         if self.given:
             return self.given[place]
-        grasp, arrays = self.like, vars(self.matrices.taken(place))
+        grasp = self.like
+        arrays: dict[str, Any] = {name: frozen(value) for name, value in vars(self.matrices.taken(place)).items()}
         moved = zip(grasp.contacts, self.points[place], strict=True)
         contacts = tuple(replace(contact, point=frozen(point)) for contact, point in moved)
-        own: dict[str, Any] = {name: frozen(value) for name, value in arrays.items()}
-        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **own)
+        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **arrays)
 
     def taken(self, places: Any) -> GraspStack:
         """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""
@@ -184,4 +186,18 @@ def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
         raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")
     if not np.all(np.isfinite(found)):
         raise InputError.at(name, f"expected finite numbers, got {float(found[~np.isfinite(found)][0])}")
+    if name.startswith("C_"):
+        _judge_compliances(name, found)
     return found
+
+
+def _judge_compliances(name: str, found: Array) -> None:
+    """Refuse what `Grasp` refuses: matrices that are not symmetric, or not positive semidefinite."""
+    largest = np.abs(found).max(axis=(-2, -1), initial=0.0)
+    askew = np.abs(found - found.mT).max(axis=(-2, -1), initial=0.0) > SYMMETRY * largest
+    diagonal = np.diagonal(found, axis1=-2, axis2=-1)
+    root = np.sqrt(np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0)[:, None]))
+    least = np.linalg.eigvalsh(found / (root[:, :, None] * root[:, None, :])).min(axis=-1, initial=0.0)
+    for what, wrong in (("symmetric", askew), ("positive semidefinite", least < -SEMIDEFINITE)):
+        if np.any(wrong):
+            raise InputError.at(f"{name}[{int(np.argmax(wrong))}]", f"is not {what}, as a compliance must be")

@@ -62,7 +62,8 @@ class Accuracy:
         return self._share(self.unknown)
 
     def _share(self, amount: float) -> float:
-        return float(shares(np.array(amount), np.array([self.size, self.terms, self.lost, self.changed])))
+        whole = self.size if self.size > self.unknown else self.terms  # as `shares` has it
+        return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
 
 
 def shares(amounts: Array, figures: Array) -> Array:
@@ -183,8 +184,13 @@ def figures(found: Answer, metric: Metric) -> Array:
     for name, values in found.maps.items():
         parts = [np.abs(values), found.terms[name], found.errors[name], *([] if same else [found.changes[name]])]
         unit = rows[name][..., None] if name in rows else 1.0
-        largest = np.stack([(part * unit).max(axis=-2, initial=0.0) for part in parts], axis=-2)  # of every column
-        of_references, of_wrench = largest[..., :-6], largest[..., -6:] * motion[..., None, :]
-        result += [each.max(axis=-1, initial=0.0) for each in (of_references, of_wrench)]
-    known = np.stack(result, axis=-2)
-    return np.concatenate([known, known[..., -1:]], axis=-1) if same else known
+        largest = np.stack([_of_columns(part * unit) for part in parts])  # (3 or 4, n_z + 6, ...)
+        of_wrench = largest[:, -6:] * np.moveaxis(motion, -1, 0)
+        result += [each.max(axis=1, initial=0.0) for each in (largest[:, :-6], of_wrench)]
+    known = np.stack(result)
+    return np.moveaxis(np.concatenate([known, known[:, -1:]], axis=1) if same else known, (0, 1), (-2, -1))
+
+
+def _of_columns(entries: Array) -> Array:
+    """Return (n, ...) the largest of every column of (..., m, n), the axes in the order that NumPy is quick with."""
+    return np.asarray(np.ascontiguousarray(np.moveaxis(entries, (-2, -1), (0, 1))).max(axis=0, initial=0.0))

@@ -6,9 +6,7 @@ grasp alone would need more for (twice the digits) or would be refused for goes 
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -98,20 +96,17 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
 
 
 def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
-    """Return what float64 answers, chunk by chunk on all processors: NumPy lets go of Python's lock as it reckons."""
-    chunks = [slice(start, min(start + CHUNK, len(stack))) for start in range(0, len(stack), CHUNK)]
-
-    def worked_out(chunk: slice) -> list[Part]:
+    """Return what float64 answers, chunk by chunk: at least one part, be it an empty one."""
+    parts: list[Part] = []
+    for start in range(0, len(stack), CHUNK):
+        chunk = slice(start, min(start + CHUNK, len(stack)))
         matrices, metric = stack.matrices.taken(chunk), stack.metric.taken(chunk)
         together = restrained[chunk] & ~is_rigid(matrices, metric)
         kept = slice(None) if together.all() else np.flatnonzero(together)
         places = np.arange(chunk.start, chunk.stop)[kept]
-        return list(_answered(matrices.taken(kept), metric.taken(kept), places))
-
-    if len(chunks) == 1:
-        return worked_out(chunks[0])
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return [part for parts in threads.map(worked_out, chunks) for part in parts]
+        parts += _answered(matrices.taken(kept), metric.taken(kept), places)
+    none = slice(0)
+    return parts or list(_answered(stack.matrices.taken(none), stack.metric.taken(none), np.arange(0)))
 
 
 def _answered(matrices: Matrices, metric: Metric, places: Places) -> Iterator[Part]:

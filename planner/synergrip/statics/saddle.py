@@ -123,11 +123,20 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
     lost = system.followed(last, number(np.zeros((n_z, n_z + 6))))
     others = _System.of(matrices, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
-    changes = {name: CAUTION / arithmetic.apart * np.abs(rounded(other[name] - maps[name])) for name in maps}
-    errors = {name: CAUTION * np.abs(rounded(lost[name])) + ROUNDOFF * np.abs(values[name]) for name in maps}
+    changes = {name: _sizes(rounded(other[name] - maps[name]), CAUTION / arithmetic.apart) for name in maps}
+    errors = {name: _sizes(rounded(lost[name]), CAUTION) for name in maps}
+    for name, each in errors.items():
+        each += _sizes(values[name], ROUNDOFF)
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
-        changes = errors = {name: np.maximum(changes[name], errors[name]) for name in maps}
+        changes = errors = {name: np.maximum(changes[name], each, out=each) for name, each in errors.items()}
     return Answer(values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values))
+
+
+def _sizes(values: Array, times: float) -> Array:
+    """Return the sizes of entries, `times` as large."""
+    sizes = np.abs(values)
+    sizes *= times
+    return sizes
 
 
 def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
@@ -142,7 +151,7 @@ def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> d
 
 
 def about_centroid(metric: Metric) -> Array:
-    """Return T (..., 6, 6): ``T w`` is the wrench about the contacts' centroid, ``T' u`` turns its motion to B's."""
+    """Return T (..., 6, 6): ``T w`` is the wrench about the centroid of the contacts, ``T' u`` its motion about B."""
     T = np.zeros_like(metric.motion)
     T[..., range(6), range(6)] = 1.0
     T[..., 3:, :3] = metric.motion[..., :3, 3:]
@@ -191,5 +200,5 @@ def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int)
     motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
     size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
     both = size * size.mT
-    inverse: N = arithmetic.inverse(A * both) * both
-    return inverse
+    found: N = arithmetic.inverse(A * both) * both
+    return found

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
@@ -21,6 +20,7 @@ from synergrip.linalg import (
     Array,
     Decision,
     Decisions,
+    Places,
     canonical,
     frozen,
     left_singular,
@@ -92,7 +92,7 @@ def subspaces(response: Response) -> Subspaces:
 class Moving(Value):
     """Synergy motions that cost no force, split into those that move contacts and those that move none."""
 
-    ranks: NDArray[np.intp]  # (...)
+    ranks: Places  # (...)
     directions: Array
     """(..., n_z, dim) orthonormal; as many as `ranks` says move contacts, the rest move none."""
 
