@@ -38,12 +38,15 @@ def free_basis(squares: Sequence[Squares], knots: int, n_v: int) -> sparse.csc_m
     products = _products(squares, knots, n_v)
     if products is None:
         return _scaled(_from_knot_to_knot(squares, knots, n_v), n_v)
+    products = [each for each in products if each.directions.size]
+    if not products:
+        return sparse.csc_matrix((knots * n_v, 0))
     own = sparse.eye_array(knots, format="csr")
     parts = [
         sparse.kron(own if each.time is None else sparse.csr_matrix(each.time), sparse.csr_matrix(each.directions))
         for each in products
     ]
-    return _scaled(sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((knots * n_v, 0)), *parts])), n_v)
+    return _scaled(sparse.csc_matrix(sparse.hstack(parts)), n_v)
 
 
 def _scaled(basis: sparse.csc_matrix, n_v: int) -> sparse.csc_matrix:
