@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from synergrip.cli import ending
@@ -13,6 +14,7 @@ def main() -> None:
     What is not foreseen leaves with exit code 4, never with 1 (proven infeasible).
     """
     ending.watch()
+    os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn with MuJoCo here; it need not look for a screen
     try:
         from synergrip.cli.streams import PrintError, guard
 
