@@ -16,7 +16,20 @@ LONGEST = 400
 """Characters of a whole value."""
 
 
-class Value:
+class Kept:
+    """What values share: they stay as they are, and a comparison with an array is no array."""
+
+    __array_ufunc__ = None
+
+    def __setstate__(self, state: Mapping[str, object]) -> None:
+        """Come out of a pickle or a copy, which forgets that arrays are read-only."""
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self.__dict__.update(state)
+
+
+class Value(Kept):
     """The base of frozen dataclasses that hold arrays; they are declared with ``eq=False, repr=False``.
 
     Two of them are equal when they are the same one: a comparison entry by entry would be an array and no answer.
@@ -27,15 +40,8 @@ class Value:
         named = (each.name for each in fields(self) if each.repr)  # type: ignore[arg-type]
         return told(type(self).__name__, (f"{name}={brief(getattr(self, name))}" for name in named))
 
-    def __setstate__(self, state: Mapping[str, object]) -> None:
-        """Come out of a pickle, which forgets that arrays are read-only."""
-        for value in state.values():
-            if isinstance(value, np.ndarray):
-                value.setflags(write=False)
-        self.__dict__.update(state)
 
-
-class ByContent:
+class ByContent(Kept):
     """A dataclass (with ``eq=False``) that equals another of its type when all their fields are equal.
 
     Arrays are equal when shape and entries are, NaN to NaN. Fields with ``compare=False`` do not count.

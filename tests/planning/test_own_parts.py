@@ -25,6 +25,7 @@ from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.pyramids import Request, compare
 from synergrip.planning.solvers import SOLVERS
+from synergrip.problems.problem import load_problem
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask, still
 
@@ -307,3 +308,19 @@ def test_pyramids_replace_friction_cones_and_no_cone_about_a_contact() -> None:
     assert comparison.rejected is False
     assert comparison.other_cones == ("SmallTangential",)
     assert comparison.pyramids is not None
+
+
+@pytest.mark.parametrize("weight", [1e6, 1e-3, 1e-8, 1e-12, 1e-30])
+def test_a_goal_of_ones_own_in_any_unit_is_the_same_goal(weight: float) -> None:
+    """Squares of forces in micronewtons or in giganewtons: the least of them is the least."""
+
+    class Small(Goal):
+        def objective(self, formulation: Formulation) -> Objective:
+            return Objective((squares_of(formulation.force, weight),))
+
+    problem = load_problem("barrett-ball-hold")
+    found = plan(problem.grasp, problem.task.replace(knots=3, goals=[Small()]))
+    usual = plan(problem.grasp, problem.task.replace(knots=3))
+    assert isinstance(found, Plan)
+    assert isinstance(usual, Plan)
+    assert float((found.forces**2).sum()) == pytest.approx(float((usual.forces**2).sum()), rel=1e-6)

@@ -70,7 +70,8 @@ def numbers(key: str, value: Any, of: str) -> Array:
         raise InputError.at(key, f"expected {wanted}, got {described(value)}")
     if found.ndim > 1:
         raise InputError.at(key, f"expected {wanted}, got an array of shape {found.shape}")
-    return found if found is value and not found.flags.writeable else frozen(np.array(found))
+    own = found is value and not found.flags.writeable and found.flags.owndata
+    return found if own else frozen(np.array(found))
 
 
 def one_each(key: str, value: Array, names: Sequence[str], of: str) -> Array:

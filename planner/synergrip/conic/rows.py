@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from synergrip.conic.affine import Affine
+from synergrip.conic.arguments import is_number
+from synergrip.documents.judging import described
+from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
@@ -96,7 +99,14 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
         item: its name.
         value: m affine quantities of one unit.
         bound: greater than 0.
+
+    Raises:
+        InputError: no affine quantities, or a bound that is none.
     """
+    if not isinstance(value, Affine):
+        raise InputError.at("norm_within.value", f"expected affine quantities of a formulation, got {described(value)}")
+    if not is_number(bound) or not 0 < bound < np.inf:
+        raise InputError.at("norm_within.bound", f"expected a finite number greater than 0, got {described(bound)}")
     matrix = np.concatenate([np.zeros_like(value.matrix[..., :1, :]), value.matrix / bound], axis=-2)
     constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
     zero = frozen(np.zeros(constant.shape[1]))
@@ -124,7 +134,11 @@ def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, uppe
         lower: (m,) or (T, m).
         upper: (m,) or (T, m).
         unit: (m,) size of each quantity.
+
+    Raises:
+        InputError: bounds or units that are none, do not fit the names, or contradict each other.
     """
+    lower, upper, unit = _bounds(names, value, lower, upper, unit)
     result = []
     for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
         keep = np.all(np.isfinite(np.atleast_2d(bound)), axis=0)
@@ -135,3 +149,32 @@ def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, uppe
         items = items_of((name for name, kept in zip(names, keep, strict=True) if kept), side)
         result.append(nonnegative(limit, items, rows))
     return result
+
+
+def _bounds(names: tuple[str, ...], value: Affine, *given: Array) -> tuple[Array, ...]:
+    """Return lower bounds, upper bounds and units as arrays, one for each name (and knot), or refuse them."""
+    if not isinstance(value, Affine):
+        raise InputError.at("within.value", f"expected affine quantities of a formulation, got {described(value)}")
+    count = value.constant.shape[1]
+    if len(names) != count:
+        raise InputError.at("within.names", f"expected {count} names, one for each quantity, got {len(names)}")
+    found: list[Array] = []
+    for name, each in zip(("lower", "upper", "unit"), given, strict=True):
+        try:
+            array = np.asarray(each, dtype=np.float64)
+            np.broadcast_to(array, value.constant.shape)
+        except (TypeError, ValueError):
+            wanted = f"{count} numbers, one for each quantity"
+            raise InputError.at(f"within.{name}", f"expected {wanted}, got {described(each)}") from None
+        found.append(array if array.ndim else np.full(count, float(array)))
+    lower, upper, unit = found
+    free = "numbers; infinity stands for no bound"
+    for name, array, bad, wanted in (
+        ("lower", lower, np.isnan(lower), free), ("upper", upper, np.isnan(upper), free),
+        ("unit", unit, ~(unit > 0) | np.isinf(unit), "sizes greater than 0"),
+    ):  # fmt: skip
+        if np.any(bad):
+            raise InputError.at(f"within.{name}", f"expected {wanted}, got {array[bad][0]:g}")
+    if np.any(lower > upper):
+        raise InputError.at("within.lower", "some lower bounds are above the upper ones; swap them")
+    return lower, upper, unit

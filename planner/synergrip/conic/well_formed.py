@@ -9,9 +9,10 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
-from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows
 from synergrip.errors import InputError
+from synergrip.statics.motion import Motion
 
 
 def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation: Formulation) -> None:
@@ -36,8 +37,12 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
         cost = goal.objective(formulation)
         if not isinstance(cost, Objective):
             raise InputError.at(f"{name}.objective", f"expected an Objective, got {type(cost).__name__}")
+        if not isinstance(cost.squares, tuple):
+            raise InputError.at(f"{name}.objective", "expected a tuple of Squares; write Objective((squares_of(...),))")
         for squares in cost.squares:
             _judge_squares(f"{name}.objective", squares, formulation)
+        if cost.epigraph is not None and not np.isfinite(cost.epigraph):
+            raise InputError.at(f"{name}.objective", f"expected a finite number as epigraph, got {cost.epigraph}")
         if goal.has_scalar != (cost.epigraph is not None) or (goal.has_scalar and cost.squares):
             is_so = "has a scalar" if goal.has_scalar else "has no scalar"
             wanted = "an epigraph and no squares" if goal.has_scalar else "squares and no epigraph"
@@ -73,3 +78,23 @@ def _judge_shapes(key: str, given: Rows | Squares, count: int, formulation: Form
         raise InputError.at(key, f"expected {wanted}, got shape {constant}")
     if not (np.all(np.isfinite(given.matrix)) and np.all(np.isfinite(given.constant))):
         raise InputError.at(key, "expected finite numbers in matrix and constant, got nan or infinity")
+
+
+def judged_usage(limit: Limit, motion: Motion, usage: Any) -> Usage:
+    """Return what a limit says of a motion, after refusing what no check can go by.
+
+    Raises:
+        InputError: no `Usage`, none of its items, sizes that are none, values or bounds that are no numbers.
+    """
+    key = f"{type(limit).__name__}.usage"
+    if not isinstance(usage, Usage):
+        raise InputError.at(key, f"expected a Usage, got {type(usage).__name__}")
+    value, scale = np.asarray(usage.value, dtype=np.float64), np.asarray(usage.scale, dtype=np.float64)
+    if not usage.items or value.shape != (len(motion.times), len(usage.items)):
+        wanted = f"a value at each of {len(motion.times)} knots for each of its {len(usage.items)} items"
+        raise InputError.at(key, f"expected {wanted} (one or more), got shape {value.shape}")
+    if not np.all(scale > 0):
+        raise InputError.at(key, f"expected sizes greater than 0 as scale, got {float(np.min(scale)):g}")
+    if np.any(np.isnan(value)) or np.any(np.isnan(usage.lower)) or np.any(np.isnan(usage.upper)):
+        raise InputError.at(key, "expected numbers as value, lower and upper, got nan")
+    return usage

@@ -83,7 +83,8 @@ class Arguments:
         if np.any(bad):
             self.refuse(name, f"expected {wanted} of finite numbers, got {float(found[bad][0])}")
             return None
-        return found if found is value and not found.flags.writeable else frozen(found)
+        own = found is value and not found.flags.writeable and found.flags.owndata  # else somebody else may change it
+        return found if own else frozen(np.array(found))
 
     def text(self, name: str, value: object, *, empty: bool = True) -> str:
         """Return a text; an empty one after noting that it is none, or that it is empty where it must not be."""

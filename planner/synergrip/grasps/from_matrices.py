@@ -15,7 +15,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.given import given, numbered
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.grasp_judging import Judge
+from synergrip.grasps.grasp_judging import Judge, columns
 from synergrip.grasps.matrices import GivenContact, Matrices
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE, unbalanced
 
@@ -73,7 +73,7 @@ def grasp_from_matrices(
     told = _told(judge, contacts)
     judge.finish()
     n_l = sum(len(contact.kind.components) for contact in told)
-    n_q, n_z = (np.shape(each)[-1] if np.ndim(each) == 2 else 0 for each in (J, S))
+    n_q, n_z = (columns(each) for each in (J, S))
     matrices = Matrices(
         title=judge.text("title", title),
         contacts=told,

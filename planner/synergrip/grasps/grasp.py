@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
-from synergrip.grasps.grasp_judging import Judge
+from synergrip.grasps.grasp_judging import Judge, columns
 from synergrip.grasps.matrix_reading import unbalanced
 from synergrip.linalg import Array, block_diagonal, cross, frozen
 from synergrip.values import ByContent
@@ -62,7 +62,7 @@ class Grasp(ByContent):
             judge.refuse("contacts", "expected at least one contact")
         judge.finish()  # all that follows goes by their components
         n_l = sum(contact.n_rows for contact in contacts)
-        n_q, n_z = (np.shape(matrix)[-1] if np.ndim(matrix) == 2 else 0 for matrix in (self.J, self.S))
+        n_q, n_z = (columns(each) for each in (self.J, self.S))
         judge.names("contacts", [contact.name for contact in contacts])
         kept = {
             "title": judge.text("title", self.title),

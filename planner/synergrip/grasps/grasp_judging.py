@@ -53,3 +53,12 @@ class Judge(Arguments):
         else:
             return True
         return False
+
+
+def columns(matrix: object) -> int:
+    """Return the number of columns of what may be a matrix; 0 for what is none."""
+    try:
+        shape = np.asarray(matrix, dtype=np.float64).shape
+    except (TypeError, ValueError, OverflowError):
+        return 0
+    return shape[1] if len(shape) == 2 else 0

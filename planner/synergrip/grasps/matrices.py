@@ -182,7 +182,7 @@ class GraspFile(Table):
             yield Issue(message, f"contacts[{index}].name")
 
 
-def read_matrices(path: Path, key: str = "") -> Matrices:
+def read_matrices(path: str | Path, key: str = "") -> Matrices:
     """Read and judge a grasp given as matrices.
 
     Args:
@@ -193,7 +193,7 @@ def read_matrices(path: Path, key: str = "") -> Matrices:
     Raises:
         InputError: all the issues of the file, each with its place.
     """
-    document = read_document(path, "grasp file", key, numbers=True)
+    document = read_document(Path(path), "grasp file", key, numbers=True)
     issues: list[Issue] = []
     contacts: tuple[ContactFile, ...] | None = None
     try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
@@ -77,6 +77,8 @@ class GraspStack(Value, Sequence[Grasp]):
         """
         if isinstance(grasps, GraspStack):
             return grasps
+        if isinstance(grasps, str) or not isinstance(grasps, Iterable):
+            raise InputError.at("grasps", f"expected a list of grasps, got {type(grasps).__name__}")
         given = tuple(grasps)
         if not given:
             raise InputError.at("grasps", "expected at least one grasp, got none")

@@ -15,7 +15,6 @@ from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.steady_forces import SteadyForces
-from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proven
@@ -155,7 +154,7 @@ def _decided(question: Question, solver: Answerer) -> Answered:
 
 def _weighed(question: Question) -> Question:
     """Return the question with a first guess of what a weighted sum is worth, for its weights are anybody's."""
-    if not isinstance(question.goal, WeightedSum):
+    if question.goal.in_natural_units or question.goal.has_scalar:
         return question
     parts = question.goal.objective(question.formulation).squares
     worth = max((size for part in parts for size in _sizes(part)), default=1.0)

@@ -9,6 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Usage
+from synergrip.conic.well_formed import judged_usage
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import Array, frozen
@@ -118,7 +119,7 @@ def _missed(between: Between | None) -> Iterator[str]:
 
 def limit_usages(task: TimedTask, formulation: Formulation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
-    return tuple(limit.usage(formulation, motion) for limit in task.all_limits)
+    return tuple(judged_usage(limit, motion, limit.usage(formulation, motion)) for limit in task.all_limits)
 
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:

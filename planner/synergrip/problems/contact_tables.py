@@ -99,6 +99,7 @@ if TYPE_CHECKING:
 else:  # the parameters are those that the kinds say they have
     ContactTable = create_model(
         "ContactTable",
+        __module__=__name__,
         __base__=ContactBasics,
         __doc__="What can be said of one contact, or of all as a default.",
         **{

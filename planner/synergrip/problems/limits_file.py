@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 else:
     LimitsTable = create_model(
         "LimitsTable",
+        __module__=__name__,
         __base__=Table,
         __doc__="What every instant of the plan must keep.",
         **{key.name: _field(key) for key in LIMITS},

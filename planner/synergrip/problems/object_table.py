@@ -37,7 +37,11 @@ def _lengths(size: Size) -> Any:
 def _table(shape: type[Shape]) -> Any:
     """Return the table of a shape, with the sizes that the shape says it has."""
     sizes: dict[str, Any] = {size.name: (_lengths(size), Field(description=size.meaning)) for size in shape.sizes}
-    return create_model(f"{shape.__name__}Table", __base__=Table, __doc__=f"A {shape.name}.", **sizes)
+    table = create_model(
+        f"{shape.__name__}Table", __base__=Table, __module__=__name__, __doc__=f"A {shape.name}.", **sizes
+    )
+    globals()[table.__name__] = table  # where pickle looks for it
+    return table
 
 
 class OneShape(Table):
@@ -63,6 +67,7 @@ if TYPE_CHECKING:
 else:
     ShapeTable = create_model(
         "ShapeTable",
+        __module__=__name__,
         __base__=OneShape,
         __doc__="Exactly one shape.",
         **{name: (_table(shape) | None, Field(default=None, description=f"a {shape.name}"))

@@ -28,6 +28,7 @@ from synergrip.problems.problem_values import document_of
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import MAXIMISED, TimedTask
 from synergrip.tasks.timing import at_start, happening
+from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
@@ -35,8 +36,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, eq=False, repr=False)
+class Problem(Value):
     """A problem ready to be analysed or planned."""
 
     name: str

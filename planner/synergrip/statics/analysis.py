@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from synergrip.errors import InputError, kind_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
@@ -36,9 +37,12 @@ def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:
         load: (T, 6) wrenches it is to hold, for a refusal to tell about (default: w_0).
 
     Raises:
+        InputError: no grasp.
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
     """
+    if not isinstance(grasp, Grasp):
+        raise InputError.at("grasp", f"expected a Grasp, got {kind_of(grasp)}")
     response = respond(grasp, load)
     spaces = subspaces(response)
     return Analysis(grasp, response, spaces, coordinates(response, spaces))

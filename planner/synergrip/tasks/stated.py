@@ -12,6 +12,7 @@ from synergrip.grasps.objects import Object
 from synergrip.linalg import Array
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.profiles import Profile
+from synergrip.values import ByContent
 
 Corner = tuple[str, str, float]
 """An argument, what happens then in words, and when [s]."""
@@ -29,7 +30,7 @@ class Setting:
     """How the palm moves; None when it stands still."""
 
 
-class Stated:
+class Stated(ByContent):
     """A load or a target. One of your own overrides `over`, and the rest where the defaults are not right."""
 
     moving = False

@@ -26,12 +26,13 @@ from synergrip.tasks.profiles import SHORTEST
 from synergrip.tasks.stated import Load, Motion, Stated
 from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues, word_issues
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import ByContent
 
 HOLD = Hold()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Task:
+class Task(ByContent):
     """What is to happen, within which limits, to which end. `plan` makes a plan of it on any grasp.
 
     Args:

@@ -34,6 +34,7 @@ class CentredJoints(Goal):
         ``CentredJoints()`` on a hand; ``CentredJoints(start=0.2, lower=-1.0, upper=1.0)`` on matrices
     """
 
+    in_natural_units = True
     start: OneOrEach = None
     lower: OneOrEach = None
     upper: OneOrEach = None

@@ -90,6 +90,11 @@ class Goal(Complete, ByContent, ABC):
         return False
 
     @property
+    def in_natural_units(self) -> bool:
+        """Whether its squares are near 1 where they matter; those of others are first brought there by their size."""
+        return False
+
+    @property
     def settles_forces(self) -> bool:
         """Whether the best plans by it all have the same forces."""
         return False

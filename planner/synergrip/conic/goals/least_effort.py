@@ -29,6 +29,7 @@ class LeastEffort(Goal):
         ``LeastEffort(of="torque")``
     """
 
+    in_natural_units = True
     of: Effort = "contact"
     watches = "forces"
     settles_forces = True

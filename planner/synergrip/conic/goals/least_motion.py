@@ -35,6 +35,7 @@ class LeastMotion(Goal):
         ``LeastMotion(of="rates")``
     """
 
+    in_natural_units = True
     of: Motion = "references"
     exact: bool = field(default=False, repr=False)
     """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""

@@ -15,6 +15,7 @@ class LeastReconfiguration(Goal):
     Both count in the units in which weights are stated.
     """
 
+    in_natural_units = True
     name = "least reconfiguration"
 
     def objective(self, formulation: Formulation) -> Objective:

@@ -24,6 +24,7 @@ class SteadyForces(Goal):
         ``SteadyForces()``
     """
 
+    in_natural_units = True
     exact: bool = field(default=False, repr=False)
     """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
     stiffest: float = field(default=STIFFEST, repr=False)

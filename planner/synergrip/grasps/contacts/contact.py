@@ -8,6 +8,7 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent
@@ -81,7 +82,10 @@ class Contact(ByContent):
         force itself. A contact that would have to pull is missed by that pull at least, however little friction it
         has.
         """
-        force = np.asarray(force)
+        force, rows = np.asarray(force), len(self.kind.components)
+        if force.shape[-1:] != (rows,):
+            wanted = f"forces (..., {rows}), one for each of {', '.join(self.kind.components)}"
+            raise InputError.at("force", f"expected {wanted}, got shape {force.shape}")
         images = [force @ W.T for W in self.cones]
         margins = [image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1) for image in images]
         margin, normal = np.min(margins, axis=0), force[..., 0]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from synergrip.documents.source import Source
-from synergrip.errors import InputError, OutputError, one_of
+from synergrip.errors import InputError, OutputError, kind_of, one_of
 from synergrip.files import IMPOSSIBLE
 from synergrip.planning.answer import FORMATS
 from synergrip.planning.outcome import Outcome, Plan
@@ -33,6 +33,8 @@ def draw(plan: Plan, path: str | Path, title: str) -> Path:
     from synergrip.reports.pictures.plan_picture import draw_plan
     from synergrip.reports.pictures.sheet import picture_suffix
 
+    if not isinstance(title, str):
+        raise InputError.at("title", f"expected a text, got {kind_of(title)}")
     place = _path(path, "path")
     picture_suffix(place, "path")
     _written("path", place, lambda: draw_plan(plan, title or plan.grasp.title, place))
@@ -40,6 +42,8 @@ def draw(plan: Plan, path: str | Path, title: str) -> Path:
 
 
 def _told(problem: Asked) -> tuple[str, Sequence[str], Source | None]:
+    if not (hasattr(problem, "notes") and hasattr(problem, "source")):
+        raise InputError.at("problem", f"expected what load_problem returns, got {kind_of(problem)}")
     return problem.title, problem.notes, problem.source
 
 
