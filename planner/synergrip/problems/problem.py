@@ -12,6 +12,7 @@ import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
@@ -92,6 +93,7 @@ def find_problem(name_or_path: str) -> Path:
     return inside
 
 
+@naming_arguments
 def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Sequence[str] = ()) -> Problem:
     """Read a problem, with ``KEY=VALUE`` texts put over the file.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
@@ -28,6 +29,7 @@ class Analysis(Value):
         )
 
 
+@naming_arguments
 def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:
     """Return the analysis of a grasp.
 
