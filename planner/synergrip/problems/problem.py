@@ -110,6 +110,8 @@ def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Seque
         1.0
     """
     texts = (overrides,) if isinstance(overrides, str) else overrides
+    if not isinstance(texts, Sequence) or not all(isinstance(text, str) for text in texts):
+        raise InputError.at("overrides", f'expected texts such as "limits.margin=0.3 N", got {shown(overrides)}')
     if isinstance(problem, Mapping):
         document = document_of(problem).with_overrides(texts)
         return _problem(document.data.get("title") or "problem", document.path, parse(document, ProblemFile), document)
