@@ -93,7 +93,7 @@ def test_bounds_of_ones_own_limits_are_judged(key: str, make: Callable[[Any], An
 
 @pytest.mark.parametrize(
     ("changes", "fragment"),
-    [({"scale": [0.0]}, "greater than 0"), ({"value": [[np.nan]]}, "got nan"), ({"items": ()}, "one or more")],
+    [({"scale": [0.0]}, "greater than 0"), ({"value": [[np.nan]]}, "got nan"), ({"items": ()}, "0 items")],
 )
 def test_a_usage_that_no_check_can_go_by_is_refused(changes: dict[str, Any], fragment: str) -> None:
     class Own(sg.Limit):
@@ -107,5 +107,5 @@ def test_a_usage_that_no_check_can_go_by_is_refused(changes: dict[str, Any], fra
                             np.array(own["scale"]), motion.times)  # fmt: skip
 
     problem = sg.load_problem("tripod")
-    with pytest.raises(sg.InputError, match=f"Own.usage.*{fragment}"):
+    with pytest.raises(sg.InputError, match=f"[uU]sage.*{fragment}"):
         sg.plan(problem.grasp, problem.task.replace(limits=[*problem.task.limits, Own()]))

@@ -47,7 +47,8 @@ def _misnamed(
     before = f"{of}." if of else ""
     if len(args) > len(places):
         unnamed = len(args) - len(places)
-        yield Issue(f"{unnamed} values without a name; write {known[0]}=... and so on: {', '.join(known)}", of)
+        how = f"write {known[0]}=... and so on: {', '.join(known)}" if known else "it takes no arguments"
+        yield Issue(f"{unnamed} values without a name; {how}", of)
     for name in kwargs:
         if name not in known:
             hint = suggest(name, known) or f"; there are {', '.join(known)}"

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.quantities import quantity
 from synergrip.errors import InputError, Issue, one_of, raise_issues, repeated, suggest
 from synergrip.files import bundled
@@ -44,6 +45,7 @@ def bundled_hands() -> tuple[str, ...]:
     return tuple(sorted(entry.parent.name for entry in folder.glob(f"*/{FILE}")))
 
 
+@naming_arguments
 def load_hand(
     name_or_path: str | Path,
     *,

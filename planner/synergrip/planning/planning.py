@@ -16,6 +16,7 @@ from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proof
 from synergrip.conic.well_formed import refuse_malformed
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.quantities import apart
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
@@ -40,6 +41,7 @@ NEAR = 1e-5
 """Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""
 
 
+@naming_arguments
 def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer = "clarabel") -> Outcome:
     """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 

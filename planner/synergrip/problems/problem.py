@@ -12,6 +12,7 @@ import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
@@ -93,6 +94,7 @@ def find_problem(name_or_path: str) -> Path:
     return inside
 
 
+@naming_arguments
 def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Sequence[str] = ()) -> Problem:
     """Read a problem, with ``KEY=VALUE`` texts put over the file.
 
@@ -109,6 +111,8 @@ def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Seque
         1.0
     """
     texts = (overrides,) if isinstance(overrides, str) else overrides
+    if not isinstance(texts, Sequence) or not all(isinstance(text, str) for text in texts):
+        raise InputError.at("overrides", f'expected texts such as "limits.margin=0.3 N", got {shown(overrides)}')
     if isinstance(problem, Mapping):
         document = document_of(problem).with_overrides(texts)
         return _problem(document.data.get("title") or "problem", document.path, parse(document, ProblemFile), document)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
@@ -15,6 +16,7 @@ from synergrip.tasks.profiles import Profile
 from synergrip.tasks.stated import Load, Setting
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class Gravity(Load):
     """The weight of the object; in a palm that moves it turns the other way than the palm.

@@ -7,10 +7,12 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.tasks.profiles import Constant
 from synergrip.tasks.stated import Motion, Setting
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class Hold(Motion):
     """The object stays where it is.

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.time_table import MODES, MOTION, Table, read_table
 from synergrip.linalg import Array
 from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
@@ -15,6 +16,7 @@ from synergrip.tasks.profiles import Tabled
 from synergrip.tasks.stated import Motion, Setting
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class MotionTable(Motion):
     """Where the object is wanted at instants which cover the task, in straight lines between them.
@@ -69,6 +71,7 @@ class MotionTable(Motion):
         return Tabled(Table(np.asarray(self.times), np.asarray(self.values)))
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class ModesTable(Motion):
     """The rigid motion in coordinates of Gamma_ucs, all of them, at instants which cover the task.

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from synergrip.documents.judging import described
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.marks import Marks, together
@@ -34,6 +35,7 @@ class _Addable(Motion):
         return Moving(tuple(rises))
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class Move(_Addable):
     """A displacement along an axis and a rotation about it, from the start of the task to its end.
@@ -75,6 +77,7 @@ class Move(_Addable):
         return frozen(np.concatenate([(self.lift or 0.0) * axis, (self.roll or 0.0) * axis]))
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class ModeMove(_Addable):
     """A move along one of the rigid motions that the synergies can produce, from the start of the task to its end.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.inertia import Inertia, inertia
@@ -14,6 +15,7 @@ from synergrip.tasks.profiles import PROFILES, ProfileName, Rise
 from synergrip.tasks.stated import Load, Setting
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class Palm(Load):
     """The palm turns about an axis through the origin of its frame and shifts this origin, over the whole task.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.time_table import MOTION, read_table
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
@@ -28,6 +29,7 @@ LARGEST_TURN = np.pi / 2
 that the way between the lines is a guess; this leaves room for both."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class PalmPath(Load):
     """The palm goes through poses, as on an arm, with gravity fixed in the world.

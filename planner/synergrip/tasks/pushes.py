@@ -8,6 +8,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
@@ -20,6 +21,7 @@ HALF_SINE_PARTS = 16
 CORNERS = {"start": "the start", "end": "the end", "ramp": "a ramp corner", "profile": "the peak"}
 
 
+@naming_arguments
 @dataclass(frozen=True, kw_only=True)
 class Push(Load):
     """A force at a point of the object, for some time or throughout the task.

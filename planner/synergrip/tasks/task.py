@@ -13,6 +13,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName
 from synergrip.documents.judging import described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
 from synergrip.tasks.arguments import TaskArguments, keep
@@ -31,6 +32,7 @@ from synergrip.values import ByContent
 HOLD = Hold()
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Task(ByContent):
     """What is to happen, within which limits, to which end. `plan` makes a plan of it on any grasp.

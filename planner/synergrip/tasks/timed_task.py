@@ -12,6 +12,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
@@ -54,6 +55,7 @@ class Target(Value):
     """The argument that states it, for errors."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedTask(Value):
     """A task at T knots."""

@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
 from synergrip.tasks.marks import Marks
@@ -15,6 +16,7 @@ from synergrip.tasks.profiles import PROFILES, SHORTEST, WaypointProfile
 from synergrip.tasks.stated import Corner, Motion, Setting
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Waypoints(Motion):
     """Where the object is wanted at some instants, and the way there from where it is at 0 s.

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.documents.time_table import WRENCH, Table, read_table
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
@@ -16,6 +17,7 @@ from synergrip.tasks.stated import Load, Setting
 COLUMNS = "3 forces [N] and 3 moments [N m] about B, axes of the palm"
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class Wrench(Load):
     """The same wrench throughout the task.
@@ -43,6 +45,7 @@ class Wrench(Load):
         return Constant(frozen(self.values))
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class WrenchTable(Load):
     """A wrench that is given at instants which cover the task, and is linear between them.

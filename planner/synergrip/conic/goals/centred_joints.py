@@ -11,11 +11,13 @@ from synergrip.conic.arguments import OneOrEach
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
 from synergrip.conic.limits.joint_range import JointRange
+from synergrip.documents.naming import naming_arguments
 
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class CentredJoints(Goal):
     """Minimise the sum of squared distances of the joints from the middle of their ranges, in half ranges.

@@ -9,8 +9,10 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
+from synergrip.documents.naming import naming_arguments
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class LargestMargin(Goal):
     """Maximise s with ``slip margin >= s`` everywhere. It stands in the place of the friction-cone limit."""

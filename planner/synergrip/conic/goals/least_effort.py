@@ -7,11 +7,13 @@ from typing import Literal, get_args
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 
 Effort = Literal["contact", "torque", "actuator"]
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class LeastEffort(Goal):
     """Minimise the sum over knots of ``||lambda||^2``, ``||tau||^2`` or ``||sigma||^2``.

@@ -10,11 +10,13 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.differences import RESCALED, STIFFEST, differences
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 
 Motion = Literal["references", "rates", "accelerations"]
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class LeastMotion(Goal):
     """Minimise the sum of squares of the synergy references, of their rates, or of their accelerations.

@@ -11,9 +11,11 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
 from synergrip.conic.rows import Kind, Rows, items_of
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import frozen
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class LeastPeak(Goal):
     """Minimise s with ``normal force <= s`` at all contacts and knots."""

@@ -10,8 +10,10 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.differences import RESCALED, STIFFEST, differences
 from synergrip.conic.goals.goal import Goal, Objective
+from synergrip.documents.naming import naming_arguments
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class SteadyForces(Goal):
     """Minimise the sum over the steps of ``||lambda_k - lambda_(k-1)||^2 / h_k``.

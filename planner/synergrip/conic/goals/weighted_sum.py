@@ -12,6 +12,7 @@ from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.documents.judging import described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 EXAMPLE = "write for example WeightedSum(((LeastEffort(), 1.0), (LeastMotion('rates'), 0.1)))"
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class WeightedSum(Goal):
     """Minimise the sum of weight times goal, over goals that are sums of squares, each in the units stated for it.

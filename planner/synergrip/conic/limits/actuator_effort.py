@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
 from synergrip.conic.limits.symmetric import Symmetric
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.held import Held
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class ActuatorEffort(Symmetric):
     """``|sigma| <= limit`` for each synergy.

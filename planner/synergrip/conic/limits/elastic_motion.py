@@ -14,10 +14,12 @@ from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class ElasticMotion(Limit):
     """``||U dz_r - Gamma_ucs beta|| <= limit``: contacts' deformation under the squeeze, sag under load excluded.

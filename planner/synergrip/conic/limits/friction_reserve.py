@@ -15,6 +15,7 @@ from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, sl
 from synergrip.conic.limits.limit import Limit, Usage, Watches
 from synergrip.conic.rows import Rows
 from synergrip.documents.fields import Written, number, unit_schema, with_unit
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class FrictionReserve(Limit):
     """``ratio mu n >= ||(t, o)||`` at every contact, and its soft kin with ``ratio nu``.

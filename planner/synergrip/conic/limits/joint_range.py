@@ -13,6 +13,7 @@ from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.hands.units import joint_kinds, unit_of
 from synergrip.linalg import Array, frozen
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 ENDS = ("start", "lower", "upper")
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class JointRange(Limit):
     """``lower <= q + dq <= upper`` for every joint. What is not given is what the hand of the grasp says.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
 from synergrip.conic.limits.symmetric import Symmetric
+from synergrip.documents.naming import naming_arguments
 from synergrip.hands.units import joint_kinds, torque_unit
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.held import Held
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class JointTorque(Symmetric):
     """``|tau| <= limit`` for each joint.

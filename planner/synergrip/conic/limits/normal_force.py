@@ -15,6 +15,7 @@ from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
 from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
@@ -23,6 +24,7 @@ FAR = 1e3
 """A bound this many times the force unit hardly binds."""
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class NormalForce(Limit):
     """``lower <= n <= upper`` at every contact.

@@ -14,6 +14,7 @@ from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
@@ -25,6 +26,7 @@ AXES: tuple[AxisName, ...] = ("x", "y", "z", "rx", "ry", "rz")
 Part = Literal["whole", "rigid"]
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class ObjectError(Limit):
     """``||D (u - wanted)|| <= limit`` over the chosen axes, D = diag(1, 1, 1, L, L, L), L the characteristic length.

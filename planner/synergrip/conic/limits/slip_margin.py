@@ -8,10 +8,12 @@ from synergrip.conic.arguments import size
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.documents.fields import Force
+from synergrip.documents.naming import naming_arguments
 
 MARGIN = "a slip margin in newtons of at least 0; 0 asks only that nothing slips"
 
 
+@naming_arguments
 @dataclass(frozen=True)
 class SlipMargin(FrictionCone):
     """Every contact force at least so far inside its friction cone: ``mu n - ||(t, o)|| >= margin``.

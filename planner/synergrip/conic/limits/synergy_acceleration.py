@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.conic.limits.differences import Differences
 from synergrip.conic.limits.file_key import FileKey, References
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class SynergyAcceleration(Differences):
     """A bound on how fast the rate of each synergy changes.

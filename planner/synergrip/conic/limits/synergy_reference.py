@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey, References
 from synergrip.conic.limits.symmetric import Symmetric
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False)
 class SynergyReference(Symmetric):
     """``|dz_r| <= limit`` for each synergy.
