@@ -62,15 +62,13 @@ def load_hand(
             URDF or MJCF file (``.urdf``, ``.xml``, ``.mjcf``) that stands for itself, see `bare_hand`.
         relative_to: the folder a path is relative to; the current one when absent.
         coupling: ratios that replace those of the hand: one for all followers, or by follower.
-        follower_ranges: whether the ranges that the model file states for followers count ("keep"), or what their
-            couplings make of the ranges of their drivers ("ignore"); as the hand has it when absent.
-        palm: the link of a URDF or MJCF file that is the palm, when it is not the outermost one. What it does not carry
-            stands still and is left out.
+        follower_ranges: whether ranges that the model file states for followers count ("keep"), or what couplings make
+            of those of their drivers ("ignore"); as the hand has it when absent.
+        palm: of a URDF or MJCF file, when it is not the outermost link. What it does not carry is left out.
         key: where the name stands, for the error; coupling, follower ranges and palm stand beside it.
 
     Raises:
-        InputError: no such hand, a file that cannot be used (located in that file), or a coupling or palm that the hand
-            does not have (at their keys).
+        InputError: no such hand, a file that cannot be used (located in it), or a coupling or palm that it has not.
     """
     path = _find(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]

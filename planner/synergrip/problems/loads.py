@@ -74,7 +74,9 @@ def _gathered(issues: list[Issue], key: str, make: Callable[[], T]) -> T | None:
     try:
         return make()
     except InputError as error:
-        issues += [issue if issue.file else replace(issue, key=key) for issue in error.issues]
+        for issue in error.issues:  # the arguments of a push have the names of its keys
+            inside = issue.key.removeprefix("Push") if issue.key.startswith("Push.") else ""
+            issues.append(issue if issue.file else replace(issue, key=key + inside))
         return None
 
 

@@ -68,6 +68,8 @@ class Push(Load):
             judge.refuse("ramp", "a trapezoid needs ramp, the time to its full force in seconds, for example 0.1")
         if profile != "trapezoid" and self.ramp is not None:
             judge.refuse("ramp", f"'ramp' is for a trapezoid; the profile is {self.profile!r}")
+        if not judge.issues and self.start is not None and self.end is not None and self.end <= self.start:
+            judge.refuse("end", f"the push begins at {self.start:g} s and must end later, not at {self.end:g} s")
         keep(self, judge, **kept)
 
     @property
