@@ -42,25 +42,29 @@ def in_files(package: ModuleType, kind: type) -> list[object]:
 
 @pytest.mark.parametrize("key", LIMITS, ids=lambda key: key.name)
 def test_a_limit_is_whole(key: FileKey) -> None:
-    assert key.kind in formulas.LIMITS, "no formula in referee/formulas.py"
-    assert key.name in {*BITES, *BITTEN_ELSEWHERE}, "no line in tests/planning/test_limits_bite.py"
-    assert f"| `{key.name}` |" in section("limits"), "not described in docs/problem-file.md"
-    assert getattr(synergrip, key.kind.__name__) is key.kind, "not exported from synergrip"
     grasp = random_formulation(0)[1].response.grasp
     kinds = {type(make(grasp)) for make in RANDOM.values()}
-    assert key.kind in kinds or key.kind.__mro__[1] in kinds, (
-        "not compared with its usage: tests/random_formulations.py"
-    )
-    assert "Example:" in (key.kind.__doc__ or "")
+    there = {
+        "a formula in referee/formulas.py": key.kind in formulas.LIMITS,
+        "a line in tests/planning/test_limits_bite.py": key.name in {*BITES, *BITTEN_ELSEWHERE},
+        "a row in docs/problem-file.md": f"| `{key.name}` |" in section("limits"),
+        "its name in synergrip/__init__.py": getattr(synergrip, key.kind.__name__, None) is key.kind,
+        "a line in tests/random_formulations.py": key.kind in kinds or key.kind.__mro__[1] in kinds,
+        "an Example: in its docstring": "Example:" in (key.kind.__doc__ or ""),
+    }
+    assert not [what for what, is_there in there.items() if not is_there]
 
 
 @pytest.mark.parametrize("name", GOALS)
 def test_a_goal_is_whole(name: str) -> None:
     goal = GOALS[name]
-    assert type(goal) in formulas.GOALS, "no formula in referee/formulas.py"
-    assert name in {each for order in ORDERS for each in (*order, *WEIGHTS)}, "not in tests/planning/test_goal_order.py"
-    assert re.search(rf'[`"]{name}[`"]', section("goal")), "not described in docs/problem-file.md"
-    assert getattr(synergrip, type(goal).__name__) is type(goal), "not exported from synergrip"
+    there = {
+        "a formula in referee/formulas.py": type(goal) in formulas.GOALS,
+        "an order in tests/planning/test_goal_order.py": name in {x for order in ORDERS for x in (*order, *WEIGHTS)},
+        "a word in docs/problem-file.md": bool(re.search(rf'[`"]{name}[`"]', section("goal"))),
+        "its name in synergrip/__init__.py": getattr(synergrip, type(goal).__name__, None) is type(goal),
+    }
+    assert not [what for what, is_there in there.items() if not is_there]
 
 
 def test_nothing_that_a_file_offers_is_left_out_of_its_registry() -> None:
