@@ -11,10 +11,9 @@ from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.friction_cone import FrictionCone
-from synergrip.conic.limits.limit import Limit, Usage, Watches
+from synergrip.conic.limits.limit import InOtherRows, Limit
 from synergrip.conic.rows import Item, Kind, Rows
 from synergrip.linalg import Array, frozen
-from synergrip.statics.motion import Motion
 
 FEWEST = 3
 """Facets of a pyramid."""
@@ -117,23 +116,10 @@ class LargestMarginInPyramids(LargestMargin):
 
 
 @dataclass(frozen=True)
-class _OtherInPyramids(Limit):
+class _OtherInPyramids(InOtherRows):
     """Any other limit, with pyramids in the place of the contacts' cones that it has."""
 
-    limit: Limit
     facets: int
-
-    @property
-    def key(self) -> str:
-        return self.limit.key
-
-    @property
-    def watches(self) -> Watches:
-        return self.limit.watches
-
-    @property
-    def couples_knots(self) -> bool:
-        return self.limit.couples_knots
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         return _all_inscribed(self.limit.rows(formulation), self.facets)
@@ -143,9 +129,6 @@ class _OtherInPyramids(Limit):
 
     def loosened(self, share: float) -> _OtherInPyramids:
         return replace(self, limit=self.limit.loosened(share))
-
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        return self.limit.usage(formulation, motion)
 
 
 def limit_in_pyramids(limit: Limit, facets: int) -> Limit:

@@ -13,8 +13,6 @@ from synergrip.conic.decide import Decision, decide, rank
 from synergrip.conic.formulation import Units
 from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.goals.least_motion import LeastMotion
-from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proven
@@ -211,9 +209,9 @@ def _largest(values: Array) -> float:
 
 
 def _less_closely(best: Answered, solver: Answerer) -> Answered:
-    """Return smoothness looked at less closely, when nothing verifies."""
+    """Return the goal looked at less closely, when nothing verifies and there is such a way."""
     goal = best.question.goal
-    if best.decision.certificate.verified or not isinstance(goal, LeastMotion | SteadyForces) or goal.rescaled is None:
+    if best.decision.certificate.verified or goal.rescaled is None:
         return best
     second = _decided(replace(best.question, goal=goal.rescaled), solver)
     return second if second.decision.optimal else best

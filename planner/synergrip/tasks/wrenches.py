@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-
-import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.documents.time_table import WRENCH, Table, read_table
-from synergrip.linalg import Array, frozen
-from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
-from synergrip.tasks.profiles import Constant, Tabled
+from synergrip.documents.time_table import WRENCH
+from synergrip.linalg import frozen
+from synergrip.tasks.arguments import Numbers, TaskArguments, keep
+from synergrip.tasks.profiles import Constant
 from synergrip.tasks.stated import Load, Setting
+from synergrip.tasks.time_tables import TimeTable
 
 COLUMNS = "3 forces [N] and 3 moments [N m] about B, axes of the palm"
 
@@ -46,9 +44,11 @@ class Wrench(Load):
 
 
 @naming_arguments
-@dataclass(frozen=True, eq=False)
-class WrenchTable(Load):
+@dataclass(frozen=True, eq=False, repr=False)
+class WrenchTable(TimeTable, Load):
     """A wrench that is given at instants which cover the task, and is linear between them.
+
+    A CSV file of it has the header ``t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm``.
 
     Args:
         times: (K,) increasing instants [s].
@@ -62,38 +62,5 @@ class WrenchTable(Load):
         WrenchTable(2 lines from 0 s to 1 s)
     """
 
-    times: Numbers
-    values: Rows
-
-    def __post_init__(self) -> None:
-        """Judge the arguments."""
-        judge = TaskArguments("WrenchTable")
-        times = judge.times("times", self.times)
-        keep(self, judge, times=times, values=judge.rows("values", self.values, (len(times), 6), COLUMNS))
-
-    def __repr__(self) -> str:
-        """Return one line."""
-        return f"WrenchTable({len(self.times)} lines from {self.times[0]:g} s to {self.times[-1]:g} s)"
-
-    @classmethod
-    def from_csv(cls, path: str | Path, *, key: str = "") -> WrenchTable:
-        """Return the table in a CSV file with the header ``t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm``.
-
-        Args:
-            path: the file.
-            key: what names the file, for errors.
-
-        Raises:
-            InputError: no such file, or one that is no such table, with line and column.
-        """
-        table = read_table(Path(path), WRENCH, key)
-        return cls(table.times, table.values)
-
-    @property
-    def lines(self) -> Array:
-        """Its instants."""
-        return np.asarray(self.times)
-
-    def over(self, setting: Setting) -> Tabled:
-        """Return the wrench at any time."""
-        return Tabled(Table(np.asarray(self.times), np.asarray(self.values)))
+    columns = WRENCH
+    meaning = COLUMNS

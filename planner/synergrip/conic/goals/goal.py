@@ -115,6 +115,11 @@ class Goal(Complete, ByContent, ABC):
         """
         return self
 
+    @property
+    def rescaled(self) -> Goal | None:
+        """The same goal looked at less closely, for programs that do not verify; None when there is no such way."""
+        return None
+
     def weighed(self) -> Goal:
         """Return the goal as a sum with weights needs it: with the factor that its definition gives it."""
         return self

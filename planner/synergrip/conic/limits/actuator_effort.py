@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
+from synergrip.conic.limits.file_key import Efforts, FileKey, or_of_hand
 from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
 if TYPE_CHECKING:
-    from synergrip.grasps.grasp import Grasp
     from synergrip.grasps.held import Held
 
 
@@ -50,13 +49,8 @@ class ActuatorEffort(Symmetric):
         return held.synergies.effort_limits
 
 
-def _made(value: Any, grasp: Grasp) -> ActuatorEffort:
-    needs_hand(value, grasp)
-    return ActuatorEffort(value)
-
-
 IN_FILE = FileKey(
     "actuator_effort", ActuatorEffort, Efforts,
-    'largest effort of a synergy, one or one per synergy; "hand": as the hand says', _made,
+    'largest effort of a synergy, one or one per synergy; "hand": as the hand says', or_of_hand(ActuatorEffort),
     efforts_of="synergy",
 )  # fmt: skip

@@ -89,10 +89,15 @@ References = Annotated[float | tuple[float, ...], Written(_one_each(_positive), 
 """Sizes of synergies, in their own units: one, or one for each."""
 
 
-def needs_hand(value: object, grasp: Grasp) -> None:
-    """Refuse ``"hand"`` on a grasp given as matrices, in the words of the file."""
-    if value == "hand" and grasp.held is None:
-        raise InputError.at("", "'hand' needs a [hand]; a grasp file states no limits, write numbers")
+def or_of_hand(kind: Callable[[Any], Limit]) -> Callable[[Any, Grasp], Limit]:
+    """Return how a limit is made of a value that may be ``"hand"``, which a grasp given as matrices does not have."""
+
+    def made(value: Any, grasp: Grasp) -> Limit:
+        if value == "hand" and grasp.held is None:
+            raise InputError.at("", "'hand' needs a [hand]; a grasp file states no limits, write numbers")
+        return kind(value)
+
+    return made
 
 
 def limit_of(key: FileKey, value: Any, grasp: Grasp) -> Limit:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from synergrip.conic.formulation import Affine, Formulation
-from synergrip.conic.limits.file_key import Efforts, FileKey, needs_hand
+from synergrip.conic.limits.file_key import Efforts, FileKey, or_of_hand
 from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.documents.naming import naming_arguments
 from synergrip.hands.units import joint_kinds, torque_unit
@@ -57,13 +57,8 @@ class JointTorque(Symmetric):
         return frozen([joint.torque_limit for joint in held.hand.joints])
 
 
-def _made(value: Any, grasp: Grasp) -> JointTorque:
-    needs_hand(value, grasp)
-    return JointTorque(value)
-
-
 IN_FILE = FileKey(
     "joint_torque", JointTorque, Efforts,
     "largest torque of a joint in N m, force of a slide in N, one or one per joint; "
-    '"hand": as the hand says', _made, efforts_of="joint",
+    '"hand": as the hand says', or_of_hand(JointTorque), efforts_of="joint",
 )  # fmt: skip

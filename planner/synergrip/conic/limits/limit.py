@@ -148,29 +148,39 @@ class Limit(Complete, ByContent, ABC):
 
 
 @dataclass(frozen=True)
-class _Roomier(Limit):
-    """A limit whose cones are all kept but for a share of the unit of their rows."""
+class InOtherRows(Limit):
+    """A limit that is another one in all but its rows."""
 
     limit: Limit
-    share: float
 
     @property
     def key(self) -> str:
+        """Key of the other one."""
         return self.limit.key
 
     @property
     def watches(self) -> Watches:
+        """What the other one depends on."""
         return self.limit.watches
 
     @property
     def couples_knots(self) -> bool:
+        """Whether the other one does."""
         return self.limit.couples_knots
+
+    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
+        """Return that of the other one."""
+        return self.limit.usage(formulation, motion)
+
+
+@dataclass(frozen=True)
+class _Roomier(InOtherRows):
+    """A limit whose cones are all kept but for a share of the unit of their rows."""
+
+    share: float
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         return [with_room(part, self.share) for part in self.limit.rows(formulation)]
-
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        return self.limit.usage(formulation, motion)
 
 
 def norm_usage(title: str, unit: str, item: str, norm: Array, limit: float, times: Array) -> Usage:
