@@ -66,7 +66,7 @@ def free(rng: np.random.Generator, count: int, n_v: int, of_each_knot: bool) -> 
     if of_each_knot:
         return sparse.csc_matrix(sparse.kron(sparse.eye_array(KNOTS), directions))
     time = np.linalg.qr(rng.normal(size=(KNOTS, 2)))[0]
-    parts = sparse.kron(sparse.eye_array(KNOTS), directions[:, 1:]), sparse.kron(3 * time, directions[:, :1])
+    parts = sparse.kron(sparse.eye_array(KNOTS), directions[:, 1:]), sparse.kron(sparse.csr_array(3 * time), directions[:, :1])
     return sparse.csc_matrix(sparse.hstack(parts))
 
 
@@ -74,7 +74,7 @@ def test_a_box_of_what_is_left_holds_every_plan_in_the_box_of_the_knots() -> Non
     rng, formulation = random_formulation(1)
     limits = [LIMITS[name](formulation.response.grasp) for name in ("friction", "normal", "reference")]
     time = np.column_stack([np.ones(KNOTS), [-1.0, -0.2, 0.2, 1.0]])
-    basis = sparse.csc_matrix(sparse.kron(time, np.eye(formulation.n_v)))
+    basis = sparse.csc_matrix(sparse.kron(sparse.csr_array(time), np.eye(formulation.n_v)))
     left = formulation.around(np.zeros((KNOTS, formulation.n_v)), basis)
     whole, part = build(formulation, limits, LeastEffort()), build(left, limits, LeastEffort())
     box = whole.unknowns(whole.variable_bounds)

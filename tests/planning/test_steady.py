@@ -81,7 +81,7 @@ def test_the_next_goal_is_as_good_as_the_same_changes_of_force_allow(monkeypatch
 
     def directions_times_courses(squares: object, knots: int, n_v: int) -> sparse.csc_matrix:
         """All directions, constant in time: the only product that holds what no change of force sees."""
-        return sparse.csc_matrix(sparse.kron(np.ones((knots, 1)), np.eye(n_v)))
+        return sparse.csc_matrix(sparse.kron(sparse.csr_array(np.ones((knots, 1))), np.eye(n_v)))
 
     monkeypatch.setattr(stages, "free_basis", directions_times_courses)
     product = set_down('["steady", "references"]')
