@@ -19,13 +19,15 @@ def check(
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
         from synergrip.errors import Refusal, SynergripError
+        from synergrip.problems.problem import load_problem, located
+
+        loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
+
         from synergrip.planning.check import judge_references
         from synergrip.planning.references import read_references
-        from synergrip.problems.problem import load_problem, located
         from synergrip.reports.data.json_analysis import refused_document
         from synergrip.reports.text.text_check import judgement_document, judgement_text, refused_text
 
-        loaded = load_problem(problem, overrides or [])
         try:
             judgement = judge_references(loaded.grasp, loaded.timed, read_references(plan, loaded.grasp))
             code = judgement.exit_code

@@ -60,12 +60,15 @@ def plan(
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
+        from synergrip.problems.problem import load_problem
+
+        loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
+
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
         from synergrip.planning.planning import plan as make
         from synergrip.planning.solvers import answerer
-        from synergrip.problems.problem import load_problem
         from synergrip.reports.data.json_plan import outcome_document
         from synergrip.reports.data.plan_files import refuse_place, write_outcome
         from synergrip.reports.text.text_plan import outcome_text
@@ -73,7 +76,6 @@ def plan(
 
         picture_place(picture)
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
-        loaded = load_problem(problem, overrides or [])
         folder, drawn = output or Path("out") / loaded.name, ""
         written: list[str] | None = None
         possible("--output", folder, refuse_place)

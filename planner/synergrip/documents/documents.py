@@ -180,7 +180,13 @@ def _unusable(value: object, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
 
 
 def _are_usable(entries: list[object]) -> bool:
-    """Tell quickly, for the long lists of matrices and plans, whether there is nothing in them to look into."""
+    """Tell quickly, for the long lists of matrices and plans, whether there is nothing in them to look into.
+
+    A sum of sizes is not within the largest number when one of them is not, nor when one is no number.
+    """
     kinds = set(map(type, entries))
     numbers = entries if kinds <= {int, float} else [entry for entry in entries if type(entry) in (int, float)]
-    return not kinds & {dict, list} and all(-LARGEST_NUMBER <= entry <= LARGEST_NUMBER for entry in numbers)  # type: ignore[operator]
+    try:
+        return not kinds & {dict, list} and sum(map(abs, numbers)) <= LARGEST_NUMBER  # type: ignore[arg-type]
+    except OverflowError:  # a whole number that no float holds
+        return False

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.documents.judging import Arguments
-from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY, least_scaled_eigenvalue
+from synergrip.grasps.matrix_reading import SYMMETRY, is_semidefinite
 from synergrip.linalg import Array, frozen
 
 
@@ -47,7 +47,7 @@ class Judge(Arguments):
         largest, diagonal = float(np.abs(matrix).max()), np.diag(matrix)
         if np.abs(matrix - matrix.T).max() > SYMMETRY * largest:
             self.refuse(name, "is not symmetric")
-        elif np.any(diagonal < 0) or least_scaled_eigenvalue(matrix) < -SEMIDEFINITE:
+        elif np.any(diagonal < 0) or not is_semidefinite(matrix):
             smallest = float(np.linalg.eigvalsh(matrix)[0])
             self.refuse(name, f"is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}")
         else:

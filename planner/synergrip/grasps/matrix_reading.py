@@ -148,20 +148,25 @@ class MatrixReader:
             message = f"{key} is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}"
             self.refuse(f"{key}[{i}][{i}]", f"{message}; this entry of the diagonal is negative")
             return False
-        if least_scaled_eigenvalue(matrix) >= -SEMIDEFINITE:
+        if is_semidefinite(matrix):
             return True
         smallest = np.linalg.eigvalsh(matrix)[0]
         self.refuse(key, f"is not positive semidefinite: its smallest eigenvalue is {smallest:.6g}")
         return False
 
 
-def least_scaled_eigenvalue(matrix: Array) -> float:
-    """Return the smallest eigenvalue of a symmetric matrix scaled to unit diagonal, whose diagonal is not negative."""
+def is_semidefinite(matrix: Array) -> bool:
+    """Tell whether a symmetric matrix without a negative diagonal is semidefinite, scaled to unit diagonal."""
     diagonal = np.diag(matrix)
     if not np.any(matrix - np.diag(diagonal)):
-        return 0.0
+        return True
     scale = np.sqrt(np.where(diagonal > 0, diagonal, np.abs(matrix).max() or 1.0))
-    return float(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0])
+    scaled = matrix / np.outer(scale, scale)
+    try:  # many times as fast as eigenvalues; it ends at the first pivot that is not positive
+        np.linalg.cholesky(scaled + SEMIDEFINITE * np.eye(len(scaled)))
+    except np.linalg.LinAlgError:
+        return False
+    return True
 
 
 def unbalanced(G: Array, lambda_0: Array, w_0: Array) -> str:
