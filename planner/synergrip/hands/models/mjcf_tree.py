@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from synergrip.errors import InputError, one_of
 from synergrip.hands.models.mjcf import Mjcf, compiled
@@ -15,6 +15,9 @@ from synergrip.hands.models.mjcf_palm import carried_by
 from synergrip.hands.models.tree import MOST_MOVING, LinkTree, TreeJoint
 from synergrip.hands.models.xml_elements import Element
 from synergrip.linalg import Array
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
 
 WORLD = 0
 """Number of the world among the bodies."""
@@ -89,6 +92,8 @@ def _palm(file: Mjcf) -> tuple[int, list[int]]:
 
 def _joints(file: Mjcf, body: int, limits: Mapping[int, float]) -> Iterator[TreeJoint]:
     """Yield what holds a body to its parent: one fixed joint, or its joints as a chain."""
+    from scipy.spatial.transform import Rotation
+
     model, name = file.model, file.bodies[body]
     parent = file.bodies[model.body_parentid[body]]
     if not (abs(np.linalg.norm(model.body_quat[body]) - 1) < ROUNDING and np.all(np.isfinite(model.body_pos[body]))):
@@ -111,6 +116,8 @@ def _joint(
     file: Mjcf, joint: int, parent: str, child: str, xyz: Array, rotation: Rotation, torque_limit: float
 ) -> TreeJoint:
     """Return a joint of a body that is drawn at `xyz` (3,) and `rotation` in its parent, with the joint at its ref."""
+    from scipy.spatial.transform import Rotation
+
     model, kind, name = file.model, file.kinds[joint], file.joints[joint]
     axis, anchor, ref = model.jnt_axis[joint], model.jnt_pos[joint], model.qpos0[model.jnt_qposadr[joint]]
     if not abs(np.linalg.norm(axis) - 1) < ROUNDING:
