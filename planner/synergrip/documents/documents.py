@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -185,6 +185,9 @@ def _are_usable(entries: list[object]) -> bool:
     A sum of sizes is not within the largest number when one of them is not, nor when one is no number.
     """
     kinds = set(map(type, entries))
+    if kinds == {list}:  # of rows
+        entries = list(chain.from_iterable(entries))  # type: ignore[arg-type]
+        kinds = set(map(type, entries))
     numbers = entries if kinds <= {int, float} else [entry for entry in entries if type(entry) in (int, float)]
     try:
         return not kinds & {dict, list} and sum(map(abs, numbers)) <= LARGEST_NUMBER  # type: ignore[arg-type]

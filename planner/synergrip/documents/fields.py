@@ -84,9 +84,11 @@ def number(value: object, *, above: float = -math.inf, at_least: float = -math.i
 
 def _as_number(value: object) -> str:
     """Return the advice how a text with a number in it is written where no unit stands: in SI, and of the same size."""
+    if not isinstance(value, str) or not any(map(str.isdigit, value)):
+        return ""
     kind = kind_of(value, tuple(UNITS))
     try:
-        size = quantity(value, kind) if kind else ratio(value.strip() if isinstance(value, str) else None)
+        size = quantity(value, kind) if kind else ratio(value.strip())
     except InputError:
         return ""
     return f"; there is no unit here, write {size:.12g}"
