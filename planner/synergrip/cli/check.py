@@ -19,17 +19,18 @@ def check(
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
         from synergrip.errors import Refusal, SynergripError
+        from synergrip.planning.references import read_references
         from synergrip.problems.problem import load_problem, located
 
-        loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
+        loaded = load_problem(problem, overrides or [])
+        references = read_references(plan, loaded.grasp)  # what is wrong with files is told before the slow imports
 
         from synergrip.planning.check import judge_references
-        from synergrip.planning.references import read_references
         from synergrip.reports.data.json_analysis import refused_document
         from synergrip.reports.text.text_check import judgement_document, judgement_text, refused_text
 
         try:
-            judgement = judge_references(loaded.grasp, loaded.timed, read_references(plan, loaded.grasp))
+            judgement = judge_references(loaded.grasp, loaded.timed, references)
             code = judgement.exit_code
             show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
         except Refusal as error:
