@@ -131,7 +131,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "analyse a hand": (lambda: any_call.analyse(hand), "grasp"),
     "analyse a load": (lambda: any_call.analyse(grasp, np.zeros(3)), "load"),
     "problem misspelt": (lambda: any_call.load_problem("barrett-bal-hold"), "PROBLEM"),
-    "problem a number": (lambda: any_call.load_problem(3), "PROBLEM"),
+    "problem a number": (lambda: any_call.load_problem(3), "problem"),
     "problem key misspelt": (lambda: any_call.load_problem("tripod", "limits.margn=1 N"), "margn"),
     "overrides of numbers": (lambda: any_call.load_problem("tripod", [3]), "overrides"),
     "overrides a number": (lambda: any_call.load_problem("tripod", 3), "overrides"),
