@@ -51,14 +51,16 @@ def _misnamed(
     before, unnamed = f"{of}." if of else "", max(len(args) - len(places), 0)
     if unnamed:
         yield Issue(_too_many(args, unnamed, every), of)
+    meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in kwargs:
         if name not in known:
-            hint = suggest(name, known) or (f"; there are {', '.join(known)}" if known else "; it takes none")
+            near = suggest(name, known)
+            meant += [each for each in known if f"'{each}'" in near]
+            hint = near or (f"; there are {', '.join(known)}" if known else "; it takes none")
             yield Issue(f"no such argument{hint}", f"{before}{name}", on_key=True)
         elif name in given:
             yield Issue("given twice, by its place and by its name", f"{before}{name}", on_key=True)
     needed = [each.name for each in every if each.default is Parameter.empty]
-    meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in (each for each in needed if each not in given and each not in kwargs and each not in meant):
         yield Issue(f"missing{_within(args, needed)}", f"{before}{name}", on_key=True)
 

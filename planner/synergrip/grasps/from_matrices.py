@@ -119,8 +119,8 @@ def _told(judge: Judge, contacts: object) -> tuple[GivenContact, ...]:
         if isinstance(each, GivenContact):
             found.append(each)
         elif isinstance(each, tuple) and len(each) == 2:
-            judge.text(f"contacts[{index}][0]", each[0], empty=False)
-            if judge.one(f"contacts[{index}][1]", each[1], ContactKind, "HardFinger(friction=0.6)") and each[0]:
+            name = judge.text(f"contacts[{index}][0]", each[0], empty=False)
+            if judge.one(f"contacts[{index}][1]", each[1], ContactKind, "HardFinger(friction=0.6)") and name:
                 found.append(GivenContact(name=each[0], kind=each[1]))
         else:
             judge.refuse(f"contacts[{index}]", f"expected a pair such as {example}, got {described(each)}")
