@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -250,3 +251,8 @@ SAID = {
     "masked acceleration": ("masked entries",),
 }
 """What the refusal of some of them says, in one line: nothing is told twice."""
+
+
+def test_a_single_text_is_one_format(tmp_path: Path) -> None:
+    written = PLAN.save(tmp_path, formats="json")
+    assert [path.name for path in written] == [path.name for path in tmp_path.iterdir()] == ["plan.json"]

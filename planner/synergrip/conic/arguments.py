@@ -126,7 +126,7 @@ class Complete:
         if is_own(cls):
             for name in ASKED:
                 if isfunction(method := cls.__dict__.get(name)):
-                    setattr(cls, name, _saying_whose(method))
+                    setattr(cls, name, _saying_whose(method, name))
 
 
 def is_own(cls: type) -> bool:
@@ -134,12 +134,12 @@ def is_own(cls: type) -> bool:
     return not cls.__module__.startswith("synergrip.")
 
 
-def _saying_whose(method: Callable[..., Any]) -> Callable[..., Any]:
+def _saying_whose(method: Callable[..., Any], name: str) -> Callable[..., Any]:
     """Return a method whose errors name its class, with the original behind them."""
 
     @wraps(method)
     def called(self: Any, *args: Any, **kwargs: Any) -> Any:
-        key = f"{type(self).__name__}.{method.__name__}"
+        key = f"{type(self).__name__}.{name}"
         try:
             return method(self, *args, **kwargs)
         except InputError as error:
