@@ -10,7 +10,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from synergrip.documents.judging import LARGEST_NUMBER, Arguments, as_numbers, described, is_number
+from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError, SynergripError
 from synergrip.linalg import Array, frozen
 

@@ -12,10 +12,10 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from synergrip.documents.judging import LARGEST_NUMBER as LARGEST_NUMBER
 from synergrip.documents.overrides import Override, apply_overrides
 from synergrip.documents.positions import KeyPath, Positions, dotted, positions
 from synergrip.documents.syntax import at, duplicates, is_placed, loads, too_long
+from synergrip.documents.validation import LARGEST_NUMBER as LARGEST_NUMBER
 from synergrip.documents.validation import translate
 from synergrip.errors import MOST_ISSUES, InputError, Issue
 from synergrip.plain_file import read_text

@@ -9,11 +9,10 @@ from typing import Any, TypeGuard
 
 import numpy as np
 
-from synergrip.documents.validation import shown
+from synergrip.documents.validation import LARGEST_NUMBER, shown
 from synergrip.errors import Issue, raise_issues
 from synergrip.linalg import Array, frozen
 
-LARGEST_NUMBER = 1e100  # products of such numbers stay finite
 REAL = "iuf"
 """Kinds of arrays whose entries are numbers that can be put in order."""
 
