@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ ball = sg.Object(mass=0.2, shape=sg.Sphere(radius=0.05))
 at = [sg.ContactAt(pad, hard, stiffness=8e3) for pad in ("finger1/tip", "finger2/tip", "finger3/tip")]
 grasp = sg.make_grasp(hand, ball, posture="ball", synergies="motors", contacts=at)
 task = sg.Task(duration=1.0, knots=3)
+PLAN = sg.plan(grasp, task)
 any_call: Any = sg
 """Every public name, without its types: these calls are wrong on purpose."""
 
@@ -35,36 +37,39 @@ def given(**changes: Any) -> sg.Grasp:
 
 
 MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
-    "hand misspelt": (lambda: any_call.load_hand("baret"), "baret"),
-    "hand of another type": (lambda: any_call.load_hand(3), "hand"),
-    "hand missing": (lambda: any_call.load_hand(), "missing"),
-    "mass negative": (lambda: any_call.Object(mass=-0.2), "mass"),
-    "mass nan": (lambda: any_call.Object(mass=nan), "mass"),
-    "mass a text": (lambda: any_call.Object(mass="200 g"), "mass"),
-    "object misspelt": (lambda: any_call.Object(mas=0.2), "mas"),
-    "object position": (lambda: any_call.Object(mass=0.2, position=(0, 0)), "position"),
-    "object shape": (lambda: any_call.Object(mass=0.2, shape="sphere"), "shape"),
-    "radius zero": (lambda: any_call.Sphere(radius=0), "radius"),
-    "radius missing": (lambda: any_call.Sphere(), "radius"),
-    "radius misspelt": (lambda: any_call.Sphere(radios=0.1), "radios"),
-    "box sides": (lambda: any_call.Box(size=(0.1, 0.1)), "size"),
-    "cylinder radius": (lambda: any_call.Cylinder(radius=nan, height=0.1), "radius"),
-    "friction negative": (lambda: any_call.HardFinger(friction=-0.1), "friction"),
-    "friction missing": (lambda: any_call.HardFinger(), "friction"),
-    "friction misspelt": (lambda: any_call.HardFinger(frction=0.5), "frction"),
-    "soft finger": (lambda: any_call.SoftFinger(friction=0.5, torsional_friction=nan), "torsional_friction"),
-    "contact kind": (lambda: any_call.ContactAt("finger1/tip", "hard", stiffness=8e3), "kind"),
-    "stiffness missing": (lambda: any_call.ContactAt("finger1/tip", hard), "stiffness"),
-    "stiffness negative": (lambda: any_call.ContactAt("finger1/tip", hard, stiffness=-1), "stiffness"),
-    "stiffness misspelt": (lambda: any_call.ContactAt("finger1/tip", hard, stifness=1), "stifness"),
-    "tangent shape": (lambda: any_call.ContactAt("finger1/tip", hard, stiffness=1, tangent=(1, 0)), "tangent"),
+    "hand misspelt": (lambda: any_call.load_hand("baret"), "name_or_path"),
+    "hand of another type": (lambda: any_call.load_hand(3), "name_or_path"),
+    "hand missing": (lambda: any_call.load_hand(), "name_or_path"),
+    "mass negative": (lambda: any_call.Object(mass=-0.2), "Object.mass"),
+    "mass nan": (lambda: any_call.Object(mass=nan), "Object.mass"),
+    "mass a text": (lambda: any_call.Object(mass="200 g"), "Object.mass"),
+    "object misspelt": (lambda: any_call.Object(mas=0.2), "Object.mas"),
+    "object position": (lambda: any_call.Object(mass=0.2, position=(0, 0)), "Object.position"),
+    "object shape": (lambda: any_call.Object(mass=0.2, shape="sphere"), "Object.shape"),
+    "radius zero": (lambda: any_call.Sphere(radius=0), "Sphere.radius"),
+    "radius missing": (lambda: any_call.Sphere(), "Sphere.radius"),
+    "radius misspelt": (lambda: any_call.Sphere(radios=0.1), "Sphere.radios"),
+    "box sides": (lambda: any_call.Box(size=(0.1, 0.1)), "Box.size"),
+    "cylinder radius": (lambda: any_call.Cylinder(radius=nan, height=0.1), "Cylinder.radius"),
+    "friction negative": (lambda: any_call.HardFinger(friction=-0.1), "HardFinger.friction"),
+    "friction missing": (lambda: any_call.HardFinger(), "HardFinger.friction"),
+    "friction misspelt": (lambda: any_call.HardFinger(frction=0.5), "HardFinger.frction"),
+    "soft finger": (lambda: any_call.SoftFinger(friction=0.5, torsional_friction=nan), "SoftFinger.torsional_friction"),
+    "contact kind": (lambda: any_call.ContactAt("finger1/tip", "hard", stiffness=8e3), "ContactAt.kind"),
+    "stiffness missing": (lambda: any_call.ContactAt("finger1/tip", hard), "ContactAt.stiffness"),
+    "stiffness negative": (lambda: any_call.ContactAt("finger1/tip", hard, stiffness=-1), "ContactAt.stiffness"),
+    "stiffness misspelt": (lambda: any_call.ContactAt("finger1/tip", hard, stifness=1), "ContactAt.stifness"),
+    "tangent shape": (
+        lambda: any_call.ContactAt("finger1/tip", hard, stiffness=1, tangent=(1, 0)),
+        "ContactAt.tangent",
+    ),
     "posture misspelt": (lambda: made(posture="bal"), "posture"),
     "posture shape": (lambda: made(posture=np.zeros(3)), "posture"),
     "posture nan": (lambda: made(posture=np.full(8, nan)), "posture"),
     "synergies misspelt": (lambda: made(synergies="motor"), "synergies"),
     "contacts empty": (lambda: made(contacts=[]), "contacts"),
-    "contacts by name": (lambda: made(contacts=["finger1/tip"]), "contacts"),
-    "pad misspelt": (lambda: made(contacts=[sg.ContactAt("finger1/tp", hard, stiffness=1)]), "contacts"),
+    "contacts by name": (lambda: made(contacts=["finger1/tip"]), "contacts[0]"),
+    "pad misspelt": (lambda: made(contacts=[sg.ContactAt("finger1/tp", hard, stiffness=1)]), "contacts[0].at"),
     "body instead of object": (lambda: made(body=ball), "body"),
     "compliance negative": (lambda: made(joint_compliance=-1.0), "joint_compliance"),
     "G shape": (lambda: given(G=np.eye(6)[:, :5]), "G"),
@@ -72,24 +77,24 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "J shape": (lambda: given(J=np.eye(5)), "J"),
     "S a vector": (lambda: given(S=np.ones(6)), "S"),
     "C_s negative": (lambda: given(C_s=-1.0), "C_s"),
-    "contacts of matrices": (lambda: given(contacts=[("a", "hard")]), "contacts"),
+    "contacts of matrices": (lambda: given(contacts=[("a", "hard")]), "contacts[0][1]"),
     "matrix misspelt": (lambda: given(C_ss=1.0), "C_ss"),
     "w_0 shape": (lambda: given(w_0=np.zeros(3)), "w_0"),
-    "duration negative": (lambda: any_call.Task(duration=-1.0), "duration"),
-    "duration nan": (lambda: any_call.Task(duration=nan), "duration"),
-    "duration misspelt": (lambda: any_call.Task(durations=1.0), "durations"),
-    "duration without a name": (lambda: any_call.Task(1.0), "duration"),
-    "knots not whole": (lambda: any_call.Task(knots=2.5), "knots"),
-    "target a text": (lambda: any_call.Task(target="hold"), "target"),
-    "a load without a list": (lambda: any_call.Task(loads=sg.Gravity((0, 0, -9.81))), "loads"),
-    "loads of numbers": (lambda: any_call.Task(loads=[1.0]), "loads"),
-    "a goal by name": (lambda: any_call.Task(goals=["effort"]), "goals"),
-    "a goal's class": (lambda: any_call.Task(goals=[sg.LeastEffort]), "goals"),
-    "a limit of a number": (lambda: any_call.Task(limits=[20.0]), "limits"),
-    "a limit's class": (lambda: any_call.Task(limits=[sg.JointTorque]), "limits"),
-    "axes misspelt": (lambda: any_call.Task(axes=("x", "w")), "axes"),
-    "task changed by a misspelt name": (lambda: task.replace(duraton=2.0), "duraton"),
-    "load factor negative": (lambda: task.replace(load_factor=-1.0), "load_factor"),
+    "duration negative": (lambda: any_call.Task(duration=-1.0), "Task.duration"),
+    "duration nan": (lambda: any_call.Task(duration=nan), "Task.duration"),
+    "duration misspelt": (lambda: any_call.Task(durations=1.0), "Task.durations"),
+    "duration without a name": (lambda: any_call.Task(1.0), "Task"),
+    "knots not whole": (lambda: any_call.Task(knots=2.5), "Task.knots"),
+    "target a text": (lambda: any_call.Task(target="hold"), "Task.target"),
+    "a load without a list": (lambda: any_call.Task(loads=sg.Gravity((0, 0, -9.81))), "Task.loads"),
+    "loads of numbers": (lambda: any_call.Task(loads=[1.0]), "Task.loads[0]"),
+    "a goal by name": (lambda: any_call.Task(goals=["effort"]), "Task.goals[0]"),
+    "a goal's class": (lambda: any_call.Task(goals=[sg.LeastEffort]), "Task.goals[0]"),
+    "a limit of a number": (lambda: any_call.Task(limits=[20.0]), "Task.limits[0]"),
+    "a limit's class": (lambda: any_call.Task(limits=[sg.JointTorque]), "Task.limits[0]"),
+    "axes misspelt": (lambda: any_call.Task(axes=("x", "w")), "Task.axes[1]"),
+    "task changed by a misspelt name": (lambda: task.replace(duraton=2.0), "Task.duraton"),
+    "load factor negative": (lambda: task.replace(load_factor=-1.0), "Task.load_factor"),
     "gravity shape": (lambda: any_call.Gravity((0, -9.81)), "Gravity.acceleration"),
     "gravity nan": (lambda: any_call.Gravity((0, 0, nan)), "Gravity.acceleration"),
     "gravity missing": (lambda: any_call.Gravity(), "Gravity.acceleration"),
@@ -113,7 +118,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "hold takes nothing": (lambda: any_call.Hold(1.0), "Hold"),
     "slip margin negative": (lambda: any_call.SlipMargin(-0.5), "SlipMargin.margin"),
     "slip margin missing name": (lambda: any_call.SlipMargin(margn=0.5), "SlipMargin.margn"),
-    "bounds reversed": (lambda: any_call.NormalForce(lower=5.0, upper=1.0), "NormalForce"),
+    "bounds reversed": (lambda: any_call.NormalForce(lower=5.0, upper=1.0), "NormalForce.lower"),
     "normal force misspelt": (lambda: any_call.NormalForce(uper=1.0), "NormalForce.uper"),
     "torque zero": (lambda: any_call.JointTorque(0.0), "JointTorque.limit"),
     "torque missing": (lambda: any_call.JointTorque(), "JointTorque.limit"),
@@ -121,21 +126,93 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "reference nan": (lambda: any_call.SynergyReference(nan), "SynergyReference.limit"),
     "elastic motion": (lambda: any_call.ElasticMotion(-1.0), "ElasticMotion.limit"),
     "goal misspelt argument": (lambda: any_call.LeastEffort(weight=1.0), "LeastEffort.weight"),
-    "sum of names": (lambda: any_call.WeightedSum((("effort", 1.0),)), "WeightedSum"),
-    "sum of nothing": (lambda: any_call.WeightedSum(), "WeightedSum"),
+    "sum of names": (lambda: any_call.WeightedSum((("effort", 1.0),)), "WeightedSum.goals[0]"),
+    "sum of nothing": (lambda: any_call.WeightedSum(), "WeightedSum.goals"),
     "grasp missing": (lambda: any_call.plan(task=task), "grasp"),
     "grasp and task reversed": (lambda: any_call.plan(task, grasp), "grasp"),
     "solver misspelt": (lambda: any_call.plan(grasp, task, "clarabell"), "solver"),
     "plan misspelt": (lambda: any_call.plan(grasp, task, solvr="clarabel"), "solvr"),
-    "torques for other joints": (lambda: sg.plan(grasp, task.replace(limits=[sg.JointTorque([1, 2])])), "JointTorque"),
+    "torques for other joints": (
+        lambda: sg.plan(grasp, task.replace(limits=[sg.JointTorque([1, 2])])),
+        "JointTorque.limit",
+    ),
     "analyse a hand": (lambda: any_call.analyse(hand), "grasp"),
     "analyse a load": (lambda: any_call.analyse(grasp, np.zeros(3)), "load"),
     "problem misspelt": (lambda: any_call.load_problem("barrett-bal-hold"), "PROBLEM"),
-    "problem a number": (lambda: any_call.load_problem(3), "PROBLEM"),
-    "problem key misspelt": (lambda: any_call.load_problem("tripod", "limits.margn=1 N"), "margn"),
+    "problem a number": (lambda: any_call.load_problem(3), "problem"),
+    "problem key misspelt": (
+        lambda: any_call.load_problem("tripod", "limits.margn=1 N"),
+        "--set limits.margn=1 N: limits.margn",
+    ),
     "overrides of numbers": (lambda: any_call.load_problem("tripod", [3]), "overrides"),
     "overrides a number": (lambda: any_call.load_problem("tripod", 3), "overrides"),
     "problem argument misspelt": (lambda: any_call.load_problem(problm="tripod"), "problm"),
+    "box of three values": (lambda: any_call.Box(0.06, 0.06, 0.06), "Box"),
+    "gravity of three values": (lambda: any_call.Gravity(0, 0, -9.81), "Gravity"),
+    "friction without a name": (lambda: any_call.HardFinger(0.5), "HardFinger"),
+    "a problem in the place of grasp and task": (lambda: any_call.plan(sg.load_problem("tripod")), "task"),
+    "a problem in the place of the grasp": (lambda: any_call.plan(sg.load_problem("tripod"), task), "grasp"),
+    "lift a text": (lambda: any_call.Move(axis="z", lift="3 mm"), "Move.lift"),
+    "J transposed": (lambda: given(J=np.ones((3, 6))), "J"),
+    "J transposed, and S right": (lambda: given(J=np.ones((7, 6)), S=np.ones((7, 1))), "J"),
+    "a grasp in the place of a task": (lambda: any_call.plan(grasp, grasp), "task"),
+    "a task in the place of a grasp": (lambda: any_call.analyse(task), "grasp"),
+    "a hand in the place of a response": (lambda: any_call.subspaces(hand), "response"),
+    "grasps of one": (lambda: any_call.analyse_many(grasp), "grasps"),
+    "masked acceleration": (lambda: any_call.Gravity(np.ma.array([0, 0, 1.0], mask=[0, 0, 1])), "Gravity.acceleration"),
+    "a masked entry of G": (lambda: given(G=np.ma.masked_equal(np.eye(6), 1.0)), "G"),
+    "masked rows in a list": (lambda: given(J=[np.ma.masked_equal(row, 1.0) for row in np.eye(6)]), "J"),
+    "complex G": (lambda: given(G=np.eye(6) * 1j), "G"),
+    "texts in J": (lambda: given(J=np.eye(6).astype(str)), "J"),
+    "booleans as wrench": (lambda: any_call.Wrench([True] * 6), "Wrench.values"),
+    "spans of time as torques": (lambda: any_call.JointTorque(np.ones(3, "timedelta64[s]")), "JointTorque.limit"),
+    "no torques at all": (lambda: any_call.JointTorque([]), "JointTorque.limit"),
+    "a generator of torques": (lambda: any_call.JointTorque(x for x in (1.0, 2.0)), "JointTorque.limit"),
+    "a huge mass": (lambda: any_call.Object(mass=1e200), "Object.mass"),
+    "a mass beyond all floats": (lambda: any_call.Object(mass=10**400), "Object.mass"),
+    "a huge margin": (lambda: any_call.SlipMargin(10**400), "SlipMargin.margin"),
+    "held by nothing": (lambda: grasp.replace(held=3.0), "held"),
+    "another contact than there is": (lambda: grasp.replace(contact={"thumb": hard}), "contact['thumb']"),
+    "kinds in a list": (lambda: any_call.Grasp.replace(grasp, contact=[hard]), "contact"),
+    "names of contacts twice": (lambda: given(contacts=[("a", hard), ("a", hard)]), "contacts[1]"),
+    "names that are numbers": (lambda: given(contacts=[(1, hard), (2, hard)]), "contacts[0][0]"),
+    "joints as one text": (lambda: given(joints="abcdef"), "joints"),
+    "a title that is none": (lambda: given(title=3), "title"),
+    "normals by array": (lambda: any_call.ContactAt("a", hard, stiffness=1.0, normals=np.eye(3)), "ContactAt.normals"),
+    "a name by array": (lambda: any_call.ContactAt("a", hard, stiffness=1.0, name=np.eye(3)), "ContactAt.name"),
+    "ragged compliances": (lambda: made(joint_compliance=[[1], [1, 2]]), "joint_compliance"),
+    "part of an error by array": (lambda: any_call.ObjectError(0.1, part=np.eye(3)), "ObjectError.part"),
+    "axes of an error by number": (lambda: any_call.ObjectError(0.1, axes=3), "ObjectError.axes"),
+    "motion by array": (lambda: any_call.LeastMotion(of=np.eye(3)), "LeastMotion.of"),
+    "exactness by text": (lambda: any_call.SteadyForces(exact="yes"), "SteadyForces.exact"),
+    "goals by array": (lambda: any_call.WeightedSum(np.eye(2)), "WeightedSum.goals"),
+    "a weight negative": (lambda: any_call.WeightedSum([(sg.LeastEffort(), -1.0)]), "WeightedSum.goals[0]"),
+    "goals twice": (lambda: any_call.Task(goals=[sg.LeastEffort(), sg.LeastEffort()]), "Task.goals[1]"),
+    "gravity twice": (lambda: any_call.Task(loads=[sg.Gravity((0, 0, 1))] * 2), "Task.loads[1]"),
+    "knots as a span of time": (lambda: any_call.Task(knots=np.timedelta64(3)), "Task.knots"),
+    "waypoint after the end": (
+        lambda: any_call.Task(duration=1.0, target=sg.Waypoints(times=[2.0], positions=[[0, 0, 0.01]])),
+        "Task.target.times",
+    ),
+    "a path that is none": (lambda: any_call.read_matrices(3), "path"),
+    "a path misspelt": (lambda: any_call.read_matrices(pth="a"), "pth"),
+    "loads of another width": (lambda: any_call.respond(grasp, np.zeros((2, 3))), "load"),
+    "a solver's class": (lambda: any_call.plan(grasp, task, sg.Task), "solver"),
+    "a solver that answers nothing": (lambda: any_call.plan(grasp, task, lambda *_: None), "solver"),
+    "usage misspelt": (lambda: any_call.Usage(titel="x"), "Usage.titel"),
+    "usage of other items": (
+        lambda: any_call.Usage("t", "N", ("a",), [[1.0, 2.0]], [0], [1], [1], [0.0]),
+        "Usage.value",
+    ),
+    "squares of nothing": (lambda: any_call.squares_of(3.0), "squares_of.value"),
+    "an objective of numbers": (lambda: any_call.Objective((1.0,)), "Objective.squares[0]"),
+    "within misspelt": (lambda: any_call.within(limt="x"), "limt"),
+    "stack of other numbers": (lambda: any_call.GraspStack.varied(grasp, C_s=[["a"]]), "C_s"),
+    "instants reversed": (lambda: any_call.Wrench(np.zeros(6)).at([1.0, 0.0]), "Wrench.at.times"),
+    "gravity of no object": (lambda: any_call.Gravity((0, 0, -9.81)).at([0.0]), "Gravity.at"),
+    "formats misspelt": (lambda: any_call.Plan.save(PLAN, "out", formats="jsn"), "formats"),
+    "formats as one text of letters": (lambda: any_call.Plan.save(PLAN, "out", formats=("j", "s")), "formats"),
+    "argument of save misspelt": (lambda: any_call.Plan.save(PLAN, "out", format="json"), "format"),
 }
 
 
@@ -143,5 +220,39 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
 def test_a_mistake_is_refused_by_the_name_of_its_argument(mistake: Callable[[], Any], named: str) -> None:
     with pytest.raises(sg.InputError) as refused:
         mistake()
-    assert named in str(refused.value)
-    assert len(str(refused.value)) > len(named) + 5
+    lines = [line for line in str(refused.value).splitlines() if line.startswith(f"{named}: ")]
+    assert lines, refused.value
+    assert len(lines[0]) > len(named) + 7
+
+
+def test_what_is_told_of_a_mistake_says_what_to_write() -> None:
+    told = {name: refusal(mistake) for name, (mistake, _) in MISTAKES.items() if name in SAID}
+    for name, fragments in SAID.items():
+        assert all(fragment in told[name] for fragment in fragments), told[name]
+        assert "\n" not in told[name], told[name]
+
+
+def refusal(mistake: Callable[[], Any]) -> str:
+    with pytest.raises(sg.InputError) as refused:
+        mistake()
+    return str(refused.value)
+
+
+SAID = {
+    "box of three values": ("takes one value, size, got 3", "size=(0.06, 0.06, 0.06)"),
+    "friction without a name": ("write friction=...",),
+    "friction misspelt": ("did you mean 'friction'?",),
+    "a problem in the place of grasp and task": ("missing", "write problem.grasp, problem.task"),
+    "a problem in the place of the grasp": ("write problem.grasp",),
+    "lift a text": ("a number in m", "got '3 mm'"),
+    "S a vector": ("expected shape (6, n_z)", "np.reshape"),
+    "J transposed": ("expected shape (6, n_q)", "transposed"),
+    "J transposed, and S right": ("fits when transposed",),
+    "masked acceleration": ("masked entries",),
+}
+"""What the refusal of some of them says, in one line: nothing is told twice."""
+
+
+def test_a_single_text_is_one_format(tmp_path: Path) -> None:
+    written = PLAN.save(tmp_path, formats="json")
+    assert [path.name for path in written] == [path.name for path in tmp_path.iterdir()] == ["plan.json"]

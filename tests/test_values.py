@@ -88,7 +88,8 @@ def test_bounds_of_ones_own_limits_are_judged(key: str, make: Callable[[Any], An
     problem = sg.load_problem("tripod")
     with pytest.raises(sg.InputError) as caught:
         sg.plan(problem.grasp, problem.task.replace(limits=[*problem.task.limits, Own()]))
-    assert caught.value.issues[0].key == key
+    assert caught.value.issues[0].key == f"Own.rows.{key}"
+    assert isinstance(caught.value.__cause__, sg.InputError)
 
 
 @pytest.mark.parametrize(

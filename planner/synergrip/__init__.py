@@ -37,7 +37,9 @@ if TYPE_CHECKING:
     from synergrip.conic.rows import norm_within as norm_within
     from synergrip.conic.rows import within as within
     from synergrip.errors import InputError as InputError
+    from synergrip.errors import OutputError as OutputError
     from synergrip.errors import Refusal as Refusal
+    from synergrip.errors import SelfCheckError as SelfCheckError
     from synergrip.errors import SynergripError as SynergripError
     from synergrip.errors import VerdictError as VerdictError
     from synergrip.grasps.contact_at import ContactAt as ContactAt
@@ -97,7 +99,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "errors": ("SynergripError", "InputError", "VerdictError", "Refusal"),
+    "errors": ("SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError"),
     "hands.folder": ("load_hand",),
     "hands.hand": ("Hand",),
     "grasps.objects": ("Object", "Turned"),

@@ -205,7 +205,7 @@ def one_of(word: object, valid: Iterable[str]) -> str:
     if len(names) > MOST_NAMES + 1:
         listed, last = f"{listed}, ...", f"{last} ({len(names)} names)"
     listed = f"{listed} or {last}" if listed else last
-    told = shortened(repr(word)) if isinstance(word, str | int | float) else repr(word)
+    told = shortened(repr(word) if isinstance(word, str) else " ".join(repr(word).split()))
     return f"{told} is not {'one of ' if len(names) > 1 else ''}{listed}{suggest(str(word), names)}"
 
 

@@ -74,7 +74,7 @@ def refusal(call: Callable[[], Any]) -> tuple[str, str]:
         (lambda: SynergyReference([1, 2]).on(pinch()), "SynergyReference.limit", "got 2"),
         (lambda: SynergyRate(-1), "SynergyRate.limit", "greater than 0, got -1"),
         (lambda: SynergyRate([1, 2]).on(pinch()), "SynergyRate.limit", "got 2"),
-        (lambda: SynergyAcceleration([]).on(pinch()), "SynergyAcceleration.limit", "got 0"),
+        (lambda: SynergyAcceleration([]).on(pinch()), "SynergyAcceleration.limit", "got an array of shape (0,)"),
         (lambda: JointRange().on(pinch()), "JointRange.start", "needs a hand with joint ranges; a grasp given as matr"),
         (lambda: JointRange(lower=0).on(pinch()), "JointRange.start", "give start and upper"),
         (lambda: JointRange(0, 1, -1), "JointRange.lower", "the lower bound 1 is above the upper bound -1; swap them"),

@@ -263,7 +263,7 @@ def test_mistakes_in_values(make: Any, key: str, fragment: str) -> None:
     ("changes", "key", "fragment"),
     [
         ({"G": np.zeros((6, 5))}, "G", "expected shape (6, 12)"),
-        ({"J": np.zeros((3, 4))}, "J", "expected shape (12, 4)"),
+        ({"J": np.zeros((3, 4))}, "J", "expected shape (12, n_q)"),
         ({"S": np.ones((2, 2))}, "S", "expected shape"),
         ({"C_s": None}, "C_s", "got null"),
         ({"C_s": -1e-4}, "C_s", "must not be negative"),
@@ -297,7 +297,7 @@ def test_mistakes_in_grasp_from_matrices(changes: dict[str, Any], key: str, frag
     [
         (lambda: sg.HardFinger(), "HardFinger.friction", "missing"),
         (lambda: sg.HardFinger(fricton=0.6), "HardFinger.fricton", "did you mean 'friction'?"),
-        (lambda: sg.HardFinger(0.6), "HardFinger", "1 values without a name; write friction=..."),
+        (lambda: sg.HardFinger(0.6), "HardFinger", "a value without a name; write friction=..."),
         (lambda: sg.SoftFinger(friction=0.6), "SoftFinger.spin_friction", "missing"),
         (lambda: sg.Frictionless(friction=0.6), "Frictionless.friction", "no such argument"),
         (lambda: sg.Sphere(), "Sphere.radius", "missing"),
@@ -308,7 +308,7 @@ def test_mistakes_in_grasp_from_matrices(changes: dict[str, Any], key: str, frag
         (lambda: sg.make_grasp(BARRETT, BALL, contacts=tips()), "posture", "missing"),
         (lambda: sg.make_grasp(BARRETT, BALL, postur="ball", contacts=tips()), "postur", "did you mean 'posture'?"),
         (lambda: sg.grasp_from_matrices(G=EYE), "C_s", "missing"),
-        (lambda: sg.Grasp("title"), "Grasp", "1 values without a name"),
+        (lambda: sg.Grasp("title"), "Grasp", "a value without a name"),
         (lambda: replace(BALL, mas=3.0), "Object.mas", "did you mean 'mass'?"),
     ],
 )

@@ -19,7 +19,7 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.rows import Item, Kind, Rows, nonnegative, norm_within
-from synergrip.errors import InputError, SelfCheckError
+from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
@@ -113,7 +113,7 @@ def test_the_usage_of_ones_own_limit_is_what_verifies_it() -> None:
         def rows(self, formulation: Formulation) -> Sequence[Rows]:
             return []
 
-    with pytest.raises(SelfCheckError, match=r"total squeeze: .* exceeds"):
+    with pytest.raises(InputError, match=r"^Forgetful\.usage: contradicts Forgetful\.rows: .* is 4\.5 at t = 0 s"):
         plan(tripod(), asked(Forgetful(1.0)))
 
 
@@ -213,9 +213,15 @@ def _row(matrix: Any, constant: Any, epigraph: Any = (0.0,)) -> Rows:
         (5, "Broken.rows: expected a list of Rows, got int"),
         ([5], "Broken.rows: expected a list of Rows, got list"),
         (lambda f: [_row(np.zeros((1, 99)), np.zeros((3, 1)))], "a column for each unknown"),
-        (lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((1, 4)))], "expected constants at 3 knots for 1 rows"),
+        (
+            lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((1, 4)))],
+            r"Rows.constant: expected shape \(K, 1\)",
+        ),
         (lambda f: [_row(np.zeros((1, f.n_v)), np.full((3, 1), np.nan))], "expected finite numbers"),
-        (lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((3, 1)), (0.0, 1.0))], "each of the 1 rows as epigraph"),
+        (
+            lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((3, 1)), (0.0, 1.0))],
+            r"Rows.epigraph: expected shape \(1,\)",
+        ),
         ([], r"Usage.value: expected shape \(3, 1\) for 3 instants and 1 items of 'broken', got \(3, 9\)"),
     ],
 )

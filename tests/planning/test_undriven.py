@@ -228,7 +228,7 @@ def test_an_arm_that_carries_the_grasp_is_noted_with_the_palm_that_leaves_it_out
     assert held.grasp.n_z == 3
     assert held.notes[0] == (
         "the synergies move 'lift', 'turn', which carry all contacts: the arm moves the object; when only the hand is "
-        'to move it, write hand.palm = "palm"'
+        'to move it, write hand.palm = "palm" (an argument of load_hand in code)'
     )
     assert all("collide" in note for note in held.notes[1:])
     assert plan(held.grasp, held.task).verdict == "feasible"

@@ -6,24 +6,48 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.documents.judging import as_numbers, described
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Affine(Value):
-    """``y_k = matrix @ v_k + constant[k]``, or ``matrix[k] @ v_k + constant[k]``."""
+    """``y_k = matrix @ v_k + constant[k]``, or ``matrix[k] @ v_k + constant[k]``: m quantities at each of T knots."""
 
     matrix: Array  # (m, n_v), or (T, m, n_v)
     constant: Array  # (T, m)
 
+    @naming_arguments
     def after(self, linear: Array) -> Affine:
-        """Return ``linear @ y`` for linear (p, m), or (T, p, m) when it differs from knot to knot."""
-        return Affine(frozen(linear @ self.matrix), frozen(times(linear, self.constant)))
+        """Return ``linear @ y`` for linear (p, m), or (T, p, m) when it differs from knot to knot.
 
+        Raises:
+            InputError: no numbers, or another number of columns than there are quantities.
+        """
+        T, m = self.constant.shape
+        found = as_numbers(linear)
+        if found is None or found.ndim not in (2, 3) or found.shape[-1] != m or found.shape[:-2] not in ((), (T,)):
+            wanted = f"shape (p, {m}), a column for each quantity, or ({T}, p, {m}) with one matrix for each knot"
+            hint = "; one row is linear[None, :]" if found is not None and found.shape == (m,) else ""
+            raise InputError.at("Affine.after.linear", f"expected {wanted}; got {described(linear)}{hint}")
+        return Affine(frozen(found @ self.matrix), frozen(times(found, self.constant)))
+
+    @naming_arguments
     def plus(self, known: Array) -> Affine:
-        """Return ``y_k + known[k]`` for known (T, m)."""
-        return replace(self, constant=frozen(self.constant + known))
+        """Return ``y_k + known[k]`` for known (T, m); (m,) or a number when it is the same at all knots.
+
+        Raises:
+            InputError: no numbers, or another shape.
+        """
+        T, m = self.constant.shape
+        found = as_numbers(known)
+        if found is None or found.shape not in ((), (m,), (T, m)):
+            wanted = f"a number, shape ({m},) with one for each quantity, or ({T}, {m}) with a row for each knot"
+            raise InputError.at("Affine.plus.known", f"expected {wanted}; got {described(known)}")
+        return replace(self, constant=frozen(self.constant + found))
 
     def in_units(self, factor: float) -> Affine:
         """Return the same quantities of unknowns in units that are that many times as large."""

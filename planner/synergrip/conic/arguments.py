@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import wraps
+from inspect import isfunction
 from typing import Any, Self
 
 import numpy as np
 
-from synergrip.documents.judging import described
-from synergrip.errors import InputError
+from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.validation import LARGEST_NUMBER
+from synergrip.errors import InputError, SynergripError
 from synergrip.linalg import Array, frozen
 
 OneOrEach = Any
@@ -30,10 +33,23 @@ def size(key: str, value: Any, wanted: str, *, above: float = -math.inf, at_leas
     Raises:
         InputError: no such number.
     """
-    fits = is_number(value) and math.isfinite(value) and value > above and value >= at_least
+    fits = is_number(value) and abs(value) <= LARGEST_NUMBER and value > above and value >= at_least
     if not fits:
         raise InputError.at(key, f"expected {wanted}, got {described(value)}")
     return float(value)
+
+
+def judge_closeness(of: str, exact: object, stiffest: object) -> None:
+    """Refuse what says neither yes nor no, or no largest entry of a Hessian.
+
+    Raises:
+        InputError: with the goal and the argument.
+    """
+    judge = Arguments(of)
+    if not isinstance(exact, bool):
+        judge.refuse("exact", f"expected True or False, got {described(exact)}")
+    judge.number("stiffest", stiffest, above=0, infinite=True)
+    judge.finish()
 
 
 def sizes(key: str, value: Any, of: str) -> Array:
@@ -62,14 +78,13 @@ def numbers(key: str, value: Any, of: str) -> Array:
         InputError: something else.
     """
     wanted = f"a number, or one for each {of}"
-    try:
-        found = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        found = None
-    if found is None or value is None or isinstance(value, bool | str):
+    found = as_numbers(value)
+    if found is None:
         raise InputError.at(key, f"expected {wanted}, got {described(value)}")
-    if found.ndim > 1:
+    if found.ndim > 1 or not found.size:
         raise InputError.at(key, f"expected {wanted}, got an array of shape {found.shape}")
+    if np.any((np.abs(found) > LARGEST_NUMBER) & ~np.isinf(found)):
+        raise InputError.at(key, f"{np.abs(found)[np.isfinite(found)].max():g} is too large")
     own = found is value and not found.flags.writeable and found.flags.owndata
     return found if own else frozen(np.array(found))
 
@@ -88,13 +103,12 @@ def one_each(key: str, value: Array, names: Sequence[str], of: str) -> Array:
     return value if value.ndim else frozen(np.full(len(names), float(value)))
 
 
-def is_number(value: Any) -> bool:
-    """Return whether a value is one number: `True` and texts are none."""
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool)
+ASKED = ("rows", "usage", "objective", "bounded")
+"""Methods of limits and goals of one's own in which errors are theirs."""
 
 
 class Complete:
-    """Classes that say at once, and by name, which of their methods are still to be written."""
+    """Classes that say at once, and by name, which of their methods are still to be written, or went wrong."""
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
         """Refuse a class that leaves a method out.
@@ -106,3 +120,36 @@ class Complete:
         if missing:
             raise InputError.at(cls.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
         return super().__new__(cls)
+
+    def __init_subclass__(cls, **others: Any) -> None:
+        """Let the methods of a class outside this package say whose they are when they fail."""
+        super().__init_subclass__(**others)
+        if is_own(cls):
+            for name in ASKED:
+                if isfunction(method := cls.__dict__.get(name)):
+                    setattr(cls, name, _saying_whose(method, name))
+
+
+def is_own(cls: type) -> bool:
+    """Return whether a class is a user's own."""
+    return not cls.__module__.startswith("synergrip.")
+
+
+def _saying_whose(method: Callable[..., Any], name: str) -> Callable[..., Any]:
+    """Return a method whose errors name its class, with the original behind them."""
+
+    @wraps(method)
+    def called(self: Any, *args: Any, **kwargs: Any) -> Any:
+        key = f"{type(self).__name__}.{name}"
+        try:
+            return method(self, *args, **kwargs)
+        except InputError as error:
+            if all(issue.key.startswith(key) for issue in error.issues):  # said by the same method of a base
+                raise
+            raise InputError(error.under(key).issues) from error
+        except SynergripError:
+            raise
+        except Exception as error:
+            raise InputError.at(key, f"raised {type(error).__name__}: {error}") from error
+
+    return called

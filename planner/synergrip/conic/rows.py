@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from synergrip.conic.affine import Affine
-from synergrip.conic.arguments import is_number
-from synergrip.documents.judging import described
+from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -85,28 +85,55 @@ class Rows(Value):
     friction: bool = False
     """Whether the cones are friction cones: those alone have pyramids, and what they clash with says that it slips."""
 
+    def __post_init__(self) -> None:
+        """Judge what a limit of one's own may get wrong; how many unknowns and knots there are, the program knows.
+
+        Raises:
+            InputError: a key, kind, items or arrays that are none, or that do not fit each other.
+        """
+        judge = Arguments("Rows")
+        judge.text("limit", self.limit, empty=False)
+        judge.one("kind", self.kind, Kind, "Kind.NONNEGATIVE")
+        items = judge.several("items", self.items, Item, 'Item("thumb")')
+        height = len(items) * self.dim if is_number(self.dim) else 0
+        for name in ("matrix", "constant", "epigraph"):
+            given, found = getattr(self, name), as_numbers(getattr(self, name))
+            side = {"matrix": -2, "constant": -1, "epigraph": -1}[name]
+            if found is None or not found.ndim >= -side or found.shape[side] != height:
+                shape = {"matrix": f"({height}, n_v)", "constant": f"(K, {height})", "epigraph": f"({height},)"}[name]
+                why = f"{len(items)} items with dim = {self.dim} have {height} rows"
+                judge.refuse(name, f"expected shape {shape}, as {why}; got {described(given)}")
+            elif found is not given:
+                object.__setattr__(self, name, frozen(found))
+        judge.finish()
+        object.__setattr__(self, "items", items)
+
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:
     """Return rows ``value >= 0``, with what earlier knots add to the value."""
     return Rows(limit, Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, frozen(np.zeros(len(items))), earlier)
 
 
+@naming_arguments
 def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
     """Return the cone ``||value|| <= bound``, divided by the bound: one for each knot.
 
     Args:
-        limit: key in the problem file.
-        item: its name.
-        value: m affine quantities of one unit.
-        bound: greater than 0.
+        limit: the limit's `key`, under which a proof names it.
+        item: what is bounded, for people: a contact, a joint, any word.
+        value: m quantities of one unit, such as ``formulation.force.after(rows)``.
+        bound: greater than 0, in the unit of the value.
 
     Raises:
-        InputError: no affine quantities, or a bound that is none.
+        InputError: a name that is none, no affine quantities, or a bound that is none.
     """
-    if not isinstance(value, Affine):
-        raise InputError.at("norm_within.value", f"expected affine quantities of a formulation, got {described(value)}")
+    judge = Arguments("norm_within")
+    judge.text("limit", limit, empty=False)
+    judge.text("item", item, empty=False)
+    judge.one("value", value, Affine, "formulation.force.after(matrix)")
     if not is_number(bound) or not 0 < bound < np.inf:
-        raise InputError.at("norm_within.bound", f"expected a finite number greater than 0, got {described(bound)}")
+        judge.refuse("bound", f"expected a finite number greater than 0, got {described(bound)}")
+    judge.finish()
     matrix = np.concatenate([np.zeros_like(value.matrix[..., :1, :]), value.matrix / bound], axis=-2)
     constant = np.hstack([np.ones((len(value.constant), 1)), value.constant / bound])
     zero = frozen(np.zeros(constant.shape[1]))
@@ -124,21 +151,25 @@ def with_room(rows: Rows, room: float) -> Rows:
     return replace(rows, constant=frozen(rows.constant + heads))
 
 
-def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, upper: Array, unit: Array) -> list[Rows]:
-    """Return rows ``lower <= value <= upper``, divided by `unit`; infinite bounds add nothing.
+@naming_arguments
+def within(
+    limit: str, names: Sequence[str], value: Affine, lower: Array | float, upper: Array | float, unit: Array | float
+) -> list[Rows]:
+    """Return rows ``lower <= value <= upper`` at every knot; infinite bounds add nothing.
 
     Args:
-        limit: key in the problem file.
-        names: (m) of contacts, joints or synergies.
-        value: m affine quantities.
-        lower: (m,) or (T, m).
-        upper: (m,) or (T, m).
-        unit: (m,) size of each quantity.
+        limit: the limit's `key`, under which a proof names it.
+        names: (m) one for each quantity, for people: contacts, joints, synergies or any words.
+        value: m quantities, such as ``formulation.torque``.
+        lower: (m,) or (T, m), or a number for all, in the units of the value; ``-math.inf`` where there is none.
+        upper: likewise; ``math.inf`` where there is none.
+        unit: (m,) or a number: size of each quantity, by which its rows are divided, so that they are near 1 (such as
+            the bound itself); it changes no answer.
 
     Raises:
-        InputError: bounds or units that are none, do not fit the names, or contradict each other.
+        InputError: names, bounds or units that are none, do not fit the quantities, or contradict each other.
     """
-    lower, upper, unit = _bounds(names, value, lower, upper, unit)
+    lower, upper, unit = _bounds(limit, names, value, lower=lower, upper=upper, unit=unit)
     result = []
     for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
         keep = np.all(np.isfinite(np.atleast_2d(bound)), axis=0)
@@ -151,30 +182,28 @@ def within(limit: str, names: tuple[str, ...], value: Affine, lower: Array, uppe
     return result
 
 
-def _bounds(names: tuple[str, ...], value: Affine, *given: Array) -> tuple[Array, ...]:
+def _bounds(limit: object, names: object, value: object, **given: object) -> tuple[Array, ...]:
     """Return lower bounds, upper bounds and units as arrays, one for each name (and knot), or refuse them."""
+    judge = Arguments("within")
+    judge.text("limit", limit, empty=False)
+    judge.one("value", value, Affine, "formulation.force.after(matrix)")
     if not isinstance(value, Affine):
-        raise InputError.at("within.value", f"expected affine quantities of a formulation, got {described(value)}")
-    count = value.constant.shape[1]
-    if len(names) != count:
-        raise InputError.at("within.names", f"expected {count} names, one for each quantity, got {len(names)}")
-    found: list[Array] = []
-    for name, each in zip(("lower", "upper", "unit"), given, strict=True):
-        try:
-            array = np.asarray(each, dtype=np.float64)
-            np.broadcast_to(array, value.constant.shape)
-        except (TypeError, ValueError):
-            wanted = f"{count} numbers, one for each quantity"
-            raise InputError.at(f"within.{name}", f"expected {wanted}, got {described(each)}") from None
-        found.append(array if array.ndim else np.full(count, float(array)))
-    lower, upper, unit = found
-    free = "numbers; infinity stands for no bound"
-    for name, array, bad, wanted in (
-        ("lower", lower, np.isnan(lower), free), ("upper", upper, np.isnan(upper), free),
-        ("unit", unit, ~(unit > 0) | np.isinf(unit), "sizes greater than 0"),
-    ):  # fmt: skip
-        if np.any(bad):
-            raise InputError.at(f"within.{name}", f"expected {wanted}, got {array[bad][0]:g}")
-    if np.any(lower > upper):
+        raise InputError(judge.issues)
+    T, m = value.constant.shape
+    judge.named("names", names, m, "quantity")
+    shapes = {"lower": ((m,), (T, m)), "upper": ((m,), (T, m)), "unit": ((m,),)}
+    found = {}
+    for name, each in given.items():
+        array = as_numbers(each)
+        if array is None or array.shape not in ((), *shapes[name]):
+            judge.refuse(name, f"expected a number, or {m} numbers, one for each quantity; got {described(each)}")
+        elif np.any(np.isnan(array)):
+            judge.refuse(name, "expected numbers, got nan; infinity stands for no bound")
+        else:
+            found[name] = array if array.ndim else np.full(m, float(array))
+    if np.any(~(found.get("unit", np.ones(1)) > 0) | np.isinf(found.get("unit", np.ones(1)))):
+        judge.refuse("unit", "expected sizes greater than 0, finite ones")
+    judge.finish()
+    if np.any(found["lower"] > found["upper"]):
         raise InputError.at("within.lower", "some lower bounds are above the upper ones; swap them")
-    return lower, upper, unit
+    return found["lower"], found["upper"], found["unit"]

@@ -37,12 +37,8 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
         cost = goal.objective(formulation)
         if not isinstance(cost, Objective):
             raise InputError.at(f"{name}.objective", f"expected an Objective, got {type(cost).__name__}")
-        if not isinstance(cost.squares, tuple):
-            raise InputError.at(f"{name}.objective", "expected a tuple of Squares; write Objective((squares_of(...),))")
         for squares in cost.squares:
             _judge_squares(f"{name}.objective", squares, formulation)
-        if cost.epigraph is not None and not np.isfinite(cost.epigraph):
-            raise InputError.at(f"{name}.objective", f"expected a finite number as epigraph, got {cost.epigraph}")
         if goal.has_scalar != (cost.epigraph is not None) or (goal.has_scalar and cost.squares):
             is_so = "has a scalar" if goal.has_scalar else "has no scalar"
             wanted = "an epigraph and no squares" if goal.has_scalar else "squares and no epigraph"
@@ -80,13 +76,13 @@ def _judge_shapes(key: str, given: Rows | Squares, count: int, formulation: Form
         raise InputError.at(key, "expected finite numbers in matrix and constant, got nan or infinity")
 
 
-def judged_usage(limit: Limit, motion: Motion, usage: Any) -> Usage:
+def usage_of(limit: Limit, formulation: Formulation, motion: Motion) -> Usage:
     """Return what a limit says of a motion, after refusing what no check can go by.
 
     Raises:
         InputError: no `Usage`, none of its items, sizes that are none, values or bounds that are no numbers.
     """
-    key = f"{type(limit).__name__}.usage"
+    key, usage = f"{type(limit).__name__}.usage", limit.usage(formulation, motion)
     if not isinstance(usage, Usage):
         raise InputError.at(key, f"expected a Usage, got {type(usage).__name__}")
     value, scale = np.asarray(usage.value, dtype=np.float64), np.asarray(usage.scale, dtype=np.float64)

@@ -15,13 +15,13 @@ from pydantic import BaseModel, ValidationError
 from synergrip.documents.overrides import Override, apply_overrides
 from synergrip.documents.positions import KeyPath, Positions, dotted, positions
 from synergrip.documents.syntax import at, duplicates, is_placed, loads, too_long
+from synergrip.documents.validation import LARGEST_NUMBER as LARGEST_NUMBER
 from synergrip.documents.validation import translate
 from synergrip.errors import MOST_ISSUES, InputError, Issue
 from synergrip.plain_file import read_text
 
 Model = TypeVar("Model", bound=BaseModel)
 
-LARGEST_NUMBER = 1e100  # products of such numbers stay finite
 DEEPEST = 64  # tables and lists inside each other
 TOO_DEEP = f"tables and lists are nested too deeply; at most {DEEPEST} of them may stand inside each other"
 

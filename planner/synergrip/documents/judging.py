@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from numbers import Real
+from typing import Any, TypeGuard
 
 import numpy as np
 
-from synergrip.documents.validation import shown
+from synergrip.documents.validation import LARGEST_NUMBER, shown
 from synergrip.errors import Issue, raise_issues
 from synergrip.linalg import Array, frozen
+
+REAL = "iuf"
+"""Kinds of arrays whose entries are numbers that can be put in order."""
 
 
 @dataclass
@@ -45,12 +49,14 @@ class Arguments:
             infinite: whether infinity is a number here.
         """
         wanted = f"a number{f' in {unit}' if unit else ''}"
-        if isinstance(value, bool | np.bool_ | str) or np.ndim(_plain(value)) or not _is_real(value):
+        if not is_number(value):
             self.refuse(name, f"expected {wanted}, got {described(value)}")
             return 1.0
         found = float(value)  # type: ignore[arg-type]
         if np.isnan(found) or (np.isinf(found) and not infinite):
             self.refuse(name, f"expected {wanted} that is finite, got {found}")
+        elif LARGEST_NUMBER < abs(found) < np.inf:
+            self.refuse(name, f"{found:g} is too large")
         elif above is not None and not found > above:
             self.refuse(name, f"must be greater than {above:g}, got {found:g}{hint}")
         elif at_least is not None and found < at_least:
@@ -71,17 +77,16 @@ class Arguments:
 
     def numbers(self, name: str, value: object, wanted: str, *, infinite: bool = False) -> Array | None:
         """Return an array of finite numbers, None after noting why not."""
-        try:
-            given = np.asarray(value)
-            found = None if given.dtype.kind in "cSU" else given.astype(np.float64, copy=False)
-        except (TypeError, ValueError, OverflowError):
-            found = None
-        if found is None or value is None or isinstance(value, bool | str):
+        found = as_numbers(value)
+        if found is None:
             self.refuse(name, f"expected {wanted}, got {described(value)}")
             return None
         bad = np.isnan(found) if infinite else ~np.isfinite(found)
         if np.any(bad):
             self.refuse(name, f"expected {wanted} of finite numbers, got {float(found[bad][0])}")
+            return None
+        if found.size and float(np.abs(found[np.isfinite(found)]).max(initial=0.0)) > LARGEST_NUMBER:
+            self.refuse(name, f"{float(np.abs(found[np.isfinite(found)]).max()):g} is too large")
             return None
         own = found is value and not found.flags.writeable and found.flags.owndata  # else somebody else may change it
         return found if own else frozen(np.array(found))
@@ -103,7 +108,7 @@ class Arguments:
 
     def named(self, name: str, values: object, count: int, what: str) -> tuple[str, ...]:
         """Return a name for each of `count` things as a tuple, after noting names that are none or stand twice."""
-        if isinstance(values, str) or not isinstance(values, Sequence):
+        if not is_list(values):
             self.refuse(name, f"expected {count} names, one for each {what}, got {described(values)}")
             return ()
         self.names(name, values)
@@ -120,7 +125,7 @@ class Arguments:
 
     def several(self, name: str, value: object, of: type[Any], example: str) -> tuple[Any, ...]:
         """Return a sequence of values of a type as a tuple, without those noted to be of another."""
-        if isinstance(value, str) or not isinstance(value, Sequence):
+        if not is_list(value):
             self.refuse(name, f"expected a list such as [{example}], got {described(value)}")
             return ()
         found = [self.one(f"{name}[{index}]", each, of, example) for index, each in enumerate(value)]
@@ -136,7 +141,8 @@ def described(value: object) -> str:
     if isinstance(value, type):
         return f"the class {value.__name__} itself; make one with {value.__name__}(...)"
     if isinstance(value, np.ndarray):
-        return f"an array of shape {value.shape}"
+        of = "" if value.dtype.kind in REAL else f" of {value.dtype}"
+        return f"an array of shape {value.shape}{of}{' with masked entries' if np.ma.is_masked(value) else ''}"
     return article(type(value).__name__)
 
 
@@ -145,13 +151,59 @@ def article(word: str) -> str:
     return f"{'an' if word[:1] in 'AEIOUaeiou' else 'a'} {word}"
 
 
-def _plain(value: object) -> Any:
-    return value if isinstance(value, np.ndarray | list | tuple) else 0
+def expected(name: str, value: object, of: type[Any], example: str) -> None:
+    """Refuse the argument of a function that is not of its type.
+
+    Raises:
+        InputError: with its name, what came and an example.
+    """
+    judge = Arguments("")
+    judge.one(name, value, of, example)
+    judge.finish()
 
 
-def _is_real(value: object) -> bool:
+def is_list(value: object) -> TypeGuard[Sequence[Any]]:
+    """Return whether a value is a list, a tuple or the like: no text, no array, nothing that is gone once read."""
+    return isinstance(value, Sequence) and not isinstance(value, str | bytes)
+
+
+def is_word(value: object, words: Collection[str]) -> bool:
+    """Return whether a value is one of some words; an array is none, and compares to none."""
+    return isinstance(value, str) and value in words
+
+
+def is_whole(value: object) -> TypeGuard[int]:
+    """Return whether a value is a whole number by its type: `True` is none, nor is a span of time."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
+
+
+def is_number(value: object) -> bool:
+    """Return whether a value is one real number: `True`, texts, complex numbers and lists of one number are none."""
+    if isinstance(value, bool | str | bytes | list | tuple) or value is np.ma.masked:
+        return False
+    if isinstance(value, np.ndarray | np.generic) and (value.ndim or value.dtype.kind not in REAL):
+        return False
     try:
         float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         return False
-    return not isinstance(value, bytes)
+    return True
+
+
+def as_numbers(value: object) -> Array | None:
+    """Return real numbers as an array of floats; None for anything else, masked entries too, which are no numbers."""
+    if isinstance(value, list | tuple) and any(isinstance(each, np.ma.MaskedArray) for each in value):
+        value = np.ma.array(value)
+    if value is None or isinstance(value, bool | str | bytes) or np.ma.is_masked(value):
+        return None
+    try:
+        given = np.asarray(value)
+        entries = given.ravel() if given.dtype.kind == "O" else ()
+        if given.dtype.kind not in f"{REAL}O" or not all(
+            isinstance(each, Real) and is_number(each) for each in entries
+        ):
+            # an empty list is an array of floats, and one of booleans says yes or no and not how much
+            return None
+        return given.astype(np.float64, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        return None

@@ -7,13 +7,15 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import Any, TypeVar
 
+from synergrip.documents.judging import article
+from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, suggest
 
 Made = TypeVar("Made", bound=Callable[..., Any])
 
 
 def naming_arguments(made: Made) -> Made:
-    """Return a function or class that raises an `InputError` where Python would raise a TypeError about its arguments.
+    """Return a function, method or class that raises an `InputError` where Python raises one about its arguments.
 
     Nothing is looked at before a TypeError has been raised, and one from further inside stays what it is.
     """
@@ -40,21 +42,46 @@ def _naming(function: Callable[..., Any], of: str) -> Callable[..., Any]:
 def _misnamed(
     function: Callable[..., Any], of: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> Iterator[Issue]:
-    """Yield what is wrong with the names of arguments; a class passes itself first."""
+    """Yield what is wrong with the names of arguments, which a method gets after itself."""
     every = [each for each in signature(function).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
+    if every and every[0].name in ("self", "cls"):
+        every, args = every[1:], args[1:]
     places = [each.name for each in every if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
-    given, known = set(places[: len(args)]), [each.name for each in every if each.name != "self"]
-    before = f"{of}." if of else ""
-    if len(args) > len(places):
-        unnamed = len(args) - len(places)
-        how = f"write {known[0]}=... and so on: {', '.join(known)}" if known else "it takes no arguments"
-        yield Issue(f"{unnamed} values without a name; {how}", of)
+    given, known = set(places[: len(args)]), [each.name for each in every]
+    before, unnamed = f"{of}." if of else "", max(len(args) - len(places), 0)
+    if unnamed:
+        yield Issue(_too_many(args, unnamed, every), of)
+    meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in kwargs:
         if name not in known:
-            hint = suggest(name, known) or f"; there are {', '.join(known)}"
+            near = suggest(name, known)
+            meant += [each for each in known if f"'{each}'" in near]
+            hint = near or (f"; there are {', '.join(known)}" if known else "; it takes none")
             yield Issue(f"no such argument{hint}", f"{before}{name}", on_key=True)
         elif name in given:
             yield Issue("given twice, by its place and by its name", f"{before}{name}", on_key=True)
-    for each in every:
-        if each.default is Parameter.empty and each.name not in given and each.name not in kwargs:
-            yield Issue("missing", f"{before}{each.name}", on_key=True)
+    needed = [each.name for each in every if each.default is Parameter.empty]
+    for name in (each for each in needed if each not in given and each not in kwargs and each not in meant):
+        yield Issue(f"missing{_within(args, needed)}", f"{before}{name}", on_key=True)
+
+
+def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter]) -> str:
+    """Return what to do with values that have no place."""
+    if not every:
+        return f"it takes no arguments, got {len(values)}"
+    first, names = every[0], ", ".join(each.name for each in every)
+    if len(every) == 1 and unnamed < len(values):
+        several = any(word in str(first.annotation) for word in ("tuple", "Numbers", "Sequence", "Array"))
+        together = f"; put them into one: {first.name}=({', '.join(map(shown, values))})" if several else ""
+        return f"it takes one value, {first.name}, got {len(values)}{together}"
+    what = "a value" if unnamed == 1 else f"{unnamed} values"
+    return f"{what} without a name; write {first.name}=...{f' and so on: {names}' if len(every) > 1 else ''}"
+
+
+def _within(args: tuple[Any, ...], needed: list[str]) -> str:
+    """Return a hint when one value was given in which all that is needed can be found, such as a problem."""
+    whole = next((each for each in args if len(needed) > 1 and all(hasattr(each, name) for name in needed)), None)
+    if whole is None:
+        return ""
+    word = type(whole).__name__.lower()
+    return f"; {article(type(whole).__name__)} has them: write {', '.join(f'{word}.{name}' for name in needed)}"

@@ -19,6 +19,7 @@ MOST_JUDGED = 200
 
 Value = TypeVar("Value")
 
+LARGEST_NUMBER = 1e100  # products of such numbers stay finite
 _WANTED = {
     "string": "a string",
     "int": "a whole number",

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, described
+from synergrip.documents.judging import Arguments, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import one_of
 from synergrip.grasps.contacts.kind import EXAMPLE_OF, ContactKind
@@ -100,11 +100,12 @@ class ContactAt:
                 object.__setattr__(self, name, self._judged(judge, name))
             if self.tangential_stiffness is None and "tangential_stiffness" in self.kind.stiffnesses():
                 object.__setattr__(self, "tangential_stiffness", self.stiffness)
-        if self.normals not in (None, "object", "pad"):
-            judge.refuse("normals", one_of(described(self.normals).strip("'"), ("object", "pad")))
+        if self.normals is not None and not is_word(self.normals, ("object", "pad")):
+            judge.refuse("normals", one_of(self.normals, ("object", "pad")))
         if self.tangent is not None:
             object.__setattr__(self, "tangent", _direction(judge, "tangent", self.tangent))
-        name = self.name or (self.at.link if isinstance(self.at, LinkPlace) else self.at)
+        unnamed = isinstance(self.name, str) and not self.name
+        name = (self.at.link if isinstance(self.at, LinkPlace) else self.at) if unnamed else self.name
         object.__setattr__(self, "name", judge.text("name", name))
         judge.finish()
 

@@ -15,7 +15,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.given import given, numbered
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.grasp_judging import Judge, columns
+from synergrip.grasps.grasp_judging import Judge
 from synergrip.grasps.matrices import GivenContact, Matrices
 from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE, unbalanced
 
@@ -36,11 +36,16 @@ def grasp_from_matrices(
     synergies: Sequence[str] | None = None,
     title: str = "",
 ) -> Grasp:
-    """Return the grasp of matrices from kinematics of one's own; SI units, normals toward the object.
+    """Return the grasp of matrices from kinematics of one's own; SI units.
+
+    The force components of a contact are those of its kind, such as (n, t, o) of a `HardFinger` and (n, t, o, m) of a
+    `SoftFinger`: the normal n points toward the object (into it, as the force on it does), (n, t, o) is right-handed,
+    and m is the moment about n.
 
     Args:
-        G: (6, n_l) grasp matrix, a column for each force component of the contacts.
-        J: (n_l, n_q) hand Jacobian in the contact frames.
+        G: (6, n_l) grasp matrix: in each column the force on the object of a unit of one component, and its moment
+            about B.
+        J: (n_l, n_q) hand Jacobian: in each row the velocity of the contact along one component, by joint.
         S: (n_q, n_z) synergy matrix.
         contacts: ``(name, kind)`` in the order of the rows of J, or a `GivenContact` where place and normal are known.
         C_s: contact compliance, a matrix (n_l, n_l) or a number for that times the identity [m/N].
@@ -73,19 +78,18 @@ def grasp_from_matrices(
     told = _told(judge, contacts)
     judge.finish()
     n_l = sum(len(contact.kind.components) for contact in told)
-    n_q, n_z = (columns(each) for each in (J, S))
+    title = judge.text("title", title)
+    G, J, S = judge.kinematics(G, J, S, n_l)
+    stiff = judge.compliance("C_s", C_s, n_l, LARGEST_COMPLIANCE)
+    start = None if lambda_0 is None else judge.array("lambda_0", lambda_0, (n_l,))
+    load = None if w_0 is None else judge.array("w_0", w_0, (6,))
+    judge.finish()  # what follows goes by the sizes of J and S
+    n_q, n_z = J.shape[1], S.shape[1]
     matrices = Matrices(
-        title=judge.text("title", title),
-        contacts=told,
-        G=judge.array("G", G, (6, n_l), ": a column for each force component of the contacts"),
-        J=judge.array("J", J, (n_l, n_q), ": a row for each force component of the contacts"),
-        S=judge.array("S", S, (n_q, n_z), ": a row for each joint, as J has columns"),
-        C_s=judge.compliance("C_s", C_s, n_l, LARGEST_COMPLIANCE),
+        title=title, contacts=told, G=G, J=J, S=S, C_s=stiff, lambda_0=start, w_0=load,
         C_q=judge.compliance("C_q", C_q, n_q, LARGEST_COMPLIANCE),
         C_z=judge.compliance("C_z", C_z, n_z, LARGEST_COMPLIANCE),
-        lambda_0=None if lambda_0 is None else judge.array("lambda_0", lambda_0, (n_l,)),
-        w_0=None if w_0 is None else judge.array("w_0", w_0, (6,)),
-    )
+    )  # fmt: skip
     if not judge.issues:
         for name, count in (("J", n_q), ("S", n_z)):
             if not count:
@@ -115,8 +119,8 @@ def _told(judge: Judge, contacts: object) -> tuple[GivenContact, ...]:
         if isinstance(each, GivenContact):
             found.append(each)
         elif isinstance(each, tuple) and len(each) == 2:
-            judge.text(f"contacts[{index}][0]", each[0], empty=False)
-            if judge.one(f"contacts[{index}][1]", each[1], ContactKind, "HardFinger(friction=0.6)") and each[0]:
+            name = judge.text(f"contacts[{index}][0]", each[0], empty=False)
+            if judge.one(f"contacts[{index}][1]", each[1], ContactKind, "HardFinger(friction=0.6)") and name:
                 found.append(GivenContact(name=each[0], kind=each[1]))
         else:
             judge.refuse(f"contacts[{index}]", f"expected a pair such as {example}, got {described(each)}")

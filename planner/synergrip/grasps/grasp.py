@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
-from synergrip.grasps.grasp_judging import Judge, columns
+from synergrip.grasps.grasp_judging import Judge
 from synergrip.grasps.matrix_reading import unbalanced
 from synergrip.linalg import Array, block_diagonal, cross, frozen
 from synergrip.values import ByContent
@@ -62,26 +62,28 @@ class Grasp(ByContent):
             judge.refuse("contacts", "expected at least one contact")
         judge.finish()  # all that follows goes by their components
         n_l = sum(contact.n_rows for contact in contacts)
-        n_q, n_z = (columns(each) for each in (self.J, self.S))
+        if self.held is not None:
+            from synergrip.grasps.held import Held
+
+            judge.one("held", self.held, Held, "that of make_grasp(...)")
         judge.names("contacts", [contact.name for contact in contacts])
-        kept = {
-            "title": judge.text("title", self.title),
-            "contacts": contacts,
-            "G": judge.array("G", self.G, (6, n_l), ": a column for each force component of the contacts"),
-            "J": judge.array("J", self.J, (n_l, n_q), ": a row for each force component of the contacts"),
-            "S": judge.array("S", self.S, (n_q, n_z), ": a row for each joint, as J has columns"),
+        G, J, S = judge.kinematics(self.G, self.J, self.S, n_l)
+        kept: dict[str, object] = {
+            "title": judge.text("title", self.title), "contacts": contacts, "G": G, "J": J, "S": S,
             "C_s": judge.compliance("C_s", self.C_s, n_l),
-            "C_q": judge.compliance("C_q", self.C_q, n_q),
-            "C_z": judge.compliance("C_z", self.C_z, n_z),
             "lambda_0": None if self.lambda_0 is None else judge.array("lambda_0", self.lambda_0, (n_l,)),
             "w_0": judge.array("w_0", self.w_0, (6,)),
-            "joints": judge.named("joints", self.joints, n_q, "joint"),
-            "synergies": judge.named("synergies", self.synergies, n_z, "synergy"),
+        }  # fmt: skip
+        judge.finish()  # what follows goes by the sizes of J and S
+        kept |= {
+            "C_q": judge.compliance("C_q", self.C_q, J.shape[1]),
+            "C_z": judge.compliance("C_z", self.C_z, S.shape[1]),
+            "joints": judge.named("joints", self.joints, J.shape[1], "joint"),
+            "synergies": judge.named("synergies", self.synergies, S.shape[1], "synergy"),
         }
-        if not judge.issues and self.lambda_0 is not None:
-            G, lambda_0, w_0 = (np.asarray(kept[name]) for name in ("G", "lambda_0", "w_0"))
-            if message := unbalanced(G, lambda_0, w_0):
-                judge.refuse("w_0", f"{message}; give w_0 = -G @ lambda_0, or leave lambda_0 out")
+        start, load = kept["lambda_0"], np.asarray(kept["w_0"])
+        if not judge.issues and start is not None and (message := unbalanced(G, np.asarray(start), load)):
+            judge.refuse("w_0", f"{message}; give w_0 = -G @ lambda_0, or leave lambda_0 out")
         judge.finish()
         for name, value in kept.items():
             object.__setattr__(self, name, value)
@@ -91,8 +93,9 @@ class Grasp(ByContent):
         contacts = ", ".join(f"{contact.name} ({contact.kind.name})" for contact in self.contacts[:MOST_SHOWN])
         more = f" and {self.n_c - MOST_SHOWN} more" if self.n_c > MOST_SHOWN else ""
         sizes = f"n_l x n_q x n_z = {self.n_l} x {self.n_q} x {self.n_z}"
-        return f"<Grasp {self.title!r}: contacts {contacts}{more}; {sizes}>"
+        return f"<Grasp{f' {self.title!r}' if self.title else ''}: contacts {contacts}{more}; {sizes}>"
 
+    @naming_arguments
     def replace(
         self,
         *,

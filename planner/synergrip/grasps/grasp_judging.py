@@ -8,9 +8,40 @@ from synergrip.documents.judging import Arguments
 from synergrip.grasps.matrix_reading import SYMMETRY, is_semidefinite
 from synergrip.linalg import Array, frozen
 
+OF_CONTACTS = "for each force component of the contacts"
+
 
 class Judge(Arguments):
-    """Judges compliances, too."""
+    """Judges kinematics and compliances, too."""
+
+    def kinematics(self, G: object, J: object, S: object, n_l: int) -> tuple[Array, Array, Array]:
+        """Return G (6, n_l), J (n_l, n_q) and S (n_q, n_z).
+
+        S is judged against a J that is right: a wrong one would make two mistakes of one.
+        """
+        kept = self.array("G", G, (6, n_l), f": a column {OF_CONTACTS}")
+        jacobian = self._matrix("J", J, n_l, f"a row {OF_CONTACTS} and a column for each joint")
+        n_q = None if jacobian is None else jacobian.shape[1]
+        columns = "a row for each joint, as J has columns, and a column for each synergy"
+        synergies = self._matrix("S", S, n_q, columns)
+        none = frozen(np.zeros((0, 0)))
+        return kept, none if jacobian is None else jacobian, none if synergies is None else synergies
+
+    def _matrix(self, name: str, value: object, rows: int | None, what: str) -> Array | None:
+        """Return a matrix of so many rows, or of any number of them; None after noting why not."""
+        wanted = f"({rows or 'n_q'}, {'n_q' if name == 'J' else 'n_z'})"
+        found = self.numbers(name, value, f"a matrix of shape {wanted}")
+        if found is None:
+            return None
+        hint = ""
+        if found.ndim == 1:
+            hint = "; np.reshape(..., (-1, 1)) makes one column of it" if rows in (None, found.size) else ""
+        elif found.ndim == 2 and rows == found.shape[1] != found.shape[0]:
+            hint = "; it fits when transposed"
+        if found.ndim != 2 or rows not in (None, found.shape[0]):
+            self.refuse(name, f"expected shape {wanted}: {what}; got {found.shape}{hint}")
+            return None
+        return found
 
     def compliance(self, name: str, value: object, size: int, largest: float = np.inf) -> Array:
         """Return a symmetric positive semidefinite matrix; a number c stands for c times the identity.
@@ -53,12 +84,3 @@ class Judge(Arguments):
         else:
             return True
         return False
-
-
-def columns(matrix: object) -> int:
-    """Return the number of columns of what may be a matrix; 0 for what is none."""
-    try:
-        shape = np.asarray(matrix, dtype=np.float64).shape
-    except (TypeError, ValueError, OverflowError):
-        return 0
-    return shape[1] if len(shape) == 2 else 0

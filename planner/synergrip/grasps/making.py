@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, described
+from synergrip.documents.judging import Arguments, as_numbers, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.closing import close as closed
@@ -97,9 +97,10 @@ def make_grasp(
     try:
         chosen = _synergies(hand, synergies, relative_to or Path())
         asked = not (synergies is None or isinstance(synergies, int))
-        each_yields = np.ndim(joint_compliance) > 0 if joint_compliance is not None else False
+        yielding = as_numbers(joint_compliance)
         links = [touch.pad.link for touch in touches]
-        judge_undriven(hand, chosen, links, asked=asked, each_yields=bool(each_yields), key="synergies")
+        each_yields = yielding is not None and yielding.ndim > 0
+        judge_undriven(hand, chosen, links, asked=asked, each_yields=each_yields, key="synergies")
         q = _joint_values(hand, chosen, posture)
         C_q = _joint_compliance(hand, joint_compliance)
         C_z = diagonal(synergy_compliance, chosen.synergies, "synergy_compliance", "synergies")

@@ -14,7 +14,7 @@ from pydantic import Field, create_model
 
 from synergrip.documents.documents import Document, parse, read_document
 from synergrip.documents.fields import NUMBER, Name, Number, Positive, Table, Vector, Version, Written, array_of
-from synergrip.documents.judging import Arguments
+from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
@@ -182,6 +182,7 @@ class GraspFile(Table):
             yield Issue(message, f"contacts[{index}].name")
 
 
+@naming_arguments
 def read_matrices(path: str | Path, key: str = "") -> Matrices:
     """Read and judge a grasp given as matrices.
 
@@ -193,6 +194,8 @@ def read_matrices(path: str | Path, key: str = "") -> Matrices:
     Raises:
         InputError: all the issues of the file, each with its place.
     """
+    if not isinstance(path, str | Path) or not str(path):
+        raise InputError.at("path", f"expected the path of a grasp file, such as 'grasp.json', got {described(path)}")
     document = read_document(Path(path), "grasp file", key, numbers=True)
     issues: list[Issue] = []
     contacts: tuple[ContactFile, ...] | None = None

@@ -196,7 +196,8 @@ def _reached(title: str, touch: Touch, gap: float) -> float:
     if abs(gap) > REACH:
         message = (
             f"pad '{touch.pad.name}' is {1e3 * abs(gap):.3g} mm {'outside' if gap > 0 else 'inside'} the surface of "
-            f"the {title}; change the posture, or the object's size or position"
+            f"the {title}; change the posture, or the object's size or position; or let the hand close until its pads "
+            'touch, from a more open posture: close = "NAME" of a synergy or joint, or weights by name'
         )
         raise InputError.at(touch.key, message)
     return gap

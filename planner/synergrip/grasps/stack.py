@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.judging import as_numbers, described
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
@@ -36,6 +38,7 @@ class Matrices(Value):
     C_z: Array  # (..., n_z, n_z)
 
     @classmethod
+    @naming_arguments
     def of(cls, grasp: Grasp) -> Matrices:
         """Return those of one grasp, without leading axes."""
         return cls(grasp.G, grasp.J, grasp.S, grasp.C_s, grasp.C_q, grasp.C_z)
@@ -66,6 +69,7 @@ class GraspStack(Value, Sequence[Grasp]):
     """The N grasps themselves, where the stack was made of some."""
 
     @classmethod
+    @naming_arguments
     def of(cls, grasps: Sequence[Grasp]) -> GraspStack:
         """Return the stack of some grasps.
 
@@ -77,7 +81,7 @@ class GraspStack(Value, Sequence[Grasp]):
         """
         if isinstance(grasps, GraspStack):
             return grasps
-        if isinstance(grasps, str) or not isinstance(grasps, Iterable):
+        if isinstance(grasps, str | np.ndarray) or not isinstance(grasps, Iterable):
             raise InputError.at("grasps", f"expected a list of grasps, got {type(grasps).__name__}")
         given = tuple(grasps)
         if not given:
@@ -96,6 +100,7 @@ class GraspStack(Value, Sequence[Grasp]):
         return cls(Matrices(*stacked), points, _stacked([grasp.w_0 for grasp in given]), given[0], given)
 
     @classmethod
+    @naming_arguments
     def varied(cls, grasp: Grasp, **arrays: Array) -> GraspStack:
         """Return a stack of grasps that are like one but for some arrays.
 
@@ -179,10 +184,10 @@ def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
     if name not in VARIED:
         raise InputError.at(name, f"is no array of a grasp; expected one of {', '.join(VARIED)}")
     wanted = own[name].shape[1:]
-    try:
-        found = frozen(value)
-    except (TypeError, ValueError):
-        raise InputError.at(name, f"expected numbers of shape {('N', *wanted)}, got {type(value).__name__}") from None
+    found = as_numbers(value)
+    if found is None:
+        raise InputError.at(name, f"expected numbers of shape {('N', *wanted)}, got {described(value)}")
+    found = frozen(found)
     if found.ndim != len(wanted) + 1 or found.shape[1:] != wanted or not len(found):
         shape = ", ".join(map(str, ("N", *wanted)))
         raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")

@@ -31,7 +31,7 @@ def varied(
     for name in others:
         if name not in known:
             raise InputError.at(name, one_of(name, ["friction", "contact", "mass", *known]), on_key=True)
-    changed = _with_kinds(grasp, _kinds(grasp, friction, contact or {}))
+    changed = _with_kinds(grasp, _kinds(grasp, friction, {} if contact is None else contact))
     changed = replace(changed, **others)
     if changed.held is None:
         if mass is not None:

@@ -24,7 +24,7 @@ def arm_notes(hand: Hand, synergies: SynergySet, touching: Collection[str]) -> I
         carry = "carries" if len(arm) == 1 else "carry"
         yield (
             f"the synergies move {', '.join(map(repr, arm))}, which {carry} all contacts: the arm moves the object; "
-            f'when only the hand is to move it, write hand.palm = "{palm}"'
+            f'when only the hand is to move it, write hand.palm = "{palm}" (an argument of load_hand in code)'
         )
 
 

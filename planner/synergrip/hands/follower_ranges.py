@@ -19,7 +19,10 @@ APART = 1e-6
 """[rad or m] Ends of a range that differ by less say the same."""
 MATERIAL = 0.02
 """Share of what the coupling asks for that a range may leave out, as a rounded number does."""
-REPAIR = 'correct one of the two, or let the couplings say how far followers go: hand.follower_ranges = "ignore"'
+REPAIR = (
+    'correct one of the two, or let the couplings say how far followers go: hand.follower_ranges = "ignore" (an '
+    "argument of load_hand in code)"
+)
 
 
 @dataclass(frozen=True)

@@ -121,10 +121,10 @@ def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]
     arm = f'; or hand.palm = "{palm[0]}", to leave out what is above that link' if {*names} & {*palm[1]} else ""
     return (
         f"no actuator of the model file is known to drive {_listed(names)} ({told}{more}). Write how they move: "
-        'hand.synergies = "mine.toml", a synergy file with these joints; or names of joints that actuators drive each '
-        f'by itself, as in hand.synergies = ["{names[0]}"]; or, where nothing drives them, how far each joint yields: '
-        f"a list in hand.compliance.joint, 0 for a locked one{arm}. Or change the model file: an actuator, a "
-        "stiffness, a <fixed> tendon in place of a <spatial> one, with its moment arms as coef"
+        'synergies = "mine.toml", a synergy file with these joints; or names of joints that actuators drive each '
+        f'by itself, as in synergies = ["{names[0]}"]; or, where nothing drives them, how far each joint yields: '
+        f"a list in compliance.joint (in code joint_compliance), 0 for a locked one{arm}. Or change the model file: an "
+        "actuator, a stiffness, a <fixed> tendon in place of a <spatial> one, with its moment arms as coef"
     )
 
 

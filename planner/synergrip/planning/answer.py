@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import Issue, VerdictError, suggest
 from synergrip.values import Value
 
@@ -28,6 +29,7 @@ class Answer(Value):
     holds: ClassVar[tuple[str, ...]]
     """What is to be looked at in an answer of this kind."""
 
+    @naming_arguments
     def save(
         self, folder: str | Path, *, formats: Sequence[str] = FORMATS, problem: Asked | None = None
     ) -> tuple[Path, ...]:
@@ -35,7 +37,7 @@ class Answer(Value):
 
         Args:
             folder: made when it is not there. An earlier answer in it is replaced, other files stay.
-            formats: of "json", "npz" and "csv".
+            formats: some of "json", "npz" and "csv"; a single text is one of them.
             problem: what was asked, as `load_problem` returns it, for title, notes and provenance.
 
         Returns:
@@ -69,6 +71,7 @@ class Answer(Value):
 class Tabled(Answer):
     """An answer with arrays: a table of them, and a picture."""
 
+    @naming_arguments
     def frame(self) -> Any:
         """Return the columns of plan.csv as a pandas `DataFrame`, one row for each knot.
 
@@ -82,6 +85,7 @@ class Tabled(Answer):
 
         return frame(cast("Plan", self))
 
+    @naming_arguments
     def draw(self, path: str | Path, *, title: str = "") -> Path:
         """Draw the plan over time, the picture of ``synergrip plan --picture``, and return the file.
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
+from synergrip.conic.well_formed import usage_of
 from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
@@ -62,7 +63,7 @@ def between(task: TimedTask, analysis: Analysis, formulation: Formulation, motio
     dz_r = interpolated(looks.times, task.times, motion.dz_r)
     there = forward(analysis.response, looks.times, dz_r, looks.wrench)
     dense = replace(formulation, times=looks.times, wrench=looks.wrench, target=looks.target)
-    usages = tuple(limit.usage(dense, there) for limit in task.all_limits if not limit.couples_knots)
+    usages = tuple(usage_of(limit, dense, there) for limit in task.all_limits if not limit.couples_knots)
     scale, (load, path) = analysis.response.scale, intersample.departures(task.times, task.wrench, formulation.target)
     loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.target))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))

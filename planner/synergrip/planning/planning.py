@@ -87,7 +87,8 @@ def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> O
 def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | Analysis, TimedTask]:
     """Return the grasp as it is when the task begins, and the task at its knots."""
     if not isinstance(grasp, Grasp | Analysis):
-        raise InputError.at("grasp", f"expected a Grasp or an Analysis, got {kind_of(grasp)}")
+        hint = "; write problem.grasp, problem.task" if hasattr(grasp, "grasp") and hasattr(grasp, "task") else ""
+        raise InputError.at("grasp", f"expected a Grasp or an Analysis, got {kind_of(grasp)}{hint}")
     if not isinstance(task, Task | TimedTask):
         raise InputError.at("task", f"expected a Task, got {kind_of(task)}")
     whole = grasp.grasp if isinstance(grasp, Analysis) else grasp

@@ -18,6 +18,7 @@ from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proven
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
+from synergrip.documents.judging import described
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
 from synergrip.log import LOG
@@ -46,11 +47,23 @@ def answerer(name: str | Answerer, key: str = "--solver") -> Answerer:
     Raises:
         InputError: none of that name, at the option or argument `key`; the names are listed.
     """
-    if callable(name):
-        return name
+    if callable(name) and not isinstance(name, type):
+        return _answering(name, key)
     if not isinstance(name, str) or name not in SOLVERS:
         raise InputError.at(key, one_of(name, SOLVERS))
     return SOLVERS[name]
+
+
+def _answering(solve: Answerer, key: str) -> Answerer:
+    """Return a user's function as a solver whose answers are looked at."""
+
+    def answered(question: Question, program: Program, settings: Settings) -> Solution:
+        found = solve(question, program, settings)
+        if not isinstance(found, Solution):
+            raise InputError.at(key, f"expected a Solution from the function, got {described(found)}")
+        return found
+
+    return answered
 
 
 SMALL, NOTHING = 1e-2, 1e-12

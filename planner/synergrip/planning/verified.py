@@ -6,12 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.joint_range import JointRange
-from synergrip.conic.limits.limit import Usage
-from synergrip.conic.well_formed import judged_usage
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.well_formed import usage_of
 from synergrip.documents.quantities import SHOWN_IN
-from synergrip.errors import SelfCheckError
+from synergrip.errors import InputError, Issue, SelfCheckError
+from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import Between, between
@@ -40,6 +42,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
 
     Raises:
         InDoubtError: its forces, or the digits of its program, do not suffice to tell whether limits hold.
+        InputError: a limit of a user's own contradicts itself.
         SelfCheckError: a check of the plan fails.
     """
     formulation = stage.formulation
@@ -53,33 +56,55 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     found = between(task, analysis, formulation, motion)
     checks += between_checks(task, found)
     there = found.usages if found is not None and task.between == "hold" else ()
-    _judge(checks, exact, (*usages, *there), analysis.response.scale.largest_force(motion.forces))
+    of_instants = [limit for limit in task.all_limits if not limit.couples_knots]
+    asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
+    _judge(checks, exact, asked, analysis.response.scale.largest_force(motion.forces))
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, formulation, motion),
-         *_far(analysis, motion), *_missed(found)), found, stage.interrupted,
+         *_far(analysis, motion), *_missed(found), *frame_notes(analysis.grasp)), found, stage.interrupted,
     )  # fmt: skip
 
 
-def _judge(checks: Sequence[Check], exact: Sequence[Check], usages: Sequence[Usage], largest: float) -> None:
+def _judge(
+    checks: Sequence[Check], exact: Sequence[Check], asked: Sequence[tuple[Limit, Usage]], largest: float
+) -> None:
     """Raise when a check fails: a doubt when it is only that the program's digits do not suffice for a limit.
+
+    A limit of a user's own says by its `usage` what its `rows` do not: that is a mistake in it, and none of synergrip.
 
     Args:
         checks: all of them.
         exact: those among them that no digits of a program excuse.
-        usages: of the limits that count.
+        asked: the limits that count, each with what the plan uses of it.
         largest: component of all contact forces [N]; the program knows none better than to a share of it.
     """
     failed = [check for check in checks if not check.passed]
     if not failed:
         return
     said = "; ".join(f"{check.name}: {check.error:.2e} exceeds {check.tolerance:.0e}" for check in failed)
-    rough = all(u.violation < DIGITS or (u.unit == "N" and u.excess.max() < OF_FORCES * largest) for u in usages)
-    if all(check.passed for check in exact) and rough:
-        raise InDoubtError(f"the plan that was found misses limits by more than their tolerance ({said})")
+    beyond = [(limit, u) for limit, u in asked if u.violation > LIMIT]
+    rough = all(u.violation < DIGITS or (u.unit == "N" and u.excess.max() < OF_FORCES * largest) for _, u in beyond)
+    if all(check.passed for check in exact):
+        if rough:
+            raise InDoubtError(f"the plan that was found misses limits by more than their tolerance ({said})")
+        if all(is_own(type(limit)) for limit, _ in beyond):
+            raise InputError([_contradiction(limit, usage) for limit, usage in beyond])
     raise SelfCheckError(f"the plan fails its own check ({said}); please report this problem")
+
+
+def _contradiction(limit: Limit, usage: Usage) -> Issue:
+    """Return what to compare in a limit of a user's own."""
+    name, (k, i) = type(limit).__name__, usage.worst()
+    value, bounds = f"{usage.value[k, i]:.6g}", f"{usage.lower[i]:.6g} to {usage.upper[i]:.6g} {usage.unit}".rstrip()
+    message = (
+        f"contradicts {name}.rows: of a plan that keeps the rows it says that '{usage.items[i]}' is {value} at t = "
+        f"{usage.times[k]:.6g} s, allowed {bounds}. Compare the two: the same rows of lambda (or joints, synergies), "
+        "the same signs and units, the same bounds, and rows for every item"
+    )
+    return Issue(message, key=f"{name}.usage")
 
 
 def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> Iterator[str]:
@@ -92,7 +117,7 @@ def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> I
         factor, unit = SHOWN_IN.get(usage.unit, (1.0, "(rad or m)"))
         yield (
             f"joint '{usage.items[i]}' would leave its range by {factor * usage.excess[k, i]:.3g} {unit} at t = "
-            f'{motion.times[k]:.3g} s; limits.joint_range = "hand" forbids it'
+            f'{motion.times[k]:.3g} s; a limit JointRange() (limits.joint_range = "hand" in a file) forbids it'
         )
 
 
@@ -119,7 +144,7 @@ def _missed(between: Between | None) -> Iterator[str]:
 
 def limit_usages(task: TimedTask, formulation: Formulation, motion: Motion) -> tuple[Usage, ...]:
     """Return what a motion uses of every limit of a task, friction cones first."""
-    return tuple(judged_usage(limit, motion, limit.usage(formulation, motion)) for limit in task.all_limits)
+    return tuple(usage_of(limit, formulation, motion) for limit in task.all_limits)
 
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:

@@ -18,7 +18,7 @@ from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.contacts.kind import STIFFNESS_OF
-from synergrip.grasps.facing import facing_notes
+from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
@@ -117,7 +117,7 @@ def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Seque
         document = document_of(problem).with_overrides(texts)
         return _problem(document.data.get("title") or "problem", document.path, parse(document, ProblemFile), document)
     if not isinstance(problem, str | Path):
-        raise InputError.at("PROBLEM", f"expected a name, a path or a dict, got {shown(problem)}")
+        raise InputError.at("problem", f"expected a name, a path or a dict, got {shown(problem)}")
     path = find_problem(str(problem))
     return _problem(path.stem, path, *_read(path, texts))
 
@@ -187,12 +187,12 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
 
         matrices = path.parent / file.grasp.file
         grasp = read_given(matrices, "grasp.file")
-        return _Touching(grasp, (*_spot_notes(matrices), *facing_notes(grasp.contacts)))
+        return _Touching(grasp, (*_spot_notes(matrices), *frame_notes(grasp)))
     from synergrip.problems.holding import hand_grasp
 
     grasp = hand_grasp(file, path.parent)
     notes = grasp.held.notes if grasp.held else ()
-    return _Touching(grasp, (*notes, *facing_notes(grasp.contacts)))
+    return _Touching(grasp, (*notes, *frame_notes(grasp)))
 
 
 def _spot_notes(matrices: Path) -> tuple[str, ...]:

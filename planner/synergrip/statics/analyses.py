@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Places, frozen
@@ -75,6 +76,7 @@ class Analyses(Value):
         raise InputError.at("place", f"expected a place from 0 to {count - 1}, got {place!r}")
 
 
+@naming_arguments
 def analyse_many(grasps: Sequence[Grasp]) -> Analyses:
     """Return the analyses of many grasps: what `analyse` returns for each, many times as fast.
 

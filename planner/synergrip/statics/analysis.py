@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from synergrip.documents.judging import described
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
 from synergrip.values import Value
@@ -47,11 +42,6 @@ def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
     """
-    if not isinstance(grasp, Grasp):
-        raise InputError.at("grasp", f"expected a Grasp, such as make_grasp(...) returns, got {described(grasp)}")
-    judge = Judge("")
-    held = None if load is None else judge.array("load", load, (len(np.atleast_1d(load)), 6), ": wrenches (T, 6)")
-    judge.finish()
-    response = respond(grasp, held)
+    response = respond(grasp, load)
     spaces = subspaces(response)
     return Analysis(grasp, response, spaces, coordinates(response, spaces))

@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.documents.judging import Arguments, described, expected
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
@@ -121,6 +123,7 @@ class Response(Maps):
         return frozen((vectors / np.maximum(values, SINGULAR)) @ vectors.T / np.outer(root, root))
 
 
+@naming_arguments
 def respond(grasp: Grasp, load: Array | None = None) -> Response:
     """Return the response maps of a grasp.
 
@@ -129,16 +132,33 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
         load: (T, 6) wrenches it is to hold, for a refusal to tell about (default: w_0).
 
     Raises:
+        InputError: no grasp, or no wrenches.
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
     """
+    expected("grasp", grasp, Grasp, "make_grasp(...)")
+    held = np.atleast_2d(grasp.w_0) if load is None else wrenches("load", load)
     scale = scale_of(grasp)
-    decision = restraint(grasp, scale, np.atleast_2d(grasp.w_0) if load is None else load)
+    decision = restraint(grasp, scale, held)
     refuse_rigid_contacts(grasp, scale)
     maps, known = _worked_out(Matrices.of(grasp), scale)
     accuracy = {name: Accuracy(*row) for name, row in zip(FIGURES, known.tolist(), strict=True)}
     return Response(**{name: frozen(each) for name, each in maps.items()},
                     grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip
+
+
+def wrenches(name: str, value: object) -> Array:
+    """Return wrenches as an array (T, 6); one of 6 numbers is a wrench, too.
+
+    Raises:
+        InputError: something else.
+    """
+    judge = Arguments("")
+    found = judge.numbers(name, value, "wrenches (T, 6)")
+    if found is not None and (found.ndim not in (1, 2) or found.shape[-1] != 6 or not found.size):
+        judge.refuse(name, f"expected wrenches (T, 6), 3 forces and 3 moments in each row; got {described(value)}")
+    judge.finish()
+    return np.atleast_2d(np.asarray(found))
 
 
 def maps_in_float64(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, scale_of
@@ -62,6 +63,7 @@ class Responses(Maps):
                          refusals=self.refusals, one_by_one=self.one_by_one)  # fmt: skip
 
 
+@naming_arguments
 def respond_many(grasps: Sequence[Grasp]) -> Responses:
     """Return the response maps of many grasps: those that `respond` returns, many times as fast.
 

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.documents.judging import expected
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Decisions, Places, frozen
 from synergrip.statics.responses import Responses
 from synergrip.statics.subspaces import (
@@ -47,6 +49,7 @@ class SubspaceGroup(Bases):
         return Subspaces(**bases, decisions={name: each.at(index) for name, each in self.decisions.items()})
 
 
+@naming_arguments
 def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
     """Return the controlled subspaces of many grasps: the bases that `subspaces` returns, many times as fast.
 
@@ -57,10 +60,14 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
         one group for each triple of dimensions that occurs, the largest dim E_s first, then the largest dim
         Gamma_ucs; within a group the grasps keep their order.
 
+    Raises:
+        InputError: no responses.
+
     Example:
         >>> for group in subspaces_many(respond_many(grasps)):
         ...     print(group.dimensions, group.places, group.E_s.shape)
     """
+    expected("responses", responses, Responses, "respond_many(grasps)")
     moved = ContactMotions.of(responses.grasps.matrices, responses.grasps.metric)
     groups = []
     for rank, alike in _by_rank(moved.rigid.ranks):
@@ -71,15 +78,20 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
     return tuple(groups)
 
 
+@naming_arguments
 def coordinates_many(group: SubspaceGroup) -> Coordinates:
     """Return M of (35) and its inverse for each grasp of a group, (N, n_z, n_z).
 
     Args:
         group: from `subspaces_many`.
 
+    Raises:
+        InputError: no group.
+
     Example:
         >>> alpha, beta, gamma = coordinates_many(group).coordinates(dz_r)  # dz_r (N, T, n_z)
     """
+    expected("group", group, SubspaceGroup, "subspaces_many(responses)[0]")
     return coordinates_of(group.responses, group, group.responses.grasps.metric)
 
 

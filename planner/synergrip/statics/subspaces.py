@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.judging import expected
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import (
@@ -72,12 +74,17 @@ class Subspaces(Bases):
         return f"Subspaces(dim E_s {forces}, Gamma_ucs {motions}, Gamma_zr {redundant}{doubt})"
 
 
+@naming_arguments
 def subspaces(response: Response) -> Subspaces:
     """Return the controlled subspaces of a grasp (29), (31).
 
     Uses ``J S`` and not the print's ``J X S Y``: for C_s > 0 the null spaces agree, and for C_s = 0
     only ``J S`` gives the force-free motions (docs/theory.md).
+
+    Raises:
+        InputError: no response.
     """
+    expected("response", response, Response, "respond(grasp)")
     moved = ContactMotions.of(Matrices.of(response.grasp), response.scale)
     rank, known = int(moved.rigid.ranks), response.accuracy["dlambda_dzr"]
     moving = moved.moving(rank)

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.judging import expected
+from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.scale import Metric
 from synergrip.linalg import Array, frozen
 from synergrip.statics.response import Maps, Response
@@ -45,8 +47,15 @@ class Coordinates(Value):
         return result[..., :forces], result[..., forces : forces + motions], result[..., forces + motions :]
 
 
+@naming_arguments
 def coordinates(response: Response, spaces: Subspaces) -> Coordinates:
-    """Return M of (35) and its inverse; the pseudo-inverses are taken in the scaled metric."""
+    """Return M of (35) and its inverse; the pseudo-inverses are taken in the scaled metric.
+
+    Raises:
+        InputError: no response, or no subspaces.
+    """
+    expected("response", response, Response, "respond(grasp)")
+    expected("spaces", spaces, Subspaces, "subspaces(response)")
     return coordinates_of(response, spaces, response.scale)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.documents.documents import LARGEST_NUMBER
-from synergrip.documents.judging import described
+from synergrip.documents.judging import described, is_number
 from synergrip.errors import one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array, frozen, unit_vector
@@ -23,13 +23,14 @@ Rows = Sequence[Sequence[float]] | Array
 class TaskArguments(Judge):
     """Judges the arguments of a load or a target, and returns each as it is kept: plain, immutable values."""
 
-    def real(self, name: str, value: Any, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
+    def real(
+        self, name: str, value: Any, *, above: float = -math.inf, at_least: float = -math.inf, unit: str = ""
+    ) -> float:
         """Return a finite number; NaN after noting that it is none, or out of bounds."""
         wanted = f" greater than {above:g}" if above > -math.inf else ""
         wanted = f" of at least {at_least:g}" if at_least > -math.inf else wanted
-        is_number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-        if not is_number or not above < value <= LARGEST_NUMBER or not max(at_least, -LARGEST_NUMBER) <= value:
-            self.refuse(name, f"expected a number{wanted}, got {described(value)}")
+        if not is_number(value) or not above < value <= LARGEST_NUMBER or not max(at_least, -LARGEST_NUMBER) <= value:
+            self.refuse(name, f"expected a number{f' in {unit}' if unit else ''}{wanted}, got {described(value)}")
             return math.nan
         return float(value)
 

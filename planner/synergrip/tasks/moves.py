@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from synergrip.documents.judging import described
+from synergrip.documents.judging import described, is_whole
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
@@ -64,8 +64,8 @@ class Move(_Addable):
         """Judge the arguments."""
         judge = TaskArguments("Move")
         axis = judge.direction("axis", self.axis)
-        lift = None if self.lift is None else judge.real("lift", self.lift)
-        roll = None if self.roll is None else judge.real("roll", self.roll)
+        lift = None if self.lift is None else judge.real("lift", self.lift, unit="m")
+        roll = None if self.roll is None else judge.real("roll", self.roll, unit="rad")
         if lift is None and roll is None:
             judge.refuse("lift", "a move along an axis needs lift [m] or roll [rad], for example lift=0.01")
         judge.word("profile", self.profile, tuple(PROFILES))
@@ -102,10 +102,10 @@ class ModeMove(_Addable):
     def __post_init__(self) -> None:
         """Judge the arguments."""
         judge = TaskArguments("ModeMove")
-        whole = isinstance(self.mode, int | np.integer) and not isinstance(self.mode, bool)
+        whole = is_whole(self.mode)
         if not whole or not 1 <= self.mode <= MOST_MODES:
             judge.refuse("mode", f"expected a whole number from 1 to {MOST_MODES}, got {described(self.mode)}")
-        amplitude = judge.real("amplitude", self.amplitude)
+        amplitude = judge.real("amplitude", self.amplitude, unit="m")
         judge.word("profile", self.profile, tuple(PROFILES))
         keep(self, judge, mode=int(self.mode) if whole else 0, amplitude=amplitude)
 

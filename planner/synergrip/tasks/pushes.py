@@ -45,7 +45,7 @@ class Push(Load):
 
     force: float
     direction: str | Numbers
-    at: Numbers = (0.0, 0.0, 0.0)
+    at: Numbers = (0.0, 0.0, 0.0)  # type: ignore[assignment]  # its values over time are those of `over`
     start: float | None = None
     end: float | None = None
     profile: PushProfile = "step"
@@ -55,12 +55,12 @@ class Push(Load):
         """Judge the arguments, alone and together."""
         judge = TaskArguments("Push")
         kept = {
-            "force": judge.real("force", self.force, at_least=0),
+            "force": judge.real("force", self.force, at_least=0, unit="N"),
             "direction": judge.direction("direction", self.direction),
             "at": judge.vector("at", self.at, 3, "3 lengths in m from B, axes of the palm"),
-            "start": None if self.start is None else judge.real("start", self.start, at_least=0),
-            "end": None if self.end is None else judge.real("end", self.end, above=0),
-            "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0),
+            "start": None if self.start is None else judge.real("start", self.start, at_least=0, unit="s"),
+            "end": None if self.end is None else judge.real("end", self.end, above=0, unit="s"),
+            "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0, unit="s"),
         }
         judge.word("profile", self.profile, get_args(PushProfile))
         profile = self.profile if isinstance(self.profile, str) else ""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
 from synergrip.grasps.objects import Object
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.profiles import Profile
 from synergrip.values import ByContent
@@ -63,6 +65,40 @@ class Stated(ByContent):
             InputError: it does not fit into the task, or needs to know more of the object; keys are arguments.
         """
         raise NotImplementedError
+
+    @naming_arguments
+    def at(self, times: Sequence[float] | Array, *, object: Object | None = None) -> Array:
+        """Return its values (T, 6), or (T, m), at instants of a task that lasts from the first to the last of them.
+
+        The palm stands still in that task. A load is a wrench on the object about B, a target a displacement.
+
+        Args:
+            times: (T,) increasing instants [s].
+            object: what is loaded, for what goes by its mass, as gravity does.
+
+        Raises:
+            InputError: no instants, no object where one is needed, or one that does not fit into the task.
+
+        Example:
+            >>> from synergrip.tasks.wrenches import Wrench
+            >>> Wrench((0, 0, -2.5, 0, 0, 0)).at([0.0, 1.0]).shape
+            (2, 6)
+        """
+        from synergrip.tasks.arguments import TaskArguments
+
+        judge = TaskArguments(f"{type(self).__name__}.at")
+        if object is not None:
+            judge.one("object", object, Object, "Object(mass=0.2)")
+        instants = judge.times("times", times)
+        judge.finish()
+        body = object if object is None or object.placed else replace(object, position=np.zeros(3))
+        try:
+            profile = self.over(Setting(float(instants[0]), float(instants[-1]), body))
+        except InputError as error:
+            whose = error.under(f"{type(self).__name__}.at")
+            hint = "; or give at(times, object=Object(mass=...))" if object is None else ""
+            raise whose.located(lambda issue: replace(issue, message=issue.message + hint)) from None
+        return np.zeros((len(instants), 6)) if profile is None else frozen(profile.at(instants))
 
     def corners(self, setting: Setting) -> Iterable[Corner]:
         """Return the instants that must be on a knot when the number of knots is given."""

@@ -6,13 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
-import numpy as np
-
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.documents.judging import described
+from synergrip.documents.judging import described, is_whole
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
@@ -79,7 +77,7 @@ class Task(ByContent):
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
         judge = TaskArguments("Task")
-        duration = None if self.duration is None else judge.real("duration", self.duration, at_least=SHORTEST)
+        duration = None if self.duration is None else judge.real("duration", self.duration, at_least=SHORTEST, unit="s")
         knots = None if self.knots is None else _whole(judge, self.knots)
         if not isinstance(self.target, Motion):
             expected = "where the object is wanted, such as Hold(), Move(...) + Move(...) or Waypoints(...)"
@@ -105,6 +103,7 @@ class Task(ByContent):
         """Loads and target by the argument that states them: ``loads[0]``, ``target``."""
         return {**{f"loads[{i}]": load for i, load in enumerate(self.loads)}, "target": self.target}
 
+    @naming_arguments
     def replace(self, **changes: Any) -> Task:
         """Return the task with other arguments: ``task.replace(duration=3.0, load_factor=1.2)``.
 
@@ -129,7 +128,7 @@ class Task(ByContent):
 
 
 def _whole(judge: TaskArguments, value: Any) -> int:
-    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    whole = is_whole(value)
     if not whole or not 1 <= value <= MOST_KNOTS:
         judge.refuse("knots", f"expected a whole number from 1 to {MOST_KNOTS}, got {described(value)}")
     return int(value) if whole else 1

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from synergrip.conic.arguments import is_number
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import MARGIN
 from synergrip.documents.documents import LARGEST_NUMBER
-from synergrip.documents.judging import described
+from synergrip.documents.judging import as_numbers, described, is_list, is_number
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
@@ -39,7 +38,8 @@ def times_of(judge: Judge, times: Any) -> Array:
 
 def wrench_of(judge: Judge, wrench: Any, count: int) -> Array:
     """Return the wrench (T, 6); one of 6 numbers is the same at all knots."""
-    if np.shape(wrench) == (6,):
+    found = as_numbers(wrench)
+    if found is not None and found.shape == (6,):
         return frozen(np.tile(judge.array("wrench", wrench, (6,)), (count, 1)))
     return judge.array(
         "wrench", wrench, (count, 6), f" (3 forces [N] and 3 moments [N m] about B at each of {count} knots), or (6,)"
@@ -48,8 +48,8 @@ def wrench_of(judge: Judge, wrench: Any, count: int) -> Array:
 
 def goal_issues(goals: Any) -> Iterator[Issue]:
     """Yield what is wrong with goals: none, no goals, one of them twice."""
-    if isinstance(goals, str | Goal) or not isinstance(goals, Iterable) or not list(goals):
-        got = "none" if goals == () else shown(goals)
+    if not is_list(goals) or not goals:
+        got = "none" if isinstance(goals, tuple) else shown(goals)
         yield Issue(f"expected one or more goals, got {got}; {GOALS}", "Task.goals")
         return
     given = list(goals)
@@ -73,7 +73,7 @@ def size_issues(margin: Any, tolerance: Any, drift: Any, compliant: bool) -> Ite
 
 def limit_issues(limits: Any) -> Iterator[Issue]:
     """Yield what is no limit at all."""
-    if isinstance(limits, str | Limit) or not isinstance(limits, Iterable):
+    if not is_list(limits):
         yield Issue(f"expected limits, got {shown(limits)}; {LIMITS}", "Task.limits")
         return
     for index, limit in enumerate(limits):

@@ -12,6 +12,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.documents.judging import described, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
@@ -93,12 +94,15 @@ class TimedTask(Value):
         times = times_of(judge, self.times)
         raise_issues(judge.issues)  # all that follows goes by the knots
         wrench = wrench_of(judge, self.wrench, len(times))
+        if not isinstance(self.target, Target):
+            judge.refuse("target", f"expected a Target, got {described(self.target)}; a Task takes Hold(), Move(...)")
+            judge.finish()
         if np.ndim(self.target.values) != 2 or len(self.target.values) != len(times):
             judge.refuse("target", f"expected a row at each of {len(times)} knots, got {np.shape(self.target.values)}")
-        axes = [name for name in self.axes if name not in AXES]
+        axes = [name for name in (self.axes if is_list(self.axes) else [self.axes]) if not is_word(name, AXES)]
         raise_issues([
             *judge.issues,
-            *size_issues(self.margin, self.tolerance, self.drift, compliant=self.tracking == "compliant"),
+            *size_issues(self.margin, self.tolerance, self.drift, compliant=is_word(self.tracking, ("compliant",))),
             *goal_issues(self.goals),
             *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
@@ -159,6 +163,7 @@ def unbounded(goal: Goal) -> InputError:
         return InputError.at("Task.goals", f"nothing bounds '{goal.name}': give a limit that does")
     listed = ", ".join(f"limits.{name}" for name in BOUNDING[:-1])
     message = (
-        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]}"
+        f"nothing bounds the largest margin: squeezing harder always helps; give {listed} or limits.{BOUNDING[-1]} "
+        "(in code such as NormalForce(upper=20.0))"
     )
     return InputError.at(MAXIMISED, message)

@@ -13,6 +13,9 @@ from synergrip.conic.affine import Affine, times
 from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.rows import Earlier, Rows
+from synergrip.documents.judging import Arguments, described
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent, Value
 
@@ -39,12 +42,28 @@ class Squares(Value):
         return np.asarray(value)
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Objective(Value):
     """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
 
     squares: tuple[Squares, ...] = ()
+    """What `squares_of` returns, one or more of it."""
     epigraph: float | None = None
+    """Factor before the scalar of a goal that has one: 1 when it is to be small, -1 when large."""
+
+    def __post_init__(self) -> None:
+        """Judge the values.
+
+        Raises:
+            InputError: something else than a list of `Squares`, or a factor that is no number.
+        """
+        judge = Arguments("Objective")
+        squares = judge.several("squares", self.squares, Squares, "squares_of(...)")
+        if self.epigraph is not None:
+            judge.number("epigraph", self.epigraph)
+        judge.finish()
+        object.__setattr__(self, "squares", squares)
 
     def squared(self, v: Array) -> float:
         """Return half the sum of the squares at unknowns v (T, n_v)."""
@@ -134,7 +153,24 @@ def in_words(name: str) -> str:
     return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()
 
 
+@naming_arguments
 def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
-    """Return the squares of affine quantities (m) times `weights` (m,), at every knot."""
-    each = np.broadcast_to(np.asarray(weights, dtype=float), (value.constant.shape[1],))
+    """Return the squares of quantities times weights, at every knot.
+
+    Args:
+        value: m quantities, such as ``formulation.force``.
+        weights: (m,), or a number for all: 1 over the size at which each quantity matters.
+
+    Raises:
+        InputError: no affine quantities, or weights that are none or not as many.
+    """
+    judge = Arguments("squares_of")
+    judge.one("value", value, Affine, "formulation.force.after(matrix)")
+    each = judge.numbers("weights", weights, "a number, or one for each quantity")
+    judge.finish()
+    count = value.constant.shape[1]
+    if each is None or each.shape not in ((), (count,)):
+        wanted = f"a number, or {count} numbers, one for each quantity"
+        raise InputError.at("squares_of.weights", f"expected {wanted}; got {described(weights)}")
+    each = np.broadcast_to(each, (count,))
     return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))

@@ -7,9 +7,11 @@ from typing import Literal, Self, get_args
 
 import numpy as np
 
+from synergrip.conic.arguments import judge_closeness
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.differences import RESCALED, STIFFEST, differences
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
+from synergrip.documents.judging import is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 
@@ -46,8 +48,9 @@ class LeastMotion(Goal):
 
     def __post_init__(self) -> None:
         """Judge the kind of motion."""
-        if self.of not in get_args(Motion):
+        if not is_word(self.of, get_args(Motion)):
             raise InputError.at("LeastMotion.of", one_of(self.of, get_args(Motion)))
+        judge_closeness("LeastMotion", self.exact, self.stiffest)
 
     @property
     def name(self) -> str:

@@ -7,6 +7,7 @@ from typing import Literal, Self
 
 import numpy as np
 
+from synergrip.conic.arguments import judge_closeness
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.differences import RESCALED, STIFFEST, differences
 from synergrip.conic.goals.goal import Goal, Objective
@@ -31,6 +32,10 @@ class SteadyForces(Goal):
     """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
     stiffest: float = field(default=STIFFEST, repr=False)
     """What that factor makes of the largest entry of the Hessian, at most."""
+
+    def __post_init__(self) -> None:
+        """Judge how closely it is looked at."""
+        judge_closeness("SteadyForces", self.exact, self.stiffest)
 
     @property
     def name(self) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
-from synergrip.documents.judging import described
+from synergrip.documents.judging import described, is_list
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
@@ -42,11 +42,10 @@ class WeightedSum(Goal):
 
     def __post_init__(self) -> None:
         """Judge goals and weights."""
-        pairs = list(self.goals) if isinstance(self.goals, Sequence) and not isinstance(self.goals, str) else []
+        pairs = list(self.goals) if is_list(self.goals) else []
         if not pairs:
-            message = (
-                f"expected pairs of a goal and its weight, got {described(self.goals) if self.goals != () else 'none'}"
-            )
+            got = "none" if isinstance(self.goals, tuple) else described(self.goals)
+            message = f"expected pairs of a goal and its weight, got {got}"
             raise InputError.at("WeightedSum.goals", f"{message}; {EXAMPLE}")
         kept = tuple(_pair(f"WeightedSum.goals[{index}]", pair) for index, pair in enumerate(pairs))
         for index, (goal, _) in enumerate(kept):

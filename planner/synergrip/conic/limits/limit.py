@@ -12,7 +12,9 @@ import numpy as np
 from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.rows import Rows, with_room
-from synergrip.errors import InputError, shortened
+from synergrip.documents.judging import Arguments, as_numbers, described
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import shortened
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 from synergrip.values import ByContent, Value
@@ -24,34 +26,61 @@ Watches = Literal["forces", "motion", "references"]
 """The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Usage(Value):
-    """How much of a limit a motion uses, computed from physical quantities and not from the program."""
+    """How much of a limit a motion uses, computed from physical quantities and not from the program.
+
+    Args:
+        title: of the limit, for tables and pictures.
+        unit: of value, lower, upper and scale, such as "N"; for people.
+        items: (m) what there is a value of: names of contacts, joints, synergies, or any words.
+        value: (T, m) of each item at each of the motion's times.
+        lower: (m,) what the value may not fall below; ``-math.inf`` where it may.
+        upper: (m,) what it may not exceed; ``math.inf`` where it may.
+        scale: (m,) size greater than 0 that an excess is measured against, usually the bound itself: up to 1e-6 of it
+            passes for rounding, and the worst item is the one farthest beyond in it.
+        times: (T,) ``motion.times``.
+        allowance: (T, m) size against which an excess is judged; `scale` when None.
+
+    Raises:
+        InputError: names that are none, or arrays that are none or do not fit items and times.
+    """
 
     title: str
     unit: str
     items: tuple[str, ...]
-    value: Array  # (T, m)
-    lower: Array  # (m,) -inf where there is none
-    upper: Array  # (m,) +inf where there is none
-    scale: Array  # (m,) size by which items are compared: the worst is the one that is farthest beyond, in this
-    times: Array  # (T,)
+    value: Array
+    lower: Array
+    upper: Array
+    scale: Array
+    times: Array
     allowance: Array | None = None
-    """(T, m) size against which an excess is small or large; `scale` when None."""
 
     def __post_init__(self) -> None:
-        """Judge the shapes, which a limit of one's own may get wrong.
-
-        Raises:
-            InputError: an array that does not fit items and times.
-        """
-        T, m = len(self.times), len(self.items)
+        """Judge the shapes, which a limit of one's own may get wrong."""
+        judge = Arguments("Usage")
+        judge.text("title", self.title)
+        judge.text("unit", self.unit)
+        items = judge.several("items", self.items, str, '"thumb"')
+        times = as_numbers(self.times)
+        if times is None or times.ndim != 1:
+            judge.refuse("times", f"expected the times (T,) of the motion, got {described(self.times)}")
+        judge.finish()
+        T, m = len(np.atleast_1d(np.asarray(times))), len(items)
         wanted = {"value": (T, m), "lower": (m,), "upper": (m,), "scale": (m,), "allowance": (T, m)}
         for name, shape in wanted.items():
-            given = getattr(self, name)
-            if given is not None and np.shape(given) != shape:
+            given, found = getattr(self, name), as_numbers(getattr(self, name))
+            if name == "allowance" and given is None:
+                continue
+            if found is None or found.shape != shape:
                 what = f"expected shape {shape} for {T} instants and {m} items of '{self.title}'"
-                raise InputError.at(f"Usage.{name}", f"{what}, got {np.shape(given)}")
+                judge.refuse(name, f"{what}, got {given.shape if isinstance(given, np.ndarray) else described(given)}")
+            elif found is not given:
+                object.__setattr__(self, name, frozen(found))
+        judge.finish()
+        object.__setattr__(self, "items", items)
+        object.__setattr__(self, "times", times)
 
     @property
     def excess(self) -> Array:

@@ -8,13 +8,14 @@ from typing import Annotated, Any, Self
 
 import numpy as np
 
-from synergrip.conic.arguments import is_number, size
+from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
 from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
+from synergrip.documents.judging import is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array

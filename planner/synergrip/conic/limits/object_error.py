@@ -14,6 +14,7 @@ from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
+from synergrip.documents.judging import Arguments, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.linalg import Array
@@ -54,14 +55,18 @@ class ObjectError(Limit):
 
     def __post_init__(self) -> None:
         """Judge length, axes and part."""
+        judge = Arguments("ObjectError")
+        for name in ("key", "title"):
+            judge.text(name, getattr(self, name), empty=False)
+        judge.finish()
         found = size("ObjectError.limit", self.limit, "a length in metres greater than 0", above=0.0)
-        axes = (self.axes,) if isinstance(self.axes, str) else tuple(self.axes)
+        axes = (self.axes,) if isinstance(self.axes, str) else tuple(self.axes) if is_list(self.axes) else (self.axes,)
         for axis in axes:
-            if axis not in AXES:
+            if not is_word(axis, AXES):
                 raise InputError.at("ObjectError.axes", one_of(axis, AXES))
         if not axes:
             raise InputError.at("ObjectError.axes", f"expected one or more of {', '.join(AXES)}, got none")
-        if self.part not in get_args(Part):
+        if not is_word(self.part, get_args(Part)):
             raise InputError.at("ObjectError.part", one_of(self.part, get_args(Part)))
         object.__setattr__(self, "limit", found)
         object.__setattr__(self, "axes", axes)

@@ -34,7 +34,7 @@ class Contact(ByContent):
     point: Array
     """(3,) position from the object frame B, axes of N [m]."""
     frame: Array
-    """(3, 3) columns n, t, o."""
+    """(3, 3) columns n, t, o, axes of N: right-handed unit vectors, n toward the object."""
     normal_at: str = field(default="", compare=False)
     """Where a user states the normal, for advice; empty when it follows from the object."""
 
@@ -58,6 +58,11 @@ class Contact(ByContent):
     def __repr__(self) -> str:
         """Return name, kind and place, in one line."""
         return f"<Contact {self.name!r}: {self.kind} at {self.point.round(6).tolist()} m>"
+
+    @property
+    def normal(self) -> Array:
+        """(3,) unit vector toward the object, the first column of its frame: along it the hand pushes."""
+        return frozen(self.frame[:, 0])
 
     @property
     def n_rows(self) -> int:

@@ -47,7 +47,7 @@ def outcome_document(
         "time_s": outcome.task.times.tolist(),
         PROVENANCE: provenance_document(outcome, source),
         "programs": [_program(decision) for decision in outcome.decisions],
-        "notes": [*(outcome.notes if isinstance(outcome, Plan) else ()), *notes],
+        "notes": list(dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *notes])),
     }
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))

@@ -46,12 +46,12 @@ def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> li
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
-        lines += [line for note in outcome.notes for line in wrapped("note     ", note)]
     elif isinstance(outcome, Infeasible):
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]
     else:
         lines += ["", f"{word}  {outcome.why}"]
-    lines += [line for note in problem.notes for line in wrapped("note     ", note)]
+    notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
+    lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
     return lines

@@ -1,0 +1,152 @@
+"""What goes wrong inside a limit or goal of one's own is told with its class, and with the original behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+import synergrip as sg
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.rows import Rows
+from synergrip.statics.motion import Motion
+
+problem = sg.load_problem("tripod")
+
+
+def planned(limits: Sequence[sg.Limit] = (), goals: Sequence[sg.Goal] = (sg.LeastEffort(),)) -> Any:
+    return sg.plan(problem.grasp, problem.task.replace(limits=[*problem.task.limits, *limits], goals=goals))
+
+
+@dataclass(frozen=True)
+class Sideways(sg.Limit):
+    """The second tangential force of the first contact; `factor` is what rows and usage differ by."""
+
+    most: float
+    factor: float = 1.0
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        row = np.eye(formulation.response.grasp.n_l)[[2]]
+        return [sg.norm_within(self.key, "sideways", formulation.force.after(row), self.most)]
+
+    def usage(self, formulation: Formulation, motion: Motion) -> sg.Usage:
+        most = np.array([self.most])
+        return sg.Usage(
+            "sideways", "N", ("first",), self.factor * motion.forces[:, [2]], -most, most, most, motion.times
+        )
+
+
+def test_a_limit_whose_usage_contradicts_its_rows_is_told_what_to_compare() -> None:
+    free = planned()
+    carried = float(np.abs(free.forces[:, 2]).max())
+    assert planned(limits=[Sideways(2 * carried)]).verdict == "feasible"
+    with pytest.raises(sg.InputError) as refused:
+        planned(limits=[Sideways(2 * carried, factor=1000.0)])
+    (issue,) = refused.value.issues
+    assert issue.key == "Sideways.usage"
+    assert "contradicts Sideways.rows" in issue.message
+    assert "Compare the two" in issue.message
+    assert "report" not in issue.message
+
+
+def raising(error: Exception) -> Callable[..., Any]:
+    def method(*_: Any) -> Any:
+        raise error
+
+    return method
+
+
+def own(base: type, **methods: Callable[..., Any]) -> Any:
+    return type("Mine", (base,), methods)()
+
+
+ERRORS = [
+    ValueError("shapes differ"),
+    KeyError("thumb"),
+    IndexError("9"),
+    ZeroDivisionError("by 0"),
+    AttributeError("x"),
+]
+
+
+@pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
+def test_an_error_inside_a_method_names_class_and_method_and_keeps_the_original(error: Exception) -> None:
+    nothing = lambda *_: []  # noqa: E731
+    tried = {
+        "Mine.rows": {"limits": [own(sg.Limit, rows=raising(error), usage=nothing)]},
+        "Mine.usage": {"limits": [own(sg.Limit, rows=nothing, usage=raising(error))]},
+        "Mine.objective": {"goals": [own(sg.Goal, objective=raising(error))]},
+    }
+    for key, changes in tried.items():
+        with pytest.raises(sg.InputError) as refused:
+            planned(**changes)
+        assert str(refused.value) == f"{key}: raised {type(error).__name__}: {error}"
+        assert refused.value.__cause__ is error
+    summed = sg.WeightedSum([(tried["Mine.objective"]["goals"][0], 1.0)])
+    with pytest.raises(sg.InputError, match=r"^Mine\.objective: raised"):
+        planned(goals=[summed])
+
+
+def test_a_refusal_inside_a_method_keeps_its_argument_and_one_of_a_base_is_told_once() -> None:
+    class Wider(Sideways):
+        def rows(self, formulation: Formulation) -> Sequence[Rows]:
+            formulation.force.after(np.eye(2))
+            return []
+
+    class Again(Wider):
+        def rows(self, formulation: Formulation) -> Sequence[Rows]:
+            return super().rows(formulation)
+
+    for kind in (Wider, Again):
+        with pytest.raises(sg.InputError) as refused:
+            planned(limits=[kind(1.0)])
+        (issue,) = refused.value.issues
+        assert issue.key == f"{kind.__name__}.rows.Affine.after.linear"
+        assert "expected shape (p, 9)" in issue.message
+        assert "got an array of shape (2, 2)" in issue.message
+
+
+def test_an_interrupt_and_a_refusal_inside_a_method_stay_what_they_are() -> None:
+    for error in (KeyboardInterrupt(), sg.Refusal("no")):
+        with pytest.raises(type(error)) as raised:
+            planned(limits=[own(sg.Limit, rows=raising(error), usage=raising(error))])  # type: ignore[arg-type]
+        assert raised.value is error
+
+
+WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
+    "another width": (lambda f: f.force.after(np.eye(2)), "Affine.after.linear"),
+    "one row": (lambda f: f.force.after(np.eye(9)[0]), "Affine.after.linear"),
+    "no matrix": (lambda f: f.force.after("n"), "Affine.after.linear"),
+    "a matrix of other knots": (lambda f: f.force.after(np.zeros((99, 1, 9))), "Affine.after.linear"),
+    "masked": (lambda f: f.force.after(np.ma.masked_equal(np.eye(9), 1.0)), "Affine.after.linear"),
+    "another length": (lambda f: f.force.plus(np.zeros(8)), "Affine.plus.known"),
+    "bounds of another length": (lambda f: sg.within("k", list("abcdefghi"), f.force, [0, 1], 9, 1), "within.lower"),
+    "names as a text": (lambda f: sg.within("k", "abcdefghi", f.force, 0, 9, 1), "within.names"),
+    "names twice": (lambda f: sg.within("k", ["a"] * 9, f.force, 0, 9, 1), "within.names[1]"),
+    "bounds of nan": (lambda f: sg.within("k", list("abcdefghi"), f.force, 0, np.nan, 1), "within.upper"),
+    "no size": (lambda f: sg.within("k", list("abcdefghi"), f.force, 0, 9, 0), "within.unit"),
+    "a key that is none": (lambda f: sg.norm_within(3, "a", f.force, 1.0), "norm_within.limit"),  # type: ignore[arg-type]
+    "no item": (lambda f: sg.norm_within("k", "", f.force, 1.0), "norm_within.item"),
+    "weights of another length": (lambda f: sg.squares_of(f.force, [1, 2]), "squares_of.weights"),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize(("make", "named"), WRONG.values(), ids=WRONG)
+def test_what_a_limit_of_ones_own_calls_refuses_by_name(make: Callable[[Any], Any], named: str) -> None:
+    formulation = planned().formulation
+    assert formulation.force.after(np.eye(9).tolist()).plus(1.0).constant.shape == (formulation.knots, 9)
+    with pytest.raises(sg.InputError) as refused:
+        make(formulation)
+    assert refused.value.issues[0].key == named
+
+
+def test_a_list_of_bounds_is_as_good_as_an_array() -> None:
+    force, names = planned().formulation.force, list("abcdefghi")
+    lists = sg.within("k", names, force, [0.0] * 9, [9.0] * 9, [1.0] * 9)
+    for one, other in zip(lists, sg.within("k", tuple(names), force, 0.0, np.full(9, 9.0), 1.0), strict=True):
+        assert np.array_equal(one.constant, other.constant)
+        assert np.array_equal(one.matrix, other.matrix)
+        assert one.items == other.items

@@ -1,0 +1,158 @@
+"""Every argument of every public constructor and function, given what it never is, is refused by its name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import synergrip as sg
+
+hard = sg.HardFinger(friction=0.6)
+hand = sg.load_hand("barrett")
+ball = sg.Object(mass=0.2, shape=sg.Sphere(radius=0.05))
+at = [sg.ContactAt(pad, hard, stiffness=8e3) for pad in ("finger1/tip", "finger2/tip", "finger3/tip")]
+grasp = sg.make_grasp(hand, ball, posture="ball", synergies="motors", contacts=at)
+task = sg.Task(duration=1.0, knots=3)
+
+
+class Odd:
+    """Nothing that anybody expects."""
+
+
+NEVER: dict[str, Callable[[], Any]] = {
+    "nan": lambda: math.nan,
+    "an object": Odd,
+    "a class": lambda: Odd,
+    "a function": lambda: len,
+    "a module": lambda: math,
+    "a complex number": lambda: 1j,
+    "a complex number of NumPy": lambda: np.complex128(1.0),
+    "a number beyond all floats": lambda: 10**400,
+    "a generator": lambda: (each for each in (1.0, 2.0)),
+    "bytes": lambda: b"abc",
+    "a set": lambda: {1, 2},
+    "a date": lambda: np.datetime64("2020"),
+    "a masked entry": lambda: np.ma.masked,
+    "an array of nan": lambda: np.full((2, 2), math.nan),
+    "an array of objects": lambda: np.array([Odd(), Odd()], dtype=object),
+    "an array of texts": lambda: np.array(["a", "b"]),
+    "an array of booleans": lambda: np.array([True, False, True]),
+    "an array with masked entries": lambda: np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]),
+    "a complex array": lambda: np.ones(3) * 1j,
+    "an array of four axes": lambda: np.zeros((2, 2, 2, 2)),
+    "a ragged list": lambda: [[1], [1, 2]],
+    "a list with a hole": lambda: [1, None, 2],
+    "a list of nothing but lists": lambda: [[[]]],
+}
+two = [sg.Contact(name=name, kind=hard, point=(x, 0, 0), frame=np.eye(3)) for name, x in (("a", -0.02), ("b", 0.02))]
+response = sg.respond(grasp)
+responses = sg.respond_many([grasp])
+still = np.zeros((2, 6))
+RIGHT: dict[str, dict[str, Any]] = {
+    "load_hand": {"name_or_path": "barrett"},
+    "Object": {"mass": 0.2, "shape": sg.Sphere(radius=0.05), "position": (0, 0, 0), "title": "ball"},
+    "Turned": {"shape": sg.Box(size=(0.1, 0.1, 0.1)), "rotation": np.eye(3)},
+    "Sphere": {"radius": 0.1},
+    "Box": {"size": (0.1, 0.1, 0.1)},
+    "Cylinder": {"radius": 0.1, "height": 0.1},
+    "HardFinger": {"friction": 0.5},
+    "SoftFinger": {"friction": 0.5, "spin_friction": 0.01},
+    "EllipticSoftFinger": {"friction": 0.5, "cross_friction": 0.4, "spin_friction": 0.01},
+    "PatchContact": {"friction": 0.5, "spin_friction": 0.01, "patch_radius": 0.01},
+    "Contact": {"name": "a", "kind": hard, "point": (0, 0, 0), "frame": np.eye(3)},
+    "ContactAt": {"at": "a", "kind": hard, "stiffness": 1.0, "tangential_stiffness": 1.0, "tangent": (1, 0, 0),
+                  "normals": "pad", "name": "a"},
+    "LinkPlace": {"link": "a", "point": (0, 0, 0), "normal": (0, 0, 1), "radius": 0.01},
+    "Grasp": {"title": "", "contacts": two, "G": np.eye(6), "J": np.eye(6), "S": np.ones((6, 1)), "C_s": 1e-4,
+              "C_q": 0.0, "C_z": 0.0, "lambda_0": np.zeros(6), "w_0": np.zeros(6), "joints": tuple("abcdef"),
+              "synergies": ("s",), "held": grasp.held},
+    "make_grasp": {"hand": hand, "object": ball, "posture": "ball", "contacts": at, "synergies": "motors",
+                   "joint_compliance": 1e-3, "synergy_compliance": 0.0, "title": "", "close": None},
+    "grasp_from_matrices": {"G": np.hstack([np.eye(6)[:, :3]] * 2), "J": np.eye(6), "S": np.ones((6, 1)),
+                            "contacts": [("a", hard), ("b", hard)], "C_s": 1e-4, "C_q": 0.0, "C_z": 0.0,
+                            "joints": list("abcdef"), "synergies": ["s"], "title": ""},
+    "GivenContact": {"name": "a", "kind": hard, "point": (0, 0, 0), "normal": (1, 0, 0)},
+    "analyse": {"grasp": grasp, "load": still},
+    "analyse_many": {"grasps": [grasp]},
+    "respond": {"grasp": grasp, "load": still},
+    "subspaces": {"response": response},
+    "coordinates": {"response": response, "spaces": sg.subspaces(response)},
+    "respond_many": {"grasps": [grasp]},
+    "subspaces_many": {"responses": responses},
+    "coordinates_many": {"group": sg.subspaces_many(responses)[0]},
+    "Usage": {"title": "t", "unit": "N", "items": ("a",), "value": [[0.0]], "lower": [0.0], "upper": [1.0],
+              "scale": [1.0], "times": [0.0]},
+    "SlipMargin": {"margin": 0.5},
+    "FrictionReserve": {"factor": 2.0},
+    "NormalForce": {"lower": 0.0, "upper": 5.0},
+    "JointRange": {"start": 0.0, "lower": -1.0, "upper": 1.0},
+    "ObjectError": {"limit": 0.1, "axes": ("x",), "part": "whole", "key": "k", "title": "t"},
+    "Objective": {"squares": (), "epigraph": 1.0},
+    "SteadyForces": {"exact": False, "stiffest": 1e6},
+    "LeastMotion": {"of": "references", "exact": False, "stiffest": 1e6},
+    "CentredJoints": {"start": 0.0, "lower": -1.0, "upper": 1.0},
+    "WeightedSum": {"goals": ((sg.LeastEffort(), 1.0),)},
+    "Move": {"axis": "z", "lift": 0.01, "roll": 0.1, "profile": "cubic"},
+    "ModeMove": {"mode": 1, "amplitude": 0.1, "profile": "cubic"},
+    "Waypoints": {"times": [1.0], "positions": [[0, 0, 0.1]]},
+    "MotionTable": {"times": [0, 1], "values": still},
+    "ModesTable": {"times": [0, 1], "values": np.zeros((2, 1))},
+    "Gravity": {"acceleration": (0, 0, -9.81)},
+    "Wrench": {"values": np.zeros(6)},
+    "WrenchTable": {"times": [0, 1], "values": still},
+    "Push": {"force": 1.0, "direction": "x", "at": (0, 0, 0), "start": 0.1, "end": 0.5, "profile": "trapezoid",
+             "ramp": 0.1},
+    "Palm": {"axis": "x", "turn": 1.0, "shift": (0, 0, 0.1), "profile": "cubic", "inertia": True},
+    "PalmPath": {"times": [0, 1], "poses": still},
+    "Task": {"duration": 1.0, "knots": 3, "target": sg.Hold(), "loads": [], "limits": [], "goals": [sg.LeastEffort()],
+             "tracking": "rigid", "tolerance": 0.0, "axes": ("x",), "drift": 0.1, "between": "report",
+             "load_factor": 1.0},
+    "load_problem": {"problem": "tripod", "overrides": []},
+    "plan": {"grasp": grasp, "task": task},
+    **{name: {"limit": 1.0} for name in ("JointTorque", "ActuatorEffort", "SynergyReference", "SynergyRate",
+                                         "SynergyAcceleration", "ElasticMotion")},
+}  # fmt: skip
+OTHERS = {
+    "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses",
+    "Limit", "within", "norm_within", "squares_of", "Goal", "LargestMargin", "LeastPeak", "LeastEffort",
+    "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
+    "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
+    "__version__",
+}  # fmt: skip
+"""Bases, answers, values that only other functions make, and what takes no arguments or is tried above."""
+PLACES = [(name, argument) for name, arguments in RIGHT.items() for argument in arguments]
+
+
+def test_every_public_name_is_tried_or_known_not_to_be() -> None:
+    assert set(RIGHT) | OTHERS == set(sg.__all__)
+    for name, arguments in RIGHT.items():
+        getattr(sg, name)(**arguments)  # what is right is accepted, or what is wrong would prove nothing
+
+
+@pytest.mark.parametrize(("name", "argument"), PLACES, ids=[".".join(place) for place in PLACES])
+def test_what_an_argument_never_is_is_refused_by_its_name(name: str, argument: str) -> None:
+    make = getattr(sg, name)
+    for what, value in NEVER.items():
+        wrong = {**RIGHT[name], argument: value()}
+        keys = [issue.key for issue in refused(lambda each=wrong: make(**each), f"{what} as {argument}")]
+        assert any(argument in key for key in keys), (what, keys)
+
+
+def refused(make: Callable[[], Any], what: str) -> tuple[Any, ...]:
+    try:
+        made = make()
+    except sg.InputError as error:
+        return error.issues
+    pytest.fail(f"accepted {what}: {made!r}")
+
+
+@pytest.mark.parametrize("name", sorted({*RIGHT} | {"Frictionless", "within", "norm_within", "squares_of", "Hold"}))
+def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str) -> None:
+    with pytest.raises(sg.InputError, match="zzz: no such argument"):
+        getattr(sg, name)(**RIGHT.get(name, {}), zzz=1)
+    with pytest.raises(sg.InputError, match=r"without a name|takes"):
+        getattr(sg, name)(*[1] * 30)
