@@ -18,7 +18,7 @@ from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
-from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, about_centroid, answer
+from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
 from synergrip.values import Value
 
@@ -141,19 +141,21 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
                     grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip
 
 
-def maps_in_float64(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
+def maps_in_float64(
+    matrices: Matrices, metric: Metric, arithmetic: Arithmetic[Array] = FLOAT64
+) -> tuple[dict[str, Array], Array]:
     """Return the maps of one grasp or of many (leading axes ...), by their names in `Maps`, and the `figures` of them.
 
     Raises:
         numpy.linalg.LinAlgError: the equations of a grasp are singular, as far as float64 can tell.
     """
-    found = answer(matrices, metric, FLOAT64)
+    found = answer(matrices, metric, arithmetic)
     return _maps(found, metric), figures(found, metric)
 
 
-def is_enough(known: Array) -> NDArray[np.bool_]:
-    """Return which (...) of the `figures` (..., 12, 4) are those of maps known well enough."""
-    return np.asarray(np.all(shares(known[..., 2], known) <= ENOUGH, axis=-1))
+def is_enough(known: Array, share: float = ENOUGH) -> NDArray[np.bool_]:
+    """Return which (...) of the `figures` (..., 12, 4) are those of maps that have lost no larger share."""
+    return np.asarray(np.all(shares(known[..., 2], known) <= share, axis=-1))
 
 
 def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:

@@ -9,7 +9,7 @@ of C costs nothing either.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Generic, TypeVar
 
@@ -19,14 +19,15 @@ from synergrip.doubled import Doubled, block, solve
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import Array, frozen
+from synergrip.statics.factors import inverse_by_factors
 
 N = TypeVar("N", Array, Doubled)
 ROUNDOFF = 2.0**-53
 """Relative error of the maps when they are rounded to float64."""
 APART = 2.0**26
 """How many times a half unit of the last digit float64 changes the data by, to tell what half a unit changes."""
-CORRECTIONS = 4
-"""The first is the solution, the others refine it."""
+CORRECTIONS = 2
+"""How many times the solution is refined."""
 CAUTION = 10.0
 """How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
 
@@ -38,7 +39,8 @@ class Arithmetic(Generic[N]):
     number: Callable[[Array], N]
     rounded: Callable[[N], Array]
     block: Callable[[Sequence[Sequence[Any]]], N]
-    inverse: Callable[[N], N]
+    inverse: Callable[[N, N], N]
+    """Of ``[[C, G'], [G, 0]]``."""
     other: Callable[[Array], N]
     """Other numbers, `apart` times as far away as those that round to the same float64."""
     apart: float
@@ -65,20 +67,34 @@ def _apart(values: Array) -> Array:
     return values * (1 + APART * 2.0**-53 * _half_units(values.shape[-2:]))
 
 
-def _inverse_of(A: Array) -> Array:
-    return np.asarray(np.linalg.inv(A))
-
-
-def _inverse_of_doubled(A: Doubled) -> Doubled:
-    return solve(A, Doubled.of(np.eye(len(A.high))))
-
-
 def _block(rows: Sequence[Sequence[Array]]) -> Array:
     """Return what `numpy.block` does, several times as fast."""
     return np.concatenate([np.concatenate(row, axis=-1) for row in rows], axis=-2)
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse_of, _apart, APART)
+def _inverse(C: Array, G: Array) -> Array:
+    both = _one_size(C, G)
+    corner = np.zeros((*G.shape[:-1], G.shape[-2]))
+    return np.asarray(np.linalg.inv(_block([[C, G.mT], [G, corner]]) * both) * both)
+
+
+def _inverse_of_doubled(C: Doubled, G: Doubled) -> Doubled:
+    both = _one_size(C.high, G.high)
+    corner = Doubled.of(np.zeros((len(G.high), len(G.high))))
+    return solve(block([[C, G.mT], [G, corner]]) * both, Doubled.of(np.eye(len(both)))) * both
+
+
+def _one_size(C: Array, G: Array) -> Array:
+    """Return the powers of two that bring the entries of ``[[C, G'], [G, 0]]`` to about one size."""
+    forces = 1 / np.sqrt(np.abs(np.diagonal(C, axis1=-2, axis2=-1)))
+    motions = 1 / (np.abs(G) * forces[..., None, :]).max(axis=-1)
+    size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
+    return np.asarray(size * size.mT)
+
+
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse, _apart, APART)
+STACKED: Arithmetic[Array] = replace(FLOAT64, inverse=inverse_by_factors)
+"""Float64 for a stack of grasps, many times as fast; where compliances differ much its inverse keeps fewer digits."""
 DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, _inverse_of_doubled, _between_the_digits, 1.0)
 
 
@@ -107,14 +123,16 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
     """
     number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, matrices.G.shape[-1], matrices.S.shape[-1]
     system, turned = _System.of(matrices, number), number(about_centroid(metric))
-    inverse = _inverse(system, turned, arithmetic, n_l)
+    JS = system.J @ system.S
+    C: N = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
+    inverse = arithmetic.inverse(C, turned @ system.G)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
     def correction(system: _System[N], solution: N) -> N:
         gap, balanced = system.left_over(solution[..., :n_l, :], turned.mT @ solution[..., n_l:, :], still)
         return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
 
-    solution = number(np.zeros((*matrices.G.shape[:-2], n_l + 6, n_z + 6)))
+    solution = arithmetic.block([[inverse[..., :n_l] @ JS, -inverse[..., n_l:]]])
     for _ in range(CORRECTIONS):
         last = correction(system, solution)
         solution = solution + last
@@ -187,18 +205,3 @@ class _System(Generic[N]):
         tau = self.J.mT @ force
         q = self.S @ (still + self.C_z @ (self.S.mT @ tau)) + self.C_q @ tau
         return self.J @ q + self.C_s @ force - self.G.mT @ u, -(self.G @ force)
-
-
-def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
-    """Return the inverse of the system, whose rows and columns are brought to about one size first."""
-    JS, G = system.J @ system.S, turned @ system.G
-    C: N = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
-    corner = arithmetic.number(np.zeros((*arithmetic.rounded(C).shape[:-2], 6, 6)))
-    A = arithmetic.block([[C, G.mT], [G, corner]])
-    sizes = np.abs(arithmetic.rounded(A))
-    forces = 1 / np.sqrt(np.diagonal(sizes, axis1=-2, axis2=-1)[..., :n_l])
-    motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
-    size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
-    both = size * size.mT
-    found: N = arithmetic.inverse(A * both) * both
-    return found
