@@ -182,10 +182,10 @@ def test_a_singular_system_sends_no_other_grasp_away(monkeypatch: pytest.MonkeyP
     grasps = grasps_of("3 hard", 20)
     right, singular = responses_module.maps_in_float64, grasps[13].J
 
-    def refusing(matrices: Matrices, metric: Metric) -> object:
+    def refusing(matrices: Matrices, metric: Metric, *arithmetic: object) -> object:
         if any(np.array_equal(J, singular) for J in matrices.J):
             raise np.linalg.LinAlgError("Singular matrix")
-        return right(matrices, metric)
+        return right(matrices, metric, *arithmetic)
 
     monkeypatch.setattr(responses_module, "maps_in_float64", refusing)
     together = analyse_many(grasps)

@@ -18,7 +18,8 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
     """Return the inverse (N, n + m, n + m) of ``[[C, G'], [G, 0]]`` for each of a stack.
 
     As ``C = L L'`` with ``L^-1 = T``, and ``(T G')' (T G') = R R'`` with ``R^-1 = W``, it is
-    ``[[T' T - V' V, V' W], [W' V, -W' W]]``, ``V = W G T' T``. Units of rows do not matter: factors take them with them.
+    ``[[T' T - V' V, V' W], [W' V, -W' W]]``, ``V = W G T' T``. Factors take the units
+    of rows and columns with them.
 
     Args:
         C: (N, n, n) symmetric.
@@ -28,9 +29,9 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
         numpy.linalg.LinAlgError: of some C, or ``G C^-1 G'``, rounding leaves no sign.
     """
     n = C.shape[-1]
-    T = inverses_of_lower(np.linalg.cholesky(C))
+    T = _inverse_root(C)
     yields = T @ G.mT
-    W = inverses_of_lower(np.linalg.cholesky(yields.mT @ yields))
+    W = _inverse_root(yields.mT @ yields)
     V = (yields @ W.mT).mT @ T
     inverse = np.empty((*C.shape[:-2], n + G.shape[-2], n + G.shape[-2]))
     np.subtract(T.mT @ T, V.mT @ V, out=inverse[..., :n, :n])
@@ -38,6 +39,11 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
     inverse[..., :n, n:] = motions.mT
     np.negative(W.mT @ W, out=inverse[..., n:, n:])
     return inverse
+
+
+def _inverse_root(C: Array) -> Array:
+    """Return the lower triangles T of ``C^-1 = T' T``."""
+    return inverses_of_lower(np.asarray(np.linalg.cholesky(C), dtype=np.float64))
 
 
 def inverses_of_lower(L: Array) -> Array:

@@ -172,7 +172,8 @@ def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], A
 
 def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
     turned = about_centroid(metric)
-    both = {f"d{name}": each for name, each in found.maps.items()} | {"du": turned.mT @ found.maps["u"]}
+    both = {f"d{name}": found.maps[..., rows, :] for name, rows in found.rows.items()}
+    both["du"] = turned.mT @ both["du"]
     of_references = {f"{name}_dzr": each[..., :-6] for name, each in both.items()}
     of_wrench = {f"{name}_dw": both[name][..., -6:] @ turned for name in ("dlambda", "du", "dz", "dq")}
     of_wrench["du_dw"] = (of_wrench["du_dw"] + of_wrench["du_dw"].mT) / 2
@@ -181,18 +182,18 @@ def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
 
 def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
-    motion, rows = metric.motion_sizes, {"lambda": metric.force, "u": metric.motion_sizes}
-    same, result = found.errors is found.changes, []
-    for name, values in found.maps.items():
-        parts = [np.abs(values), found.terms[name], found.errors[name], *([] if same else [found.changes[name]])]
-        unit = rows[name][..., None] if name in rows else 1.0
-        largest = np.stack([_of_columns(part * unit) for part in parts])  # (3 or 4, n_z + 6, ...)
-        of_wrench = largest[:, -6:] * np.moveaxis(motion, -1, 0)
-        result += [each.max(axis=1, initial=0.0) for each in (largest[:, :-6], of_wrench)]
-    known = np.stack(result)
-    return np.moveaxis(np.concatenate([known, known[:, -1:]], axis=1) if same else known, (0, 1), (-2, -1))
+    same = found.errors is found.changes
+    units = {"lambda": np.moveaxis(metric.force, -1, 0), "u": np.moveaxis(metric.motion_sizes, -1, 0)}
+    parts = [np.abs(found.maps), found.terms, found.errors, *([] if same else [found.changes])]
+    known = np.array([_largest(part, found.rows, units) for part in parts])
+    return np.moveaxis(known[[0, 1, 2, -1]], (0, 1), (-1, -2))
 
 
-def _of_columns(entries: Array) -> Array:
-    """Return (n, ...) the largest of every column of (..., m, n), the axes in the order that NumPy is quick with."""
-    return np.asarray(np.ascontiguousarray(np.moveaxis(entries, (-2, -1), (0, 1))).max(axis=0, initial=0.0))
+def _largest(entries: Array, rows: Mapping[str, slice], units: Mapping[str, Array]) -> list[Array]:
+    """Return the largest entry (...) of every map of `FIGURES`; of forces and motions in these units."""
+    ordered, result = np.ascontiguousarray(np.moveaxis(entries, (-2, -1), (0, 1))), []  # NumPy is quick with this
+    for name, place in rows.items():
+        own = ordered[place] * units[name][:, None] if name in units else ordered[place]
+        columns = own.max(axis=0, initial=0.0)
+        result += [columns[:-6].max(axis=0, initial=0.0), (columns[-6:] * units["u"]).max(axis=0)]
+    return result

@@ -9,7 +9,7 @@ of C costs nothing either.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any, Generic, TypeVar
 
@@ -69,7 +69,8 @@ def _apart(values: Array) -> Array:
 
 def _block(rows: Sequence[Sequence[Array]]) -> Array:
     """Return what `numpy.block` does, several times as fast."""
-    return np.concatenate([np.concatenate(row, axis=-1) for row in rows], axis=-2)
+    joined = [np.concatenate(row, axis=-1) if len(row) > 1 else row[0] for row in rows]
+    return np.concatenate(joined, axis=-2) if len(joined) > 1 else joined[0]
 
 
 def _inverse(C: Array, G: Array) -> Array:
@@ -98,20 +99,26 @@ STACKED: Arithmetic[Array] = replace(FLOAT64, inverse=inverse_by_factors)
 DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, _inverse_of_doubled, _between_the_digits, 1.0)
 
 
+NAMES = ("lambda", "u", "tau", "sigma", "z", "q")
+"""What answers, in the order of the rows of an `Answer`."""
+
+
 @dataclass(frozen=True)
 class Answer:
-    """What answers to z_r (n_z columns), then to the wrench (6 columns): "lambda", "u", "tau", "sigma", "z", "q".
+    """What answers to z_r (n_z columns), then to the wrench (6 columns): the rows of all `NAMES` (..., n, n_z + 6).
 
     SI units; wrenches and motions of the object are taken about the centroid of the contacts. Of one grasp, or of
     each of many (leading axes).
     """
 
-    maps: Mapping[str, Array]
-    errors: Mapping[str, Array]
+    rows: Mapping[str, slice]
+    """Where each name has its rows."""
+    maps: Array
+    errors: Array
     """Estimates of what the arithmetic has lost in each entry."""
-    changes: Mapping[str, Array]
+    changes: Array
     """Estimates of what changes with the digits that the data do not have."""
-    terms: Mapping[str, Array]
+    terms: Array
     """Sizes of the terms that each entry is the sum of."""
 
 
@@ -122,9 +129,9 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
         numpy.linalg.LinAlgError: the system is singular, as far as the arithmetic can tell.
     """
     number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, matrices.G.shape[-1], matrices.S.shape[-1]
-    system, turned = _System.of(matrices, number), number(about_centroid(metric))
+    system, turned = _System.of(matrices, arithmetic, number), number(about_centroid(metric))
     JS = system.J @ system.S
-    C: N = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
+    C: N = system.C_s + system.J @ (system.C_q + system.S @ system.C_z @ system.S.mT) @ system.J.mT
     inverse = arithmetic.inverse(C, turned @ system.G)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
@@ -137,34 +144,31 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
         last = correction(system, solution)
         solution = solution + last
     maps = system.followed(solution, still)
-    values = {name: rounded(each) for name, each in maps.items()}
-    lost = system.followed(last, number(np.zeros((n_z, n_z + 6))))
-    others = _System.of(matrices, arithmetic.other)
+    values, lost = rounded(maps), rounded(system.followed(last, number(np.zeros((n_z, n_z + 6)))))
+    others = _System.of(matrices, arithmetic, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
-    changes = {name: _sizes(rounded(other[name] - maps[name]), CAUTION / arithmetic.apart) for name in maps}
-    errors = {name: _sizes(rounded(lost[name]), CAUTION) for name in maps}
-    for name, each in errors.items():
-        each += _sizes(values[name], ROUNDOFF)
+    changes = np.abs(rounded(other - maps)) * (CAUTION / arithmetic.apart)
+    errors = np.abs(lost) * CAUTION + np.abs(values) * ROUNDOFF
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
-        changes = errors = {name: np.maximum(changes[name], each, out=each) for name, each in errors.items()}
-    return Answer(values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values))
+        changes = errors = np.maximum(changes, errors)
+    rows = _rows(matrices)
+    return Answer(rows, values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values, rows))
 
 
-def _sizes(values: Array, times: float) -> Array:
-    """Return the sizes of entries, `times` as large."""
-    sizes = np.abs(values)
-    sizes *= times
-    return sizes
+def _rows(matrices: Matrices) -> dict[str, slice]:
+    n_l, n_q, n_z = matrices.G.shape[-1], *matrices.S.shape[-2:]
+    ends = np.cumsum([n_l, 6, n_q, n_z, n_z, n_q]).tolist()
+    return {name: slice(start, end) for name, start, end in zip(NAMES, [0, *ends], ends, strict=False)}
 
 
-def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
+def _terms(matrices: Matrices, inverse: Array, values: Array, rows: Mapping[str, slice]) -> Array:
     """Return the sizes of the terms of every map; `inverse` is that of the system, entry by entry its size."""
-    sizes, n_z = _System.of(matrices, np.abs), matrices.S.shape[-1]
-    still = np.eye(n_z, n_z + 6)
-    of_references, of_wrench = inverse[..., :-6] @ (sizes.J @ sizes.S), inverse[..., -6:]
-    result = sizes.followed(np.concatenate([of_references, of_wrench], axis=-1), still)
+    J, S, n_z = np.abs(matrices.J), np.abs(matrices.S), matrices.S.shape[-1]
+    added = _System(matrices.G, J, S, matrices.C_s, -np.abs(matrices.C_q), -np.abs(matrices.C_z), FLOAT64)
+    answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
+    result = added.followed(answers, np.eye(n_z, n_z + 6))
     for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
-        result[name][..., :n_z] = np.abs(values[name][..., :n_z])
+        result[..., rows[name], :n_z] = np.abs(values[..., rows[name], :n_z])
     return result
 
 
@@ -178,7 +182,7 @@ def about_centroid(metric: Metric) -> Array:
 
 @dataclass(frozen=True)
 class _System(Generic[N]):
-    """The matrices of a grasp in some arithmetic, compliances with the minus of the equations they stand in."""
+    """The matrices of a grasp in some arithmetic."""
 
     G: N
     J: N
@@ -186,22 +190,23 @@ class _System(Generic[N]):
     C_s: N
     C_q: N
     C_z: N
+    arithmetic: Arithmetic[N]
 
     @classmethod
-    def of(cls, matrices: Matrices, data: Callable[[Array], N]) -> _System[N]:
-        compliances = (data(-each) for each in (matrices.C_s, matrices.C_q, matrices.C_z))
-        return cls(data(matrices.G), data(matrices.J), data(matrices.S), *compliances)
+    def of(cls, matrices: Matrices, arithmetic: Arithmetic[N], data: Callable[[Array], N]) -> _System[N]:
+        return cls(
+            **{field.name: data(getattr(matrices, field.name)) for field in fields(matrices)}, arithmetic=arithmetic
+        )
 
-    def followed(self, solution: N, still: N) -> dict[str, N]:
-        """Return all that follows from forces and motions; `still` is z of synergies that do not yield."""
-        force, u = solution[..., :-6, :], solution[..., -6:, :]
-        tau = self.J.mT @ force
+    def followed(self, solution: N, still: N) -> N:
+        """Return the rows of all that follows from forces and motions; `still` is z of synergies that do not yield."""
+        tau = self.J.mT @ solution[..., :-6, :]
         sigma = self.S.mT @ tau
-        z = still + self.C_z @ sigma
-        return {"lambda": force, "u": u, "tau": tau, "sigma": sigma, "z": z, "q": self.S @ z + self.C_q @ tau}
+        z = still - self.C_z @ sigma
+        return self.arithmetic.block([[solution], [tau], [sigma], [z], [self.S @ z - self.C_q @ tau]])
 
     def left_over(self, force: N, u: N, still: N) -> tuple[N, N]:
         """Return by what contact motions (10) do not fit, and the wrench (7) that is balanced; about B."""
         tau = self.J.mT @ force
-        q = self.S @ (still + self.C_z @ (self.S.mT @ tau)) + self.C_q @ tau
-        return self.J @ q + self.C_s @ force - self.G.mT @ u, -(self.G @ force)
+        q = self.S @ (still - self.C_z @ (self.S.mT @ tau)) - self.C_q @ tau
+        return self.J @ q - self.C_s @ force - self.G.mT @ u, -(self.G @ force)
