@@ -34,7 +34,8 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
     W = _inverse_root(yields.mT @ yields)
     V = (yields @ W.mT).mT @ T
     inverse = np.empty((*C.shape[:-2], n + G.shape[-2], n + G.shape[-2]))
-    np.subtract(T.mT @ T, V.mT @ V, out=inverse[..., :n, :n])
+    np.matmul(T.mT, T, out=inverse[..., :n, :n])
+    inverse[..., :n, :n] -= V.mT @ V
     inverse[..., n:, :n] = motions = W.mT @ V
     inverse[..., :n, n:] = motions.mT
     np.negative(W.mT @ W, out=inverse[..., n:, n:])

@@ -182,18 +182,15 @@ def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
 
 def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
-    same = found.errors is found.changes
-    units = {"lambda": np.moveaxis(metric.force, -1, 0), "u": np.moveaxis(metric.motion_sizes, -1, 0)}
-    parts = [np.abs(found.maps), found.terms, found.errors, *([] if same else [found.changes])]
-    known = np.array([_largest(part, found.rows, units) for part in parts])
+    force, motion = np.moveaxis(metric.force, -1, 0), np.moveaxis(metric.motion_sizes, -1, 0)
+    parts = [found.maps, found.terms, found.errors, *([] if found.errors is found.changes else [found.changes])]
+    entries, columns = np.empty((*found.maps.shape[-2:], *force.shape[1:])), []  # many grasps last: quick to compare
+    for part in parts:
+        np.abs(np.moveaxis(part, (-2, -1), (0, 1)), out=entries)
+        entries[found.rows["lambda"]] *= force[:, None]
+        entries[found.rows["u"]] *= motion[:, None]
+        columns.append(np.stack([entries[rows].max(axis=0, initial=0.0) for rows in found.rows.values()]))
+    each = np.stack(columns)  # (3 or 4, 6, n_z + 6, ...)
+    largest = [each[:, :, :-6].max(axis=2, initial=0.0), (each[:, :, -6:] * motion).max(axis=2)]
+    known = np.stack(largest, axis=2).reshape(len(parts), len(FIGURES), *force.shape[1:])
     return np.moveaxis(known[[0, 1, 2, -1]], (0, 1), (-1, -2))
-
-
-def _largest(entries: Array, rows: Mapping[str, slice], units: Mapping[str, Array]) -> list[Array]:
-    """Return the largest entry (...) of every map of `FIGURES`; of forces and motions in these units."""
-    ordered, result = np.ascontiguousarray(np.moveaxis(entries, (-2, -1), (0, 1))), []  # NumPy is quick with this
-    for name, place in rows.items():
-        own = ordered[place] * units[name][:, None] if name in units else ordered[place]
-        columns = own.max(axis=0, initial=0.0)
-        result += [columns[:-6].max(axis=0, initial=0.0), (columns[-6:] * units["u"]).max(axis=0)]
-    return result

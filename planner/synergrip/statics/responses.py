@@ -24,7 +24,9 @@ from synergrip.statics.saddle import STACKED
 from synergrip.statics.yielding import is_rigid
 
 CHUNK = 200
-"""Grasps worked out together: enough to make the calls cheap, few enough for the processor's cache."""
+"""Grasps worked out together, at most: enough to make the calls cheap."""
+ENTRIES = 100_000
+"""Entries of their largest matrices, at most: few enough for the processor's cache, and for memory to be used again."""
 AGREED = 1e-12
 """Relative error of maps up to which another arithmetic is as good as that of one grasp: theirs agree to as much."""
 Part = tuple[Places, Mapping[str, Array], Array]
@@ -101,8 +103,9 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
 def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
     """Return what float64 answers, chunk by chunk: at least one part, be it an empty one."""
     parts: list[Part] = []
-    for start in range(0, len(stack), CHUNK):
-        chunk = slice(start, min(start + CHUNK, len(stack)))
+    size = max(1, min(CHUNK, ENTRIES // (stack.matrices.G.shape[-1] + 6) ** 2))
+    for start in range(0, len(stack), size):
+        chunk = slice(start, min(start + size, len(stack)))
         matrices, metric = stack.matrices.taken(chunk), stack.metric.taken(chunk)
         together = restrained[chunk] & ~is_rigid(matrices, metric)
         kept = slice(None) if together.all() else np.flatnonzero(together)

@@ -26,8 +26,6 @@ ROUNDOFF = 2.0**-53
 """Relative error of the maps when they are rounded to float64."""
 APART = 2.0**26
 """How many times a half unit of the last digit float64 changes the data by, to tell what half a unit changes."""
-CORRECTIONS = 2
-"""How many times the solution is refined."""
 CAUTION = 10.0
 """How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
 
@@ -44,6 +42,8 @@ class Arithmetic(Generic[N]):
     other: Callable[[Array], N]
     """Other numbers, `apart` times as far away as those that round to the same float64."""
     apart: float
+    corrections: int = 2
+    """How many times a solution is refined; the last time tells what it had lost."""
 
 
 def _high(number: Doubled) -> Array:
@@ -131,7 +131,8 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
     number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, matrices.G.shape[-1], matrices.S.shape[-1]
     system, turned = _System.of(matrices, arithmetic, number), number(about_centroid(metric))
     JS = system.J @ system.S
-    C: N = system.C_s + system.J @ (system.C_q + system.S @ system.C_z @ system.S.mT) @ system.J.mT
+    C: N = system.J @ (system.C_q + system.S @ system.C_z @ system.S.mT) @ system.J.mT
+    C += system.C_s
     inverse = arithmetic.inverse(C, turned @ system.G)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
@@ -140,19 +141,27 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
         return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
 
     solution = arithmetic.block([[inverse[..., :n_l] @ JS, -inverse[..., n_l:]]])
-    for _ in range(CORRECTIONS):
+    for _ in range(arithmetic.corrections):
         last = correction(system, solution)
-        solution = solution + last
+        solution += last
     maps = system.followed(solution, still)
     values, lost = rounded(maps), rounded(system.followed(last, number(np.zeros((n_z, n_z + 6)))))
     others = _System.of(matrices, arithmetic, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
-    changes = np.abs(rounded(other - maps)) * (CAUTION / arithmetic.apart)
-    errors = np.abs(lost) * CAUTION + np.abs(values) * ROUNDOFF
+    changes = _sizes(rounded(other - maps), CAUTION / arithmetic.apart)
+    errors = _sizes(lost, CAUTION)
+    errors += _sizes(values, ROUNDOFF)
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
-        changes = errors = np.maximum(changes, errors)
+        changes = errors = np.maximum(changes, errors, out=errors)
     rows = _rows(matrices)
-    return Answer(rows, values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values, rows))
+    return Answer(rows, values, errors, changes, _terms(matrices, rounded(inverse), values, rows))
+
+
+def _sizes(values: Array, times: float) -> Array:
+    """Return the sizes of entries, `times` as large."""
+    sizes = np.abs(values)
+    sizes *= times
+    return sizes
 
 
 def _rows(matrices: Matrices) -> dict[str, slice]:
@@ -162,8 +171,9 @@ def _rows(matrices: Matrices) -> dict[str, slice]:
 
 
 def _terms(matrices: Matrices, inverse: Array, values: Array, rows: Mapping[str, slice]) -> Array:
-    """Return the sizes of the terms of every map; `inverse` is that of the system, entry by entry its size."""
+    """Return the sizes of the terms of every map; `inverse` is that of the system."""
     J, S, n_z = np.abs(matrices.J), np.abs(matrices.S), matrices.S.shape[-1]
+    inverse = np.abs(inverse)
     added = _System(matrices.G, J, S, matrices.C_s, -np.abs(matrices.C_q), -np.abs(matrices.C_z), FLOAT64)
     answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
     result = added.followed(answers, np.eye(n_z, n_z + 6))
