@@ -23,7 +23,6 @@ from synergrip.linalg import frozen
 from synergrip.statics.analyses import Analyses, analyse_many
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import Maps
-from synergrip.statics.responses import respond_many
 from synergrip.statics.subspaces import Bases
 
 FORMS = {
@@ -57,10 +56,7 @@ def same(ours: np.ndarray, theirs: np.ndarray, stated: float = 0.0) -> bool:
 
 
 def doubt_of_bases(analysis: Analysis) -> tuple[float, float]:
-    """What the stated errors of the maps leave open of E_s and of M (35).
-
-    Directions of force are as much less certain than the map as its least singular value is below the largest.
-    """
+    """What errors of the maps leave open of E_s, more where a force is weaker than the largest, and of M (35)."""
     forces, accuracy = analysis.spaces.decisions["forces"], analysis.response.accuracy
     least = float(forces.singular_values[: analysis.spaces.dimensions[0]].min(initial=1.0))
     of_forces = accuracy["dlambda_dzr"].error / max(least, 1e-300)
@@ -180,15 +176,6 @@ def test_copies_of_one_grasp_have_equal_answers(name: str) -> None:
     for array in (*arrays, group.coordinates.M, group.coordinates.inverse):
         assert np.array_equal(array, np.broadcast_to(array[:1], array.shape))
     assert_same(group.at(16), analyse(grasp))
-
-
-def test_chunks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    grasps = grasps_of("mixed", 30)
-    whole = respond_many(grasps)
-    monkeypatch.setattr(responses_module, "CHUNK", 7)
-    pieces = respond_many(grasps)
-    for field in fields(Maps):
-        assert same(getattr(pieces, field.name), getattr(whole, field.name)), field.name
 
 
 def test_a_singular_system_sends_no_other_grasp_away(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from random_grasps import random_grasp
@@ -11,6 +13,7 @@ from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import Array
 from synergrip.statics.factors import inverse_by_factors
+from synergrip.statics.response import Maps
 from synergrip.statics.responses import respond_many
 from synergrip.statics.saddle import FLOAT64, STACKED, Arithmetic
 
@@ -60,3 +63,15 @@ def test_one_matrix_without_factors_sends_no_grasp_away(monkeypatch: pytest.Monk
 
     monkeypatch.setattr(responses_module, "maps_in_float64", refusing)
     assert len(respond_many(grasps).one_by_one) == 0
+
+
+def test_chunks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    kinds = ["hard", "soft", "frictionless", "soft"]
+    grasps = [random_grasp(np.random.default_rng(seed), kinds, n_q=6, n_z=4) for seed in range(30)]
+    whole = respond_many(grasps)
+    for name, few in (("CHUNK", 7), ("ENTRIES", 2000)):
+        monkeypatch.setattr(responses_module, name, few)
+        pieces = respond_many(grasps)
+        for field in fields(Maps):
+            ours, theirs = getattr(pieces, field.name), getattr(whole, field.name)
+            assert np.allclose(ours, theirs, rtol=0, atol=1e-12 * np.abs(theirs).max()), field.name
