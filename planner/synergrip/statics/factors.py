@@ -18,8 +18,8 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
     """Return the inverse (N, n + m, n + m) of ``[[C, G'], [G, 0]]`` for each of a stack.
 
     As ``C = L L'`` with ``L^-1 = T``, and ``(T G')' (T G') = R R'`` with ``R^-1 = W``, it is
-    ``[[T' T - V' V, V' W], [W' V, -W' W]]``, ``V = W G T' T``. Factors take the units
-    of rows and columns with them.
+    ``[[T' T - V' V, V' W], [W' V, -W' W]]``, ``V = W G T' T``. Units of rows and columns
+    do not matter: factors take them with them.
 
     Args:
         C: (N, n, n) symmetric.

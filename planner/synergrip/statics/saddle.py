@@ -1,9 +1,9 @@
 """The equilibrium of a grasp as one saddle-point system, and what its arithmetic may have lost.
 
 ``C lambda + G' u = J S z_r`` and ``G lambda = -w``, C the sum of the compliances of contacts, joints and synergies.
-Neither C nor ``G C^-1 G'`` is inverted by itself: where compliances differ by 1e9 they keep no digit of the small
-ones. And the system is only what refines: what is left over is told from the grasp's own matrices, so that rounding
-of C costs nothing either.
+Of one grasp neither C nor ``G C^-1 G'`` is inverted by itself: where compliances differ by 1e9 they keep no digit of
+the small ones. Of a stack they are, which is quick; `errors` tell where that was too much. And the system is only what
+refines: what is left over is told from the grasp's own matrices, so that rounding of C costs nothing either.
 """
 
 from __future__ import annotations
