@@ -186,19 +186,21 @@ def canonical(basis: Array) -> Array:
     *leading, size, dimension = basis.shape
     if dimension == 0:
         return frozen(np.zeros(basis.shape))
-    remaining = np.linalg.qr(basis.reshape(-1, size, dimension))[0]
-    stack, columns = np.arange(len(remaining)), np.zeros_like(remaining)
+    own = np.linalg.qr(basis.reshape(-1, size, dimension))[0]
+    stack, turns = np.arange(len(own)), np.zeros((len(own), dimension, dimension))
+    columns = np.zeros((len(own), dimension, size))
+    squares = np.sum(own**2, axis=-1)  # of the column norms of the projector
     for k in range(dimension):
-        lengths = np.sqrt(np.sum(remaining**2, axis=-1))  # column norms of the projector
-        pick = np.argmax(lengths > lengths.max(axis=-1, keepdims=True) - 1e-9, axis=-1)
-        direction = remaining[stack, pick] / lengths[stack, pick, None]
-        columns[..., k] = (remaining @ direction[..., None])[..., 0]
-        remaining = remaining - columns[..., k, None] * direction[:, None]  # what is orthogonal to the new column
-    result = np.linalg.qr(columns)[0]
-    sizes = np.abs(result)
-    largest = np.argmax(sizes > sizes.max(axis=-2, keepdims=True) - 1e-9, axis=-2)
-    signs = np.where(result[stack[:, None], largest, np.arange(dimension)] < 0, -1.0, 1.0)
-    return frozen(result * signs[:, None], (*leading, size, dimension))
+        pick = np.argmax(squares > (np.sqrt(squares.max(axis=-1, keepdims=True)) - 1e-9) ** 2, axis=-1)
+        rest = own[stack, pick] - (columns[stack, None, :k, pick] @ turns[:, :k])[:, 0]
+        turns[:, k] = rest / np.sqrt(np.sum(rest**2, axis=-1, keepdims=True))
+        columns[:, k] = (own @ turns[:, k, :, None])[..., 0]
+        squares -= columns[:, k] ** 2  # what is orthogonal to the new column remains
+    columns = 1.5 * columns - 0.5 * (columns @ columns.mT) @ columns  # what is left of 1e-15 is 1e-30
+    sizes = np.abs(columns)
+    largest = np.argmax(sizes > sizes.max(axis=-1, keepdims=True) - 1e-9, axis=-1)
+    negative = np.take_along_axis(columns, largest[..., None], axis=-1) < 0
+    return frozen(np.where(negative, -columns, columns).mT, (*leading, size, dimension))
 
 
 def interpolated(times: Array, known: Array, values: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
 
 
+_COMPONENTS = attrgetter("kind.components")
 Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
 """Components of every contact, and the shape of S."""
 
@@ -89,15 +91,15 @@ class GraspStack(Value, Sequence[Grasp]):
         for place, grasp in enumerate(given):
             if not isinstance(grasp, Grasp):
                 raise InputError.at(f"grasps[{place}]", f"expected a Grasp, got {type(grasp).__name__}")
-        forms = [_form(grasp) for grasp in given]
-        for place, form in enumerate(forms):
-            if form != forms[0]:
-                message = f"{_told(form)}, but grasps[0] has {_told(forms[0])}; put grasps of one form in one batch"
+        first = _form(given[0])
+        for place, grasp in enumerate(given):
+            if (form := _form(grasp)) != first:
+                message = f"{_told(form)}, but grasps[0] has {_told(first)}; put grasps of one form in one batch"
                 raise InputError.at(f"grasps[{place}]", f"has {message}")
         names = [field.name for field in fields(Matrices)]
-        stacked = [_stacked([getattr(grasp, name) for grasp in given]) for name in names]
-        points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given))
-        return cls(Matrices(*stacked), points, _stacked([grasp.w_0 for grasp in given]), given[0], given)
+        stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in (*names, "w_0")]
+        points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given), given[0].n_c)
+        return cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
 
     @classmethod
     @naming_arguments
@@ -162,16 +164,15 @@ class GraspStack(Value, Sequence[Grasp]):
         return metric_of(self.points, [component for _, component in self.like.components])[0]
 
 
-def _stacked(arrays: Sequence[Array], count: int | None = None) -> Array:
-    """Return arrays of one shape in `count` groups (default: each by itself); `numpy.stack` takes longer."""
-    leading = (len(arrays),) if count is None else (count, len(arrays) // count)
-    whole = np.concatenate(arrays, axis=None).reshape(*leading, *arrays[0].shape)
+def _stacked(arrays: Sequence[Array], *leading: int) -> Array:
+    """Return arrays of one shape with these leading axes; `numpy.stack` takes longer."""
+    whole = np.concatenate(arrays).reshape(*leading, *arrays[0].shape)
     whole.setflags(write=False)
     return whole
 
 
 def _form(grasp: Grasp) -> Form:
-    return tuple([contact.kind.components for contact in grasp.contacts]), grasp.S.shape
+    return tuple(map(_COMPONENTS, grasp.contacts)), grasp.S.shape
 
 
 def _told(form: Form) -> str:

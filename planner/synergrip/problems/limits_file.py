@@ -13,7 +13,8 @@ from synergrip.conic.goals.registry import GOALS
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.registry import LIMITS
-from synergrip.documents.fields import POSITIVE, Number, Positive, Table, Whole, Written, named, number
+from synergrip.documents.fields import POSITIVE, Number, Positive, Table, Whole, Written, named
+from synergrip.documents.numbers import number
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, one_of, repeated
 

@@ -20,7 +20,7 @@ from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
-from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, about_centroid, answer
+from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
 from synergrip.values import Value
 
@@ -161,19 +161,21 @@ def wrenches(name: str, value: object) -> Array:
     return np.atleast_2d(np.asarray(found))
 
 
-def maps_in_float64(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
+def maps_in_float64(
+    matrices: Matrices, metric: Metric, arithmetic: Arithmetic[Array] = FLOAT64
+) -> tuple[dict[str, Array], Array]:
     """Return the maps of one grasp or of many (leading axes ...), by their names in `Maps`, and the `figures` of them.
 
     Raises:
         numpy.linalg.LinAlgError: the equations of a grasp are singular, as far as float64 can tell.
     """
-    found = answer(matrices, metric, FLOAT64)
+    found = answer(matrices, metric, arithmetic)
     return _maps(found, metric), figures(found, metric)
 
 
-def is_enough(known: Array) -> NDArray[np.bool_]:
-    """Return which (...) of the `figures` (..., 12, 4) are those of maps known well enough."""
-    return np.asarray(np.all(shares(known[..., 2], known) <= ENOUGH, axis=-1))
+def is_enough(known: Array, share: float = ENOUGH) -> NDArray[np.bool_]:
+    """Return which (...) of the `figures` (..., 12, 4) are those of maps that have lost no larger share."""
+    return np.asarray(np.all(shares(known[..., 2], known) <= share, axis=-1))
 
 
 def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
@@ -190,7 +192,8 @@ def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], A
 
 def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
     turned = about_centroid(metric)
-    both = {f"d{name}": each for name, each in found.maps.items()} | {"du": turned.mT @ found.maps["u"]}
+    both = {f"d{name}": found.maps[..., rows, :] for name, rows in found.rows.items()}
+    both["du"] = turned.mT @ both["du"]
     of_references = {f"{name}_dzr": each[..., :-6] for name, each in both.items()}
     of_wrench = {f"{name}_dw": both[name][..., -6:] @ turned for name in ("dlambda", "du", "dz", "dq")}
     of_wrench["du_dw"] = (of_wrench["du_dw"] + of_wrench["du_dw"].mT) / 2
@@ -199,18 +202,15 @@ def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
 
 def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
-    motion, rows = metric.motion_sizes, {"lambda": metric.force, "u": metric.motion_sizes}
-    same, result = found.errors is found.changes, []
-    for name, values in found.maps.items():
-        parts = [np.abs(values), found.terms[name], found.errors[name], *([] if same else [found.changes[name]])]
-        unit = rows[name][..., None] if name in rows else 1.0
-        largest = np.stack([_of_columns(part * unit) for part in parts])  # (3 or 4, n_z + 6, ...)
-        of_wrench = largest[:, -6:] * np.moveaxis(motion, -1, 0)
-        result += [each.max(axis=1, initial=0.0) for each in (largest[:, :-6], of_wrench)]
-    known = np.stack(result)
-    return np.moveaxis(np.concatenate([known, known[:, -1:]], axis=1) if same else known, (0, 1), (-2, -1))
-
-
-def _of_columns(entries: Array) -> Array:
-    """Return (n, ...) the largest of every column of (..., m, n), the axes in the order that NumPy is quick with."""
-    return np.asarray(np.ascontiguousarray(np.moveaxis(entries, (-2, -1), (0, 1))).max(axis=0, initial=0.0))
+    force, motion = np.moveaxis(metric.force, -1, 0), np.moveaxis(metric.motion_sizes, -1, 0)
+    parts = [found.maps, found.terms, found.errors, *([] if found.errors is found.changes else [found.changes])]
+    entries, columns = np.empty((*found.maps.shape[-2:], *force.shape[1:])), []  # many grasps last: quick to compare
+    for part in parts:
+        np.abs(np.moveaxis(part, (-2, -1), (0, 1)), out=entries)
+        entries[found.rows["lambda"]] *= force[:, None]
+        entries[found.rows["u"]] *= motion[:, None]
+        columns.append(np.stack([entries[rows].max(axis=0, initial=0.0) for rows in found.rows.values()]))
+    each = np.stack(columns)  # (3 or 4, 6, n_z + 6, ...)
+    largest = [each[:, :, :-6].max(axis=2, initial=0.0), (each[:, :, -6:] * motion).max(axis=2)]
+    known = np.stack(largest, axis=2).reshape(len(parts), len(FIGURES), *force.shape[1:])
+    return np.moveaxis(known[[0, 1, 2, -1]], (0, 1), (-1, -2))

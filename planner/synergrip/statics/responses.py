@@ -21,10 +21,15 @@ from synergrip.grasps.stack import GraspStack, Matrices
 from synergrip.linalg import Array, Decisions, Places, frozen
 from synergrip.statics.response import FIGURES, Accuracy, Maps, Response, is_enough, maps_in_float64, respond
 from synergrip.statics.restraint import restraints
+from synergrip.statics.saddle import STACKED
 from synergrip.statics.yielding import is_rigid
 
 CHUNK = 200
-"""Grasps worked out together: enough to make the calls cheap, few enough for the processor's cache."""
+"""Grasps worked out together, at most: enough to make the calls cheap."""
+ENTRIES = 100_000
+"""Entries of their largest matrices, at most: few enough for the processor's cache, and for memory to be used again."""
+AGREED = 1e-12
+"""Relative error of maps up to which another arithmetic is as good as that of one grasp: theirs agree to as much."""
 Part = tuple[Places, Mapping[str, Array], Array]
 """Places, maps by their names and figures of some grasps."""
 
@@ -100,8 +105,9 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
 def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
     """Return what float64 answers, chunk by chunk: at least one part, be it an empty one."""
     parts: list[Part] = []
-    for start in range(0, len(stack), CHUNK):
-        chunk = slice(start, min(start + CHUNK, len(stack)))
+    size = max(1, min(CHUNK, ENTRIES // (stack.matrices.G.shape[-1] + 6) ** 2))
+    for start in range(0, len(stack), size):
+        chunk = slice(start, min(start + size, len(stack)))
         matrices, metric = stack.matrices.taken(chunk), stack.metric.taken(chunk)
         together = restrained[chunk] & ~is_rigid(matrices, metric)
         kept = slice(None) if together.all() else np.flatnonzero(together)
@@ -112,13 +118,28 @@ def _in_chunks(stack: GraspStack, restrained: NDArray[np.bool_]) -> list[Part]:
 
 
 def _answered(matrices: Matrices, metric: Metric, places: Places) -> Iterator[Part]:
-    """Yield what float64 answers of the grasps at some places."""
+    """Yield what float64 answers of the grasps at some places: most by factors, the stiff as one by one."""
+    try:
+        maps, known = maps_in_float64(matrices, metric, STACKED)
+        agreed = is_enough(known, AGREED)
+    except np.linalg.LinAlgError:
+        yield from _answered_as_alone(matrices, metric, places)
+        return
+    if agreed.all():
+        yield places, maps, known
+        return
+    yield places[agreed], {name: each[agreed] for name, each in maps.items()}, known[agreed]
+    yield from _answered_as_alone(matrices.taken(~agreed), metric.taken(~agreed), places[~agreed])
+
+
+def _answered_as_alone(matrices: Matrices, metric: Metric, places: Places) -> Iterator[Part]:
+    """Yield what float64 answers of the grasps at some places, by the arithmetic of one grasp, to the last digits."""
     try:
         maps, known = maps_in_float64(matrices, metric)
     except np.linalg.LinAlgError:  # of one grasp or more: look for them by halves
         middle = len(places) // 2
         for half in (slice(0, middle), slice(middle, None)) if middle else ():
-            yield from _answered(matrices.taken(half), metric.taken(half), places[half])
+            yield from _answered_as_alone(matrices.taken(half), metric.taken(half), places[half])
         return
     enough = is_enough(known)
     kept = slice(None) if enough.all() else enough

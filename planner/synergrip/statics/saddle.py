@@ -1,15 +1,15 @@
 """The equilibrium of a grasp as one saddle-point system, and what its arithmetic may have lost.
 
 ``C lambda + G' u = J S z_r`` and ``G lambda = -w``, C the sum of the compliances of contacts, joints and synergies.
-Neither C nor ``G C^-1 G'`` is inverted by itself: where compliances differ by 1e9 they keep no digit of the small
-ones. And the system is only what refines: what is left over is told from the grasp's own matrices, so that rounding
-of C costs nothing either.
+Of one grasp neither C nor ``G C^-1 G'`` is inverted by itself: where compliances differ by 1e9 they keep no digit of
+the small ones. Of a stack they are, which is quick; `errors` tell where that was too much. And the system is only what
+refines: what is left over is told from the grasp's own matrices, so that rounding of C costs nothing either.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any, Generic, TypeVar
 
@@ -19,14 +19,13 @@ from synergrip.doubled import Doubled, block, solve
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import Array, frozen
+from synergrip.statics.factors import inverse_by_factors
 
 N = TypeVar("N", Array, Doubled)
 ROUNDOFF = 2.0**-53
 """Relative error of the maps when they are rounded to float64."""
 APART = 2.0**26
 """How many times a half unit of the last digit float64 changes the data by, to tell what half a unit changes."""
-CORRECTIONS = 4
-"""The first is the solution, the others refine it."""
 CAUTION = 10.0
 """How much larger errors are taken to be than the last correction, and changes than one change of the data makes."""
 
@@ -38,10 +37,13 @@ class Arithmetic(Generic[N]):
     number: Callable[[Array], N]
     rounded: Callable[[N], Array]
     block: Callable[[Sequence[Sequence[Any]]], N]
-    inverse: Callable[[N], N]
+    inverse: Callable[[N, N], N]
+    """Of ``[[C, G'], [G, 0]]``."""
     other: Callable[[Array], N]
     """Other numbers, `apart` times as far away as those that round to the same float64."""
     apart: float
+    corrections: int = 2
+    """How many times a solution is refined; the last time tells what it had lost."""
 
 
 def _high(number: Doubled) -> Array:
@@ -65,37 +67,58 @@ def _apart(values: Array) -> Array:
     return values * (1 + APART * 2.0**-53 * _half_units(values.shape[-2:]))
 
 
-def _inverse_of(A: Array) -> Array:
-    return np.asarray(np.linalg.inv(A))
-
-
-def _inverse_of_doubled(A: Doubled) -> Doubled:
-    return solve(A, Doubled.of(np.eye(len(A.high))))
-
-
 def _block(rows: Sequence[Sequence[Array]]) -> Array:
     """Return what `numpy.block` does, several times as fast."""
-    return np.concatenate([np.concatenate(row, axis=-1) for row in rows], axis=-2)
+    joined = [np.concatenate(row, axis=-1) if len(row) > 1 else row[0] for row in rows]
+    return np.concatenate(joined, axis=-2) if len(joined) > 1 else joined[0]
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse_of, _apart, APART)
+def _inverse(C: Array, G: Array) -> Array:
+    both = _one_size(C, G)
+    corner = np.zeros((*G.shape[:-1], G.shape[-2]))
+    return np.asarray(np.linalg.inv(_block([[C, G.mT], [G, corner]]) * both) * both)
+
+
+def _inverse_of_doubled(C: Doubled, G: Doubled) -> Doubled:
+    both = _one_size(C.high, G.high)
+    corner = Doubled.of(np.zeros((len(G.high), len(G.high))))
+    return solve(block([[C, G.mT], [G, corner]]) * both, Doubled.of(np.eye(len(both)))) * both
+
+
+def _one_size(C: Array, G: Array) -> Array:
+    """Return the powers of two that bring the entries of ``[[C, G'], [G, 0]]`` to about one size."""
+    forces = 1 / np.sqrt(np.abs(np.diagonal(C, axis1=-2, axis2=-1)))
+    motions = 1 / (np.abs(G) * forces[..., None, :]).max(axis=-1)
+    size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
+    return np.asarray(size * size.mT)
+
+
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse, _apart, APART)
+STACKED: Arithmetic[Array] = replace(FLOAT64, inverse=inverse_by_factors)
+"""Float64 for a stack of grasps, many times as fast; where compliances differ much its inverse keeps fewer digits."""
 DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, _inverse_of_doubled, _between_the_digits, 1.0)
+
+
+NAMES = ("lambda", "u", "tau", "sigma", "z", "q")
+"""What answers, in the order of the rows of an `Answer`."""
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What answers to z_r (n_z columns), then to the wrench (6 columns): "lambda", "u", "tau", "sigma", "z", "q".
+    """What answers to z_r (n_z columns), then to the wrench (6 columns): the rows of all `NAMES` (..., n, n_z + 6).
 
     SI units; wrenches and motions of the object are taken about the centroid of the contacts. Of one grasp, or of
     each of many (leading axes).
     """
 
-    maps: Mapping[str, Array]
-    errors: Mapping[str, Array]
+    rows: Mapping[str, slice]
+    """Where each name has its rows."""
+    maps: Array
+    errors: Array
     """Estimates of what the arithmetic has lost in each entry."""
-    changes: Mapping[str, Array]
+    changes: Array
     """Estimates of what changes with the digits that the data do not have."""
-    terms: Mapping[str, Array]
+    terms: Array
     """Sizes of the terms that each entry is the sum of."""
 
 
@@ -106,30 +129,32 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
         numpy.linalg.LinAlgError: the system is singular, as far as the arithmetic can tell.
     """
     number, rounded, n_l, n_z = arithmetic.number, arithmetic.rounded, matrices.G.shape[-1], matrices.S.shape[-1]
-    system, turned = _System.of(matrices, number), number(about_centroid(metric))
-    inverse = _inverse(system, turned, arithmetic, n_l)
+    system, turned = _System.of(matrices, arithmetic, number), number(about_centroid(metric))
+    JS = system.J @ system.S
+    C: N = system.J @ (system.C_q + system.S @ system.C_z @ system.S.mT) @ system.J.mT
+    C += system.C_s
+    inverse = arithmetic.inverse(C, turned @ system.G)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
     def correction(system: _System[N], solution: N) -> N:
         gap, balanced = system.left_over(solution[..., :n_l, :], turned.mT @ solution[..., n_l:, :], still)
         return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
 
-    solution = number(np.zeros((*matrices.G.shape[:-2], n_l + 6, n_z + 6)))
-    for _ in range(CORRECTIONS):
+    solution = arithmetic.block([[inverse[..., :n_l] @ JS, -inverse[..., n_l:]]])
+    for _ in range(arithmetic.corrections):
         last = correction(system, solution)
-        solution = solution + last
+        solution += last
     maps = system.followed(solution, still)
-    values = {name: rounded(each) for name, each in maps.items()}
-    lost = system.followed(last, number(np.zeros((n_z, n_z + 6))))
-    others = _System.of(matrices, arithmetic.other)
+    values, lost = rounded(maps), rounded(system.followed(last, number(np.zeros((n_z, n_z + 6)))))
+    others = _System.of(matrices, arithmetic, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
-    changes = {name: _sizes(rounded(other[name] - maps[name]), CAUTION / arithmetic.apart) for name in maps}
-    errors = {name: _sizes(rounded(lost[name]), CAUTION) for name in maps}
-    for name, each in errors.items():
-        each += _sizes(values[name], ROUNDOFF)
+    changes = _sizes(rounded(other - maps), CAUTION / arithmetic.apart)
+    errors = _sizes(lost, CAUTION)
+    errors += _sizes(values, ROUNDOFF)
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
-        changes = errors = {name: np.maximum(changes[name], each, out=each) for name, each in errors.items()}
-    return Answer(values, errors, changes, _terms(matrices, np.abs(rounded(inverse)), values))
+        changes = errors = np.maximum(changes, errors, out=errors)
+    rows = _rows(matrices)
+    return Answer(rows, values, errors, changes, _terms(matrices, rounded(inverse), values, rows))
 
 
 def _sizes(values: Array, times: float) -> Array:
@@ -139,14 +164,21 @@ def _sizes(values: Array, times: float) -> Array:
     return sizes
 
 
-def _terms(matrices: Matrices, inverse: Array, values: Mapping[str, Array]) -> dict[str, Array]:
-    """Return the sizes of the terms of every map; `inverse` is that of the system, entry by entry its size."""
-    sizes, n_z = _System.of(matrices, np.abs), matrices.S.shape[-1]
-    still = np.eye(n_z, n_z + 6)
-    of_references, of_wrench = inverse[..., :-6] @ (sizes.J @ sizes.S), inverse[..., -6:]
-    result = sizes.followed(np.concatenate([of_references, of_wrench], axis=-1), still)
+def _rows(matrices: Matrices) -> dict[str, slice]:
+    n_l, n_q, n_z = matrices.G.shape[-1], *matrices.S.shape[-2:]
+    ends = np.cumsum([n_l, 6, n_q, n_z, n_z, n_q]).tolist()
+    return {name: slice(start, end) for name, start, end in zip(NAMES, [0, *ends], ends, strict=False)}
+
+
+def _terms(matrices: Matrices, inverse: Array, values: Array, rows: Mapping[str, slice]) -> Array:
+    """Return the sizes of the terms of every map; `inverse` is that of the system."""
+    J, S, n_z = np.abs(matrices.J), np.abs(matrices.S), matrices.S.shape[-1]
+    inverse = np.abs(inverse)
+    added = _System(matrices.G, J, S, matrices.C_s, -np.abs(matrices.C_q), -np.abs(matrices.C_z), FLOAT64)
+    answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
+    result = added.followed(answers, np.eye(n_z, n_z + 6))
     for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
-        result[name][..., :n_z] = np.abs(values[name][..., :n_z])
+        result[..., rows[name], :n_z] = np.abs(values[..., rows[name], :n_z])
     return result
 
 
@@ -160,7 +192,7 @@ def about_centroid(metric: Metric) -> Array:
 
 @dataclass(frozen=True)
 class _System(Generic[N]):
-    """The matrices of a grasp in some arithmetic, compliances with the minus of the equations they stand in."""
+    """The matrices of a grasp in some arithmetic."""
 
     G: N
     J: N
@@ -168,37 +200,23 @@ class _System(Generic[N]):
     C_s: N
     C_q: N
     C_z: N
+    arithmetic: Arithmetic[N]
 
     @classmethod
-    def of(cls, matrices: Matrices, data: Callable[[Array], N]) -> _System[N]:
-        compliances = (data(-each) for each in (matrices.C_s, matrices.C_q, matrices.C_z))
-        return cls(data(matrices.G), data(matrices.J), data(matrices.S), *compliances)
+    def of(cls, matrices: Matrices, arithmetic: Arithmetic[N], data: Callable[[Array], N]) -> _System[N]:
+        return cls(
+            **{field.name: data(getattr(matrices, field.name)) for field in fields(matrices)}, arithmetic=arithmetic
+        )
 
-    def followed(self, solution: N, still: N) -> dict[str, N]:
-        """Return all that follows from forces and motions; `still` is z of synergies that do not yield."""
-        force, u = solution[..., :-6, :], solution[..., -6:, :]
-        tau = self.J.mT @ force
+    def followed(self, solution: N, still: N) -> N:
+        """Return the rows of all that follows from forces and motions; `still` is z of synergies that do not yield."""
+        tau = self.J.mT @ solution[..., :-6, :]
         sigma = self.S.mT @ tau
-        z = still + self.C_z @ sigma
-        return {"lambda": force, "u": u, "tau": tau, "sigma": sigma, "z": z, "q": self.S @ z + self.C_q @ tau}
+        z = still - self.C_z @ sigma
+        return self.arithmetic.block([[solution], [tau], [sigma], [z], [self.S @ z - self.C_q @ tau]])
 
     def left_over(self, force: N, u: N, still: N) -> tuple[N, N]:
         """Return by what contact motions (10) do not fit, and the wrench (7) that is balanced; about B."""
         tau = self.J.mT @ force
-        q = self.S @ (still + self.C_z @ (self.S.mT @ tau)) + self.C_q @ tau
-        return self.J @ q + self.C_s @ force - self.G.mT @ u, -(self.G @ force)
-
-
-def _inverse(system: _System[N], turned: N, arithmetic: Arithmetic[N], n_l: int) -> N:
-    """Return the inverse of the system, whose rows and columns are brought to about one size first."""
-    JS, G = system.J @ system.S, turned @ system.G
-    C: N = -system.C_s - system.J @ system.C_q @ system.J.mT - JS @ system.C_z @ JS.mT
-    corner = arithmetic.number(np.zeros((*arithmetic.rounded(C).shape[:-2], 6, 6)))
-    A = arithmetic.block([[C, G.mT], [G, corner]])
-    sizes = np.abs(arithmetic.rounded(A))
-    forces = 1 / np.sqrt(np.diagonal(sizes, axis1=-2, axis2=-1)[..., :n_l])
-    motions = 1 / (sizes[..., n_l:, :n_l] * forces[..., None, :]).max(axis=-1)
-    size = (2.0 ** np.round(np.log2(np.concatenate([forces, motions], axis=-1))))[..., None]
-    both = size * size.mT
-    found: N = arithmetic.inverse(A * both) * both
-    return found
+        q = self.S @ (still - self.C_z @ (self.S.mT @ tau)) - self.C_q @ tau
+        return self.J @ q - self.C_s @ force - self.G.mT @ u, -(self.G @ force)

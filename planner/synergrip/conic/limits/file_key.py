@@ -14,9 +14,9 @@ from synergrip.documents.fields import (
     array_of,
     either,
     listed,
-    number,
     unit_schema,
 )
+from synergrip.documents.numbers import number
 from synergrip.errors import InputError, raise_issues
 from synergrip.hands.units import joint_kinds, list_misfits, synergy_kinds
 

@@ -14,8 +14,9 @@ from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
 from synergrip.conic.limits.limit import Limit, Usage, Watches
 from synergrip.conic.rows import Rows
-from synergrip.documents.fields import Written, number, unit_schema, with_unit
+from synergrip.documents.fields import Written, unit_schema, with_unit
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.numbers import number
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
