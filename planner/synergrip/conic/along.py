@@ -96,5 +96,23 @@ class AlongPath(Formulation):
         return self.alpha.after(of_alpha).plus(known)
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class AtStates(Formulation):
+    """A formulation at states that are known, for what a motion uses of limits: its rigid part is known, too."""
+
+    known_rigid: Array | None = None
+
+    @classmethod
+    def of(cls, formulation: Formulation, *, times: Array, wrench: Array, target: Array, rigid: Array) -> AtStates:
+        """Return it at some instants (T,), with the target and the rigid part (T, 6) of the motion there."""
+        own = {field.name: getattr(formulation, field.name) for field in fields(Formulation)}
+        return cls(**own | {"times": times, "wrench": wrench, "target": target, "each": None}, known_rigid=rigid)
+
+    def rigid_motion(self, dz_r: Array) -> Array:
+        """Return the rigid part (T, 6) of the motion [m, rad]."""
+        assert self.known_rigid is not None
+        return self.known_rigid
+
+
 def _each(matrix: Array, knots: int) -> Array:
     return matrix if matrix.ndim == 3 else np.broadcast_to(matrix, (knots, *matrix.shape))

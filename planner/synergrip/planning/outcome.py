@@ -19,9 +19,11 @@ from synergrip.linalg import Array
 from synergrip.planning.answer import Answer, Tabled
 from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
+from synergrip.planning.path import Executed
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,8 @@ class Plan(Tabled):
     between: Between | None = None
     """The plan between its knots; None when nothing is known of it."""
 
+    executed: Executed | None = None
+    """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
 
@@ -183,6 +187,16 @@ class Infeasible(Reasoned):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Reached(Value):
+    """How far a motion got that was not followed to its end."""
+
+    until_s: float
+    pose: Array
+    """(6,) displacement of the object there: translation and rotation vector [m, rad]."""
+    because: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Unknown(Reasoned):
     """Nothing could be verified either way.
 
@@ -195,10 +209,15 @@ class Unknown(Reasoned):
     analysis: Analysis
     why: str
     decisions: tuple[Decision, ...]
+    stage: str = "solver"
+    """"solver", where nothing that was solved verifies; "reach", where the hand does not follow the motion; "execution",
+    where the hand does not do what the plan promises."""
+    reached: Reached | None = None
+    """Until when the motion was followed, at the stage "reach"."""
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -19,24 +20,42 @@ from synergrip.statics.kept_dimensions import turned
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import followed_axes
+from synergrip.values import Value
 
 
-@dataclass(frozen=True)
-class Steps:
+@dataclass(frozen=True, eq=False, repr=False)
+class Steps(Value):
     """What the way that is left says about the rigid motion at every knot."""
 
     each: tuple[Analysis, ...]
     """(T,) the grasp at every knot; beta of those directions that the program may choose comes first."""
-    beta: Array  # (T, dim Gamma_ucs) [m]
+    beta: Array  # (T, dim Gamma_ucs) that goes all of it [m]
     basis: Array
     """(dim Gamma_ucs, m) orthonormal directions in which beta is the program's choice."""
-    joints: Array
-    """(T,) how far the joints move for beta alone, rotations and translations (over the length) together."""
     beside: Array
     """(T, 6) the part of the way left that no rigid motion of the knot goes [m, rad]."""
 
+    @cached_property
+    def behind(self) -> Array:
+        """(T,) how far the object is behind, as far as rigid motions could bring it nearer [m]."""
+        return np.asarray(np.linalg.norm(self.beta, axis=1))
 
-def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Array, damping: float) -> Steps:
+    def damped(self, damping: float) -> tuple[Array, Array]:
+        """Return beta (T, dim Gamma_ucs) [m] that is not dear, and how far (T,) the joints move for it.
+
+        Args:
+            damping: [m/rad] joint motions are as dear as this much of the way.
+        """
+        parts = []
+        for at, beta in zip(self.each, self.beta, strict=True):
+            joints = _joints_of(at)
+            damped = np.linalg.solve(np.eye(len(beta)) + damping**2 * joints.T @ joints, beta)
+            parts.append((damped, float(np.linalg.norm(joints @ damped))))
+        betas, moved = zip(*parts, strict=True)
+        return frozen(np.array(betas).reshape(self.beta.shape)), frozen(moved)
+
+
+def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Array) -> Steps:
     """Return the rigid motion at every knot that goes what is left of the way.
 
     Args:
@@ -44,7 +63,6 @@ def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Arra
         start: the grasp at the start.
         task: says what is tracked, and on which axes.
         left: (T, 6) twist from where the object is to where it is wanted [m, rad].
-        damping: [m/rad] joint motions are as dear as this much of the way; 0 to go all of it whatever it takes.
     """
     dimension = start.spaces.Gamma_ucs.shape[1]
     reached = [motion_coordinates(at.response, at.spaces, way) for at, way in zip(each, left, strict=True)]
@@ -57,14 +75,7 @@ def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Arra
         free = followed_axes(start, task)[1].shape[1]
         each, basis = [turned(at, seen, free) for at in each], np.eye(dimension)[:, :free]
         beta = np.array([_seen(at, seen, way, free) for at, way in zip(each, left, strict=True)])
-    costs = [_joints_of(at) for at in each]
-    damped = [
-        np.linalg.solve(np.eye(dimension) + damping**2 * N.T @ N, own) for N, own in zip(costs, beta, strict=True)
-    ]
-    joints = [float(np.linalg.norm(N @ own)) for N, own in zip(costs, damped, strict=True)]
-    return Steps(
-        tuple(each), frozen(np.array(damped).reshape(beta.shape)), frozen(basis), frozen(joints), frozen(beside)
-    )
+    return Steps(tuple(each), frozen(beta), frozen(basis), frozen(beside))
 
 
 def _seen(at: Analysis, seen: Array, way: Array, free: int) -> Array:

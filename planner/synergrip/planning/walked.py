@@ -1,0 +1,195 @@
+"""From a walk to an answer: a plan whose figures are those of the hand that moves, or what keeps it from being one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.conic.along import AtStates
+from synergrip.conic.intersample import Looks
+from synergrip.conic.limits.limit import Usage
+from synergrip.linalg import Array, frozen, interpolated
+from synergrip.planning.between import Between
+from synergrip.planning.instants import intersample_of
+from synergrip.planning.outcome import Check, Plan, Reached, Unknown
+from synergrip.planning.path import Executed
+from synergrip.planning.verified import LIMIT, limit_usages
+from synergrip.planning.walk import Walk, Walker
+from synergrip.statics.kept_dimensions import analyse_like
+from synergrip.statics.motion import Motion
+from synergrip.tasks.tracking import target_displacement
+from synergrip.tasks.tracking_along import steps
+
+FORCE, OF_FORCES = 1e-3, 1e-3
+"""A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
+LENGTH, ANGLE = 1e-5, 1e-4
+"""[m], [rad] to which limits on motions are kept."""
+BALANCED = 1e-8
+"""Relative error of the equilibrium."""
+REACHED = 0.01
+"""How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
+the grasp."""
+
+
+def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
+    """Return the plan that a walk ended with, at its true states; unknown when it did not reach or hold.
+
+    Args:
+        walk: what the passes ended with.
+        walker: who walked.
+        linear: the plan for the start posture, where the walk began.
+    """
+    task, analysis, executed = walker.task, walker.start, walk.executed
+    decisions = (*linear.decisions, *walker.decisions)
+    if walk.way is None or walk.behind > _allowed(walker):
+        return Unknown(task, analysis, _not_reached(walk, walker), decisions, "reach", reached=_reached(walk, walker))
+    if not walk.true:
+        why = (
+            f"after {walk.passes} passes what the linearised grasp promises and what the hand does still differ by "
+            f"{walk.gap:.3g} N"
+        )
+        return Unknown(task, analysis, why, decisions, "execution")
+    motion, usages, between, elastic = _looked_at(walk, walker, linear)
+    checks = (Check("equilibrium", executed.residual, BALANCED), *kept(usages, motion, analysis.response.scale.length))
+    if between is not None:
+        checks = (*checks, *kept(between.usages, motion, analysis.response.scale.length, "between the knots: "))
+    failed = [check for check in checks if not check.passed]
+    if failed:
+        said = "; ".join(f"{check.name} by {check.error:.3g}" for check in failed)
+        return Unknown(task, analysis, f"at the true equilibrium limits are missed: {said}", decisions, "execution")
+    alpha, beta, gamma = analysis.coordinates.coordinates(walk.references)
+    stage = walk.stage
+    return replace(
+        linear, formulation=linear.formulation if stage is None else stage.formulation.whole, motion=motion,
+        alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma), margins=frozen(usages[0].value), usages=usages,
+        checks=checks, decisions=decisions, between=between, executed=executed,
+        elastic_motion=elastic,
+        notes=(*(linear.notes if stage is None else stage.notes), *_notes(walk, walker)),
+        interrupted=stage.interrupted if stage is not None else linear.interrupted,
+    )  # fmt: skip
+
+
+def kept(usages: Sequence[Usage], motion: Motion, length: float, where: str = "") -> tuple[Check, ...]:
+    """Return a check for every limit, in its own unit, to the digits that a true state is promised to.
+
+    Args:
+        usages: of the limits.
+        motion: of the whole task; its largest force counts.
+        length: of the grasp [m].
+        where: said before the title.
+    """
+    force = max(FORCE, OF_FORCES * float(np.abs(motion.forces).max(initial=0.0)))
+    rooms = {"N": force, "N m": force * length, "m": LENGTH, "rad": ANGLE}
+    return tuple(
+        Check(f"{where}{usage.title}", max(float(usage.excess.max(initial=0.0)), 0.0), _room(usage, rooms))
+        for usage in usages
+    )
+
+
+def _room(usage: Usage, rooms: dict[str, float]) -> float:
+    return rooms.get(usage.unit) or LIMIT * float(np.max(usage.scale, initial=0.0))
+
+
+def _allowed(walker: Walker) -> float:
+    return walker.task.tolerance or REACHED * walker.start.response.scale.length
+
+
+def _looked_at(walk: Walk, walker: Walker, linear: Plan) -> tuple[Motion, tuple[Usage, ...], Between | None, Array]:
+    """Return the true motion at the knots, what it uses of every limit there, and the same between them."""
+    task = walker.task
+    motion, formulation = _moved(walk.executed, walker.wanted, walker, linear)
+    usages = limit_usages(task, formulation, motion)
+    elastic = frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
+    motion = replace(motion, du=walk.executed.du)
+    if len(task.times) < 2:
+        return motion, usages, None, elastic
+    looks, samples, corners = _looks(walker)
+    executed = walker.executor(
+        looks.times, frozen(interpolated(looks.times, task.times, walk.references)), looks.wrench
+    )
+    if not executed.whole:
+        return motion, usages, None, elastic
+    there, around = _moved(executed, looks.target, walker, linear)
+    own = tuple(limit.usage(around, there) for limit in task.all_limits if not limit.couples_knots)
+    return motion, usages, Between(samples, 0.0, 0.0, 0.0, own, corners), elastic
+
+
+def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
+    """Return the instants that are looked at: knots, corners, curved pieces, and the middle of every piece."""
+    task = walker.task
+    sampled = intersample_of(task, walker.start)
+    known = Looks(task.times, task.wrench, walker.wanted) if sampled is None else sampled.all
+    middles = frozen((known.times[:-1] + known.times[1:]) / 2)
+    middles = middles[np.diff(known.times) > 0]
+    wrench = None if task.course is None else task.course.load_at(middles)
+    wrench = interpolated(middles, known.times, known.wrench) if wrench is None else wrench
+    target = interpolated(middles, known.times, known.target)
+    if task.course is not None:
+        target = target_displacement(walker.start, task, task.course.target_at(middles))
+    pairs = ((known.times, middles), (known.wrench, wrench), (known.target, target))
+    whole = Looks(*(np.concatenate(pair) for pair in pairs))
+    corners = () if sampled is None else tuple(dict.fromkeys(sampled.corners.times.tolist()))
+    return whole.of(np.argsort(whole.times, kind="stable")), 1 if sampled is None else max(sampled.samples, 1), corners
+
+
+def _moved(executed: Executed, target: Array, walker: Walker, linear: Plan) -> tuple[Motion, AtStates]:
+    """Return executed references as a motion, with the formulation in which its limits are looked at."""
+    start, task = walker.start, walker.task
+    left = executed.left(target)
+    each = [analyse_like(grasp, start) for grasp in executed.grasps]
+    beside = steps(each, start, task, left).beside
+    change = executed.wrench - start.grasp.w_0
+    sag = np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)])
+    displacement = frozen(target - left)
+    formulation = AtStates.of(
+        linear.formulation.whole, times=executed.times, wrench=executed.wrench, target=target,
+        rigid=frozen(displacement + beside),
+    )  # fmt: skip
+    return executed.motion(start, displacement, sag), formulation
+
+
+def _not_reached(walk: Walk, walker: Walker) -> str:
+    """Return from when on a motion is not reached, and how far it gets."""
+    times, executed = walker.task.times, walk.executed
+    if walk.way is None:
+        k = len(executed.forces)
+        return f"not reached from t = {times[k]:.3g} s: {executed.why or 'no equilibrium was found there'}"
+    k = int(np.argmax(walk.way.behind > _allowed(walker)))
+    stuck = _stuck(walk, walker, k)
+    return (
+        f"not reached from t = {times[k]:.3g} s: there the object is {1e3 * walk.way.behind[k]:.3g} mm behind, and by "
+        f"{1e3 * walk.behind:.3g} mm at most{stuck}"
+    )
+
+
+def _stuck(walk: Walk, walker: Walker, k: int) -> str:
+    """Return what keeps the hand from going on at a knot: joints at the ends of their ranges, or straight fingers."""
+    held = walker.start.grasp.held
+    if held is None:
+        return ""
+    q = held.q + walk.executed.joint[k]
+    ends = [
+        f"joint '{joint.name}' is at its {end} limit"
+        for joint, value in zip(held.hand.joints, q, strict=True)
+        for end, off in (("lower", value - joint.lower), ("upper", joint.upper - value))
+        if off < ANGLE * 10
+    ]
+    return f", because {', '.join(ends)}" if ends else ", because the fingers are near a straight posture"
+
+
+def _reached(walk: Walk, walker: Walker) -> Reached:
+    """Return until when the motion was followed, and the pose of the object there."""
+    k = len(walk.executed.forces) if walk.way is None else int(np.argmax(walk.way.behind > _allowed(walker)))
+    pose = walk.executed.du[max(k - 1, 0)] if len(walk.executed.forces) else np.zeros(6)
+    return Reached(float(walker.task.times[max(k - 1, 0)]), frozen(pose), _not_reached(walk, walker))
+
+
+def _notes(walk: Walk, walker: Walker) -> Iterator[str]:
+    """Yield how far the plan is from what was wanted, where that is more than elastic motion."""
+    if walk.behind > LENGTH:
+        yield (
+            f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, within "
+            f"the {1e3 * _allowed(walker):.2g} mm that count as followed"
+        )
