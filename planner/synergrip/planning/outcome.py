@@ -210,8 +210,8 @@ class Unknown(Reasoned):
     why: str
     decisions: tuple[Decision, ...]
     stage: str = "solver"
-    """"solver", where nothing that was solved verifies; "reach", where the hand does not follow the motion; "execution",
-    where the hand does not do what the plan promises."""
+    """"solver": nothing that was solved verifies; "reach": the hand does not follow the motion; "execution": the hand
+    does not do what a plan promises."""
     reached: Reached | None = None
     """Until when the motion was followed, at the stage "reach"."""
 

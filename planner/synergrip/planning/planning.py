@@ -24,7 +24,7 @@ from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
-from synergrip.planning.outcome import Infeasible, Outcome, Unknown
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answered, Answerer, answerer, ask
@@ -69,8 +69,22 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     answers = answerer(solver, "solver")
     known, asked = _judged(grasp, task)
     outcome = _analysed(known, asked, answers)
+    if asked.linearise == "along" and isinstance(outcome, Plan):
+        outcome = _along(outcome, answers)
     LOG.info("%r", outcome)
     return outcome
+
+
+def _along(plan: Plan, answers: Answerer) -> Outcome:
+    """Plan again around the true equilibria of the hand; a grasp given as matrices has none to speak of."""
+    from synergrip.planning.executing import executor_of
+    from synergrip.planning.walk import Walker
+    from synergrip.planning.walked import answer_of
+
+    if plan.grasp.held is None:
+        return plan
+    walker = Walker(plan.task, plan.analysis, executor_of(plan.grasp, plan.task), answers)
+    return answer_of(walker.walk(plan.dz_r, plan.forces), walker, plan)
 
 
 def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> Outcome:

@@ -188,7 +188,8 @@ def _told(found: Walk | None, good: bool) -> str:
         return "no answer"
     if found.way is None:
         return f"ends at instant {len(found.executed.forces)}: {found.executed.why}"
-    return f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind{'' if good else ', taken back'}"
+    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
+    return told if good else f"{told}, taken back"
 
 
 def _sag(each: Sequence[Analysis], start: Analysis, task: TimedTask) -> Array:

@@ -190,6 +190,6 @@ def _notes(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield how far the plan is from what was wanted, where that is more than elastic motion."""
     if walk.behind > LENGTH:
         yield (
-            f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, within "
-            f"the {1e3 * _allowed(walker):.2g} mm that count as followed"
+            f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
+            f"within the {1e3 * _allowed(walker):.2g} mm that count as followed"
         )
