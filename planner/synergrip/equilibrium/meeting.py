@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -32,6 +33,10 @@ class Placed(Value):
     position: Array  # (T, 3) of the object frame B
     rotation: Array  # (T, 3, 3) of the object from the start
 
+    def taken(self, places: Any) -> Placed:
+        """Return them at some of the instants."""
+        return Placed(self.point[places], self.link[places], self.position[places], self.rotation[places])
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Meeting(Value):
@@ -44,6 +49,10 @@ class Meeting(Value):
     left: int | None = None
     """The first instant at which the contact is no longer on its face; None when it stays there."""
 
+    def taken(self, places: Any) -> Meeting:
+        """Return it at some of the instants."""
+        return Meeting(self.place[places], self.frame[places], self.stretch[places], self.left)
+
 
 class Model(ABC):
     """How a contact moves."""
@@ -51,6 +60,10 @@ class Model(ABC):
     @abstractmethod
     def at(self, placed: Placed) -> Meeting:
         """Return the contact at the instants, in the order in which they happen."""
+
+    def after(self, placed: Placed) -> Model:
+        """Return what the model is after the instants: one that remembers its way has gone it."""
+        return self
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,35 +110,56 @@ class Rolling(Model):
     """A rigid round tip that rolls on the surface, held to its link by springs at its centre."""
 
     shape: Shape
-    centre: Array  # (3,) of the tip at the start, from B
-    frame: Array  # (3, 3) of the contact at the start
+    radius: float
+    """Distance of the tip's centre from the surface [m]."""
+    centre: Array  # (3,) of the tip so far, from B, axes of B
+    frame: Array  # (3, 3) of the contact so far, axes of B
+    link: Array  # (3, 3) rotation of the link so far, from the start, axes of B
+    about: Array
+    """(3,) how far the link has turned against the object about n, t, o [rad]."""
+
+    @classmethod
+    def at_start(cls, shape: Shape, centre: Array, frame: Array) -> Rolling:
+        """Return the model of a tip that touches the surface with a frame (3, 3)."""
+        return cls(shape, shape.surface(centre)[0], centre, frame, np.eye(3), np.zeros(3))
 
     def at(self, placed: Placed) -> Meeting:
-        """Return the contact: what the link turns relative to the object, the tip rolls.
-
-        From one instant to the next the centre moves by ``theta x radius nu``, with the normal nu half-way, and is put
-        back to its distance from the surface; a path of instants is followed in their order.
-        """
-        relative = placed.rotation.mT @ placed.link
-        before = np.concatenate([np.eye(3)[None], relative[:-1]])
-        turns = rotation_vectors(relative @ before.mT)  # object axes
-        radius, outward = self.shape.surface(self.centre)
-        centre, frame, about = self.centre, self.frame, np.zeros(3)
-        centres, frames, angles, normals = (np.zeros((len(turns), *s)) for s in ((3,), (3, 3), (3,), (3,)))
-        for k, turn in enumerate(turns):
-            middle = self.shape.surface(centre + np.cross(turn, radius * outward) / 2)[1]
-            moved = centre + np.cross(turn, radius * middle)
-            distance, new = self.shape.surface(moved)
-            centre = moved + (radius - distance) * new
-            carried = carried_along(outward, new) @ frame
-            about = about + (frame + carried).T @ turn / 2
-            frame, outward = carried, new
-            centres[k], frames[k], angles[k], normals[k] = centre, frame, about, outward
+        """Return the contact: what the link turns relative to the object, the tip rolls."""
+        centres, frames, angles = self._way(placed)
         turned = placed.rotation @ frames
         apart = placed.point - placed.position - np.einsum("tij,tj->ti", placed.rotation, centres)
         stretch = np.hstack([np.einsum("tji,tj->ti", turned, apart), angles])
-        left = first_off(self.shape, centres, np.full(len(turns), radius), normals)
-        return Meeting(placed.point + radius * turned[:, :, 0], turned, stretch, left)
+        left = first_off(self.shape, centres, np.full(len(centres), self.radius), -frames[:, :, 0])
+        return Meeting(placed.point + self.radius * turned[:, :, 0], turned, stretch, left)
+
+    def after(self, placed: Placed) -> Rolling:
+        """Return the model with the way of the instants behind it."""
+        centres, frames, angles = self._way(placed)
+        link = placed.rotation[-1].T @ placed.link[-1]
+        return Rolling(self.shape, self.radius, centres[-1], frames[-1], link, angles[-1])
+
+    def _way(self, placed: Placed) -> tuple[Array, Array, Array]:
+        """Return centres (T, 3), frames (T, 3, 3) and turned angles (T, 3).
+
+        From one instant to the next the centre moves by ``theta x radius nu``, with the normal nu half-way, and is put
+        back to its distance from the surface; the tangents are carried along.
+        """
+        relative = placed.rotation.mT @ placed.link
+        before = np.concatenate([self.link[None], relative[:-1]])
+        turns = rotation_vectors(relative @ before.mT)  # axes of B
+        centre, frame, about = self.centre, self.frame, self.about
+        found = []
+        for turn in turns:
+            outward = -frame[:, 0]
+            middle = self.shape.surface(centre + np.cross(turn, self.radius * outward) / 2)[1]
+            moved = centre + np.cross(turn, self.radius * middle)
+            distance, new = self.shape.surface(moved)
+            centre = moved + (self.radius - distance) * new
+            carried = carried_along(outward, new) @ frame
+            about, frame = about + (frame + carried).T @ turn / 2, carried
+            found.append((centre, frame, about))
+        centres, frames, angles = zip(*found, strict=True)
+        return np.array(centres), np.array(frames), np.array(angles)
 
 
 def surface_at(shape: Shape, points: Array) -> tuple[Array, Array]:

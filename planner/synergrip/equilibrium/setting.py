@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.equilibrium.meeting import Model, Rolling, Sliding, Stuck
-from synergrip.equilibrium.states import States
+from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
@@ -46,6 +46,10 @@ class Setting(Value):
         return States(
             np.array(held.q)[None], np.array(held.body.position)[None], np.eye(3)[None], np.array(self.forces)[None]
         )
+
+    def unloaded(self, loads: Loads) -> Loads:
+        """Return (1) the load at the start, with the points of other loads."""
+        return Loads(np.array(self.grasp.w_0)[None], loads.points, np.zeros((1, *loads.at_points.shape[1:])))
 
     @cached_property
     def compliance(self) -> Array:
@@ -109,5 +113,5 @@ def _model(contact: Contact, touch: Touch, held: Held, pad: Array, contact_model
     if shape is not None and kind.components == ("n",):
         return Sliding(shape, shape.surface(pad)[0]), pad
     if shape is not None and touch.pad.radius and contact_model == "rolling" and touch.normals == "object":
-        return Rolling(shape, pad, contact.frame), pad
+        return Rolling.at_start(shape, pad, contact.frame), pad
     return Stuck(contact.point, contact.frame, len(kind.components) > 3), contact.point

@@ -55,6 +55,12 @@ class Loads(Value):
         """Return those at some of the instants."""
         return Loads(self.wrench[places], self.points, self.at_points[places])
 
+    @classmethod
+    def joined(cls, parts: Sequence[Loads]) -> Loads:
+        """Return loads of the same points one after the other."""
+        wrench, at_points = (np.concatenate([getattr(part, name) for part in parts]) for name in ("wrench", "at_points"))
+        return cls(wrench, parts[0].points, at_points)
+
     def acting(self, rotation: Array) -> Array:
         """Return the wrench (T, 6) on an object that is turned (T, 3, 3): points of it turn with it."""
         if not len(self.points):
