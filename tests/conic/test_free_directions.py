@@ -66,7 +66,10 @@ def free(rng: np.random.Generator, count: int, n_v: int, of_each_knot: bool) -> 
     if of_each_knot:
         return sparse.csc_matrix(sparse.kron(sparse.eye_array(KNOTS), directions))
     time = np.linalg.qr(rng.normal(size=(KNOTS, 2)))[0]
-    parts = sparse.kron(sparse.eye_array(KNOTS), directions[:, 1:]), sparse.kron(sparse.csr_array(3 * time), directions[:, :1])
+    parts = (
+        sparse.kron(sparse.eye_array(KNOTS), directions[:, 1:]),
+        sparse.kron(sparse.csr_array(3 * time), directions[:, :1]),
+    )
     return sparse.csc_matrix(sparse.hstack(parts))
 
 
