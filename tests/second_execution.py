@@ -103,30 +103,40 @@ class OffItsFaceError(NotReachedError):
 
 
 def solved(equilibrium: Equilibrium, state: State, dz_r: Array, load: Load) -> Array:
-    """Return the unknowns (n,) of the equilibrium that Newton's method finds from a state."""
+    """Return the unknowns (n,) of the equilibrium that Newton's method finds from a state.
+
+    The derivatives are kept as long as each step is a fifth of the one before it.
+    """
     n_l, n_q = equilibrium.n_l, equilibrium.n_q
     size = np.concatenate([np.ones(n_l), np.full(n_q, 1e-2), np.full(3, 1e-3), np.full(3, 1e-2)])
-    """What is a small change of each unknown; differences are taken of 1e-4 of it."""
-    x, h = equilibrium.unknowns(state), 1e-4 * size
-    steps = np.vstack([np.diag(h), np.diag(-h)])
+    x, slopes, before = equilibrium.unknowns(state), None, np.inf
     for _ in range(ITERATIONS):
-        seen = equilibrium.residual(np.vstack([x[None], x + steps]), state, dz_r, load)
-        out, plus, minus = seen[0], seen[1 : 1 + len(x)], seen[1 + len(x) :]
-        slopes = ((plus - minus) / 2).T * 1e4  # by unknowns in units of their size
+        if slopes is None:
+            slopes = differences(equilibrium, x, size, state, dz_r, load)
+        out = equilibrium.residual(x[None], state, dz_r, load)[0]
         rows = 1 / np.maximum(np.abs(slopes).max(axis=1), 1e-12)
         try:
-            step = -np.linalg.solve(rows[:, None] * slopes, rows * out) * size
+            step = -np.linalg.solve(rows[:, None] * slopes, rows * out)
         except np.linalg.LinAlgError:
             raise NotReachedError("the equations are singular") from None
-        moved = step[n_l:]
-        if max(np.abs(moved[:n_q]).max(), np.abs(moved[n_q + 3 :]).max()) > LARGEST_TURN or (
-            np.abs(moved[n_q : n_q + 3]).max() > LARGEST_SHIFT
-        ):
+        x, moved = x + step * size, np.abs(step * size)[n_l:]
+        if np.delete(moved, np.s_[n_q : n_q + 3]).max() > LARGEST_TURN or moved[n_q : n_q + 3].max() > LARGEST_SHIFT:
             raise NotReachedError("a small change moves hand or object far")
-        x = x + step
-        if np.abs(step / size).max() < 1e-9 * max(1.0, float(np.abs(x[:n_l]).max())):
+        largest = float(np.abs(step).max())
+        if largest < 1e-9 * max(1.0, float(np.abs(x[:n_l]).max())):
             return x
+        slopes, before = (slopes if largest < before / 5 else None), largest
     raise NotReachedError("no equilibrium was found nearby")
+
+
+def differences(equilibrium: Equilibrium, x: Array, size: Array, state: State, dz_r: Array, load: Load) -> Array:
+    """Return what the residual changes (n, n) with each unknown, in units of what is a small change (n,) of it.
+
+    All unknowns are moved at once, each in a copy of the state: by 1e-4 of its size to either side.
+    """
+    h = np.diag(1e-4 * size)
+    seen = equilibrium.residual(np.vstack([x + h, x - h]), state, dz_r, load)
+    return np.asarray((seen[: len(x)] - seen[len(x) :]).T / 2e-4)
 
 
 def _told(document: dict[str, Any], equilibrium: Equilibrium, reached: list[State], ended: str | None) -> Executed:
