@@ -55,8 +55,8 @@ class Balance(Value):
 
     def taken(self, places: Places) -> Balance:
         """Return the equations at some of the states."""
-        parts = ([each.taken(places) for each in group] for group in (self.placed, self.meetings))
-        placed, meetings = (tuple(part) for part in parts)
+        placed = tuple(each.taken(places) for each in self.placed)
+        meetings = tuple(each.taken(places) for each in self.meetings)
         return Balance(self.setting, self.states.taken(places), self.loads.taken(places), self.references[places],
                        placed, meetings, self.jacobians[places])  # fmt: skip
 
@@ -105,7 +105,7 @@ class Balance(Value):
     @cached_property
     def torques(self) -> Array:
         """(T, n_q) tau = J' lambda."""
-        return np.einsum("tij,ti->tj", self.J, self.states.forces)
+        return np.asarray(np.einsum("tij,ti->tj", self.J, self.states.forces))
 
     @cached_property
     def residuals(self) -> tuple[Array, Array, Array]:
@@ -118,7 +118,7 @@ class Balance(Value):
 
     @cached_property
     def error(self) -> Array:
-        """(T,) how far each state is from equilibrium: lengths and angles over the grasp's length, forces over theirs."""
+        """(T,) how far each state is from equilibrium: lengths over the grasp's length, forces over the largest."""
         springs, joints, balance = self.residuals
         length = self.setting.length
         moments = np.array([1.0, 1.0, 1.0, *[1 / length] * 3])
@@ -128,7 +128,7 @@ class Balance(Value):
 
     @cached_property
     def tangent(self) -> Array:
-        """(T, n, n) derivatives of (r_s, r_q, r_w) by (lambda, q, u), geometric stiffness included; n = n_l + n_q + 6."""
+        """(T, n, n) derivatives of (r_s, r_q, r_w) by (lambda, q, u), geometric stiffness too; n = n_l + n_q + 6."""
         grasp, C = self.setting.grasp, self.setting.compliance
         n_l, n_q = grasp.n_l, grasp.n_q
         J, G = self.J, self.G
@@ -158,7 +158,6 @@ class Balance(Value):
             of_object[:, 3:, 3:] += skews(self.arms[:, i]) @ skew + moment
         of_object[:, 3:, 3:] -= self.loads.turning(self.states.rotation)
         return of_joints, mixed, of_object
-
 
     def _moment(self, i: int) -> Array:
         """Return the skew matrices (T, 3, 3) of the moments that a contact transmits, palm axes."""

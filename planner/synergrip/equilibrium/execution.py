@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -19,7 +20,7 @@ from synergrip.values import Value
 
 SQUEEZE = 10
 """Steps in which the references of the first instant are reached."""
-SHORTEST = 1 / 64
+SHORTEST = Fraction(1, 640)
 """Share of a step from one instant to the next below which it is given up."""
 
 
@@ -56,6 +57,28 @@ class Execution(Value):
     def whole(self) -> bool:
         """Whether all instants were reached."""
         return len(self.states) == len(self.times)
+
+    @property
+    def guess(self) -> States:
+        """States to begin at when references near these are executed."""
+        return self.path.states if len(self.path.states) == len(self.times) + _lead(self.setting) else self.states
+
+    @cached_property
+    def joint(self) -> Array:
+        """(K, n_q) joint displacement from the start [rad or m]."""
+        return frozen(self.states.q - self.setting.held.q)
+
+    def left(self, wanted: Array) -> Array:
+        """Return the twist (K, 6) from where the object is to where it is wanted.
+
+        Args:
+            wanted: (T, 6) displacements from the start: translation and rotation vector [m, rad].
+        """
+        from scipy.spatial.transform import Rotation
+
+        aim = np.array(wanted[: len(self.states)])
+        turn = Rotation.from_rotvec(aim[:, 3:]) * Rotation.from_matrix(np.array(self.states.rotation)).inv()
+        return frozen(np.hstack([aim[:, :3] - self.du[:, :3], turn.as_rotvec()]))
 
     @cached_property
     def margins(self) -> Array:
@@ -129,7 +152,7 @@ def execute(
     """
     own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
     references = np.asarray(references, dtype=float)
-    lead = SQUEEZE - 1 if own.contact_model == "rolling" else 0
+    lead = _lead(own)
     way = _led(own, references, loads, lead)
     if guess is not None and len(guess) in (len(times), lead + len(times)):
         near = guess if len(guess) == lead + len(times) else _led_states(own, guess, lead)
@@ -137,6 +160,11 @@ def execute(
         if np.all(at_rest(balance)) and on_faces(balance) == len(near):
             return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
     return _followed(own, times, references, loads)
+
+
+def _lead(own: Setting) -> int:
+    """Return how many steps of the first squeeze are gone through: the way counts only where contacts roll."""
+    return SQUEEZE - 1 if own.contact_model == "rolling" else 0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -174,24 +202,26 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Ex
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
     path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
     for k in range(len(times)):
-        share, step = 0.0, 1.0 / SQUEEZE if k == 0 else 1.0
+        gone, step = Fraction(0), Fraction(1, SQUEEZE if k == 0 else 1)
         from_z, from_w, to_w = z, w, loads.taken([k])
-        while share < 1.0 and not why:
-            there = min(1.0, share + step)
+        while gone < 1 and not why:
+            there = float(min(Fraction(1), gone + step))
             z, w = (1 - there) * from_z + there * references[[k]], from_w.between(to_w, there)
             balance, iterations = settled(here, state, w, z)
             count += iterations
             if at_rest(balance)[0] and on_faces(balance):
-                here, state, share = balance.moved_on(), balance.states, there
+                here, state, gone = balance.moved_on(), balance.states, gone + step
                 path.append((state, z, w))
-            elif step > SHORTEST:
+            elif step / 2 >= SHORTEST:
                 step /= 2
             else:
                 why = _why(balance)
         if why:
             break
         kept.append(len(path) - 1)
-    states, zs, ws = zip(*path[: kept[-1] + 1], strict=True) if kept else ((own.start,), (0 * z,), (own.unloaded(loads),))
+    states, zs, ws = (
+        zip(*path[: kept[-1] + 1], strict=True) if kept else ((own.start,), (0 * z,), (own.unloaded(loads),))
+    )
     whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
     return Execution(times, references, whole, np.array(kept, dtype=int), count, why)
 

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import InputError, one_of
 from synergrip.equilibrium.meeting import Model, Rolling, Sliding, Stuck
 from synergrip.equilibrium.states import Loads, States
+from synergrip.errors import InputError, one_of
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held

@@ -58,7 +58,9 @@ class Loads(Value):
     @classmethod
     def joined(cls, parts: Sequence[Loads]) -> Loads:
         """Return loads of the same points one after the other."""
-        wrench, at_points = (np.concatenate([getattr(part, name) for part in parts]) for name in ("wrench", "at_points"))
+        wrench, at_points = (
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("wrench", "at_points")
+        )
         return cls(wrench, parts[0].points, at_points)
 
     def acting(self, rotation: Array) -> Array:

@@ -13,13 +13,13 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
+from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.planning.answer import Answer, Tabled
 from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
-from synergrip.planning.path import Executed
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
@@ -75,7 +75,7 @@ class Plan(Tabled):
     between: Between | None = None
     """The plan between its knots; None when nothing is known of it."""
 
-    executed: Executed | None = None
+    executed: Execution | None = None
     """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""

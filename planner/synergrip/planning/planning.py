@@ -77,14 +77,14 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
 
 def _along(plan: Plan, answers: Answerer) -> Outcome:
     """Plan again around the true equilibria of the hand; a grasp given as matrices has none to speak of."""
-    from synergrip.planning.executing import executor_of
+    from synergrip.planning.executing import Executor
     from synergrip.planning.walk import Walker
     from synergrip.planning.walked import answer_of
 
     if plan.grasp.held is None:
         return plan
-    walker = Walker(plan.task, plan.analysis, executor_of(plan.grasp, plan.task), answers)
-    return answer_of(walker.walk(plan.dz_r, plan.forces), walker, plan)
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
+    return answer_of(walker.walk(plan.motion), walker, plan)
 
 
 def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> Outcome:

@@ -20,9 +20,10 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.question import Question
 from synergrip.conic.rows import Rows, norm_within
+from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
-from synergrip.planning.path import Executed, Executor
+from synergrip.planning.executing import Executor
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.planning.stages import Stage, through
 from synergrip.statics.analysis import Analysis
@@ -52,7 +53,7 @@ class Walk(Value):
     """References, what they really do, and what led to them."""
 
     references: Array  # (T, n_z)
-    executed: Executed
+    executed: Execution
     gap: float
     """[N] largest difference between the contact forces promised and the true ones."""
     way: Steps | None
@@ -64,7 +65,7 @@ class Walk(Value):
     @property
     def true(self) -> bool:
         """Whether what was promised is what happens."""
-        largest = float(np.abs(self.executed.forces).max(initial=0.0))
+        largest = float(np.abs(self.executed.states.forces).max(initial=0.0))
         return self.way is not None and self.gap <= max(TRUE, OF_FORCES * largest)
 
     @property
@@ -115,14 +116,13 @@ class Walker:
     solver: Answerer
     decisions: list[Decision] = field(default_factory=list)
 
-    def walk(self, references: Array, promised: Array) -> Walk:
+    def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
 
         Args:
-            references: (T, n_z) of the plan.
-            promised: (T, n_l) contact forces that it promises [N].
+            linear: the motion that the plan promises.
         """
-        best, share, tries = self._executed(references, promised), 1.0, 0
+        best, share, tries = self._executed(linear.dz_r, linear.forces, linear), 1.0, 0
         for count in range(1, MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
             if best.way is None or done or share < SHORTEST:
@@ -139,9 +139,10 @@ class Walker:
         promised = stage.formulation.force.at(stage.v)
         return replace(self._executed(stage.formulation.reference.at(stage.v), promised), stage=stage)
 
-    def _executed(self, references: Array, promised: Array) -> Walk:
-        executed = self.executor(self.task.times, frozen(references), self.task.wrench)
-        gap = float(np.abs(executed.forces - promised[: len(executed.forces)]).max(initial=0.0))
+    def _executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+        executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
+        forces = executed.states.forces
+        gap = float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
         if not executed.whole:
             return Walk(frozen(references), executed, gap, None)
         each = [analyse_like(grasp, self.start) for grasp in executed.grasps]
@@ -187,7 +188,7 @@ def _told(found: Walk | None, good: bool) -> str:
     if found is None:
         return "no answer"
     if found.way is None:
-        return f"ends at instant {len(found.executed.forces)}: {found.executed.why}"
+        return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
     told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
     return told if good else f"{told}, taken back"
 

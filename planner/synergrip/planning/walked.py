@@ -10,11 +10,12 @@ import numpy as np
 from synergrip.conic.along import AtStates
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Usage
+from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
+from synergrip.planning.executing import motion_of
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Check, Plan, Reached, Unknown
-from synergrip.planning.path import Executed
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
 from synergrip.statics.kept_dimensions import analyse_like
@@ -99,19 +100,19 @@ def _allowed(walker: Walker) -> float:
 def _looked_at(walk: Walk, walker: Walker, linear: Plan) -> tuple[Motion, tuple[Usage, ...], Between | None, Array]:
     """Return the true motion at the knots, what it uses of every limit there, and the same between them."""
     task = walker.task
-    motion, formulation = _moved(walk.executed, walker.wanted, walker, linear)
+    motion, formulation = _moved(walk.executed, task.wrench, walker.wanted, walker, linear)
     usages = limit_usages(task, formulation, motion)
     elastic = frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
     motion = replace(motion, du=walk.executed.du)
     if len(task.times) < 2:
         return motion, usages, None, elastic
     looks, samples, corners = _looks(walker)
-    executed = walker.executor(
+    executed = walker.executor.run(
         looks.times, frozen(interpolated(looks.times, task.times, walk.references)), looks.wrench
     )
     if not executed.whole:
         return motion, usages, None, elastic
-    there, around = _moved(executed, looks.target, walker, linear)
+    there, around = _moved(executed, looks.wrench, looks.target, walker, linear)
     own = tuple(limit.usage(around, there) for limit in task.all_limits if not limit.couples_knots)
     return motion, usages, Between(samples, 0.0, 0.0, 0.0, own, corners), elastic
 
@@ -134,27 +135,28 @@ def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
     return whole.of(np.argsort(whole.times, kind="stable")), 1 if sampled is None else max(sampled.samples, 1), corners
 
 
-def _moved(executed: Executed, target: Array, walker: Walker, linear: Plan) -> tuple[Motion, AtStates]:
+def _moved(executed: Execution, wrench: Array, target: Array, walker: Walker, linear: Plan) -> tuple[Motion, AtStates]:
     """Return executed references as a motion, with the formulation in which its limits are looked at."""
     start, task = walker.start, walker.task
     left = executed.left(target)
     each = [analyse_like(grasp, start) for grasp in executed.grasps]
     beside = steps(each, start, task, left).beside
-    change = executed.wrench - start.grasp.w_0
+    change = wrench - start.grasp.w_0
     sag = np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)])
     displacement = frozen(target - left)
     formulation = AtStates.of(
-        linear.formulation.whole, times=executed.times, wrench=executed.wrench, target=target,
+        linear.formulation.whole, times=executed.times, wrench=wrench, target=target,
         rigid=frozen(displacement + beside),
     )  # fmt: skip
-    return executed.motion(start, displacement, sag), formulation
+    motion = motion_of(executed, start, wrench, frozen(sag))
+    return replace(motion, du=displacement), formulation
 
 
 def _not_reached(walk: Walk, walker: Walker) -> str:
     """Return from when on a motion is not reached, and how far it gets."""
     times, executed = walker.task.times, walk.executed
     if walk.way is None:
-        k = len(executed.forces)
+        k = len(executed.states)
         return f"not reached from t = {times[k]:.3g} s: {executed.why or 'no equilibrium was found there'}"
     k = int(np.argmax(walk.way.behind > _allowed(walker)))
     stuck = _stuck(walk, walker, k)
@@ -181,8 +183,8 @@ def _stuck(walk: Walk, walker: Walker, k: int) -> str:
 
 def _reached(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, and the pose of the object there."""
-    k = len(walk.executed.forces) if walk.way is None else int(np.argmax(walk.way.behind > _allowed(walker)))
-    pose = walk.executed.du[max(k - 1, 0)] if len(walk.executed.forces) else np.zeros(6)
+    k = len(walk.executed.states) if walk.way is None else int(np.argmax(walk.way.behind > _allowed(walker)))
+    pose = walk.executed.du[max(k - 1, 0)] if len(walk.executed.states) else np.zeros(6)
     return Reached(float(walker.task.times[max(k - 1, 0)]), frozen(pose), _not_reached(walk, walker))
 
 
