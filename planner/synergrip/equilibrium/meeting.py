@@ -1,8 +1,8 @@
 """How a pad and the object meet: three models of a contact, each a function of where link and object are.
 
 All return where the force acts, its frame, and the stretch of the contact's springs since the start, such that the
-Jacobians of hand and object at that point are the derivatives of the stretch. So hand and object feel equal and opposite
-forces, whatever the motion.
+Jacobians of hand and object at that point are the derivatives of the stretch. So hand and object feel equal and
+opposite forces, whatever the motion.
 """
 
 from __future__ import annotations

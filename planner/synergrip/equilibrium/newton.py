@@ -32,13 +32,12 @@ def settled(setting: Setting, states: States, loads: Loads, references: Array) -
     Returns:
         the equations; whose `error` is above `AT_REST` where the method did not converge.
     """
-    balance = Balance.of(setting, states, loads, references)
+    balance, last = Balance.of(setting, states, loads, references), False
     for count in range(MOST):
-        active = balance.error > AT_REST
-        if not np.any(active) or not np.all(balance.error < LOST):
+        if last or not np.all(balance.error < LOST):
             return balance, count
-        change = _steps(balance)
-        moved = _moved(setting, balance.states, change)
+        last = bool(np.all(at_rest(balance)))  # one iteration more makes all digits of that
+        moved = _moved(setting, balance.states, _steps(balance))
         balance = Balance.of(setting, moved, loads, references)
     return balance, MOST
 
