@@ -132,18 +132,23 @@ class Balance(Value):
         grasp, C = self.setting.grasp, self.setting.compliance
         n_l, n_q = grasp.n_l, grasp.n_q
         J, G = self.J, self.G
-        of_joints, mixed, of_object = self._geometric()
+        of_joints, of_pose, of_arms, of_object = self._geometric()
         whole = np.zeros((len(J), n_l + n_q + 6, n_l + n_q + 6))
         q, u = slice(n_l, n_l + n_q), slice(n_l + n_q, None)
         whole[:, :n_l, :n_l], whole[:, :n_l, q], whole[:, :n_l, u] = grasp.C_s, -J, G.mT
-        whole[:, q, :n_l], whole[:, q, q], whole[:, q, u] = C @ J.mT, np.eye(n_q) + C @ of_joints, C @ mixed
-        whole[:, u, :n_l], whole[:, u, q], whole[:, u, u] = G, -mixed.mT, -of_object
+        whole[:, q, :n_l], whole[:, q, q], whole[:, q, u] = C @ J.mT, np.eye(n_q) + C @ of_joints, C @ of_pose
+        whole[:, u, :n_l], whole[:, u, q], whole[:, u, u] = G, -of_arms.mT, -of_object
         return whole
 
-    def _geometric(self) -> tuple[Array, Array, Array]:
-        """Return the second derivatives of ``lambda' d`` by q and q, q and u, u and u, with forces that turn with B."""
+    def _geometric(self) -> tuple[Array, Array, Array, Array]:
+        """Return how torques change with q (T, n_q, n_q) and u (T, n_q, 6), and wrenches, less, with q and u.
+
+        Forces and moments turn with B. These are the second derivatives of ``lambda' d`` where there are no moments; a
+        moment on the object does not change with q. Left out: how moments turn with the joints that carry them.
+        """
         T, n_q = self.states.q.shape
-        of_joints, mixed, of_object = np.zeros((T, n_q, n_q)), np.zeros((T, n_q, 6)), np.zeros((T, 6, 6))
+        of_joints, of_arms, of_object = np.zeros((T, n_q, n_q)), np.zeros((T, n_q, 6)), np.zeros((T, 6, 6))
+        turned = np.zeros((T, n_q, 3))
         for i, rows in enumerate(self.setting.grasp.rows):
             count = min(3, rows.stop - rows.start)
             force = np.einsum("tij,tj->ti", self.frames[:, i, :, :count], self.states.forces[:, rows][:, :count])
@@ -152,12 +157,15 @@ class Balance(Value):
             below = self.setting.above * whole
             of_joints += below + (below - below * np.eye(n_q)).mT
             moment = self._moment(i)
-            mixed[:, :, 3:] -= moving.mT @ skew + turning.mT @ moment
+            of_arms[:, :, 3:] -= moving.mT @ skew
+            turned -= turning.mT @ moment
             of_object[:, :3, 3:] += skew
             of_object[:, 3:, :3] -= skew
             of_object[:, 3:, 3:] += skews(self.arms[:, i]) @ skew + moment
         of_object[:, 3:, 3:] -= self.loads.turning(self.states.rotation)
-        return of_joints, mixed, of_object
+        of_pose = of_arms.copy()
+        of_pose[:, :, 3:] += turned
+        return of_joints, of_pose, of_arms, of_object
 
     def _moment(self, i: int) -> Array:
         """Return the skew matrices (T, 3, 3) of the moments that a contact transmits, palm axes."""
