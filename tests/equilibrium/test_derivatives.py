@@ -83,12 +83,16 @@ def test_the_tangent_of_hard_contacts_that_stick_is_the_derivative(name: str) ->
         assert np.all(apart < 1e-8 * size)
 
 
-def test_the_balance_of_soft_contacts_that_stick_has_its_derivative() -> None:
-    """That of r_w alone: how their moments turn with the links is left out of r_s and r_q."""
+def test_soft_contacts_that_stick_have_their_derivatives_but_for_turning_axes() -> None:
+    """Those of r_w are whole; of r_q, how moments turn with joints is left out, of r_s, large turns."""
     grasp = bundled("gripper-peg")
     assert "m" in grasp.contacts[0].kind.components
-    apart, size = off(anywhere(setting(grasp, "fixed")))
-    assert apart[2] < 1e-8 * size[2]
+    balance = anywhere(setting(grasp, "fixed"))
+    tangent, n_l = balance.tangent[0], grasp.n_l
+    seen = differences(lambda change: moved(balance, change), len(tangent))
+    assert tangent[-6:] == pytest.approx(seen[-6:], abs=1e-8)
+    assert tangent[n_l:, :n_l] == pytest.approx(seen[n_l:, :n_l], abs=1e-8)
+    assert tangent[n_l:, -6:] == pytest.approx(seen[n_l:, -6:], abs=1e-8)
 
 
 def test_a_push_turns_with_the_object() -> None:
