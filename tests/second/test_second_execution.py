@@ -163,7 +163,7 @@ def test_it_agrees_with_the_linear_plan_to_first_order(name: str, model: str) ->
         assert np.all((larger / smaller > 3) & (larger / smaller < 5)), off
 
 
-@pytest.mark.parametrize("name", ["gripper-peg", "human-glass", "robonaut-handle"])
+@pytest.mark.parametrize("name", ["gripper-peg", "human-glass", "robonaut-handle", "table2-soft-motors"])
 def test_torques_do_the_work_of_the_forces(name: str) -> None:
     equilibrium, rng = equilibrium_of(name, "fixed"), np.random.default_rng(0)
     q = equilibrium.q_0 + rng.normal(scale=0.1, size=equilibrium.n_q)
