@@ -61,6 +61,8 @@ class Walk(Value):
     stage: Stage | None = None
     """What the goals of the last pass came to; None before the first."""
     passes: int = 0
+    largest_margin: float | None = None
+    """The largest margin [N] in the program of the last pass, when it was asked for."""
 
     @property
     def true(self) -> bool:
@@ -115,6 +117,7 @@ class Walker:
     executor: Executor
     solver: Answerer
     decisions: list[Decision] = field(default_factory=list)
+    margins: list[float | None] = field(default_factory=list)
 
     def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
@@ -122,7 +125,7 @@ class Walker:
         Args:
             linear: the motion that the plan promises.
         """
-        best, share, tries = self._executed(linear.dz_r, linear.forces, linear), 1.0, 0
+        best, share, tries = self.executed(linear.dz_r, linear.forces, linear), 1.0, 0
         for count in range(1, MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
             if best.way is None or done or share < SHORTEST:
@@ -137,9 +140,17 @@ class Walker:
 
     def _after(self, stage: Stage) -> Walk:
         promised = stage.formulation.force.at(stage.v)
-        return replace(self._executed(stage.formulation.reference.at(stage.v), promised), stage=stage)
+        found = self.executed(stage.formulation.reference.at(stage.v), promised)
+        return replace(found, stage=stage, largest_margin=self.margins.pop())
 
-    def _executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+    def executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+        """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
+
+        Args:
+            references: at the knots of the task.
+            promised: forces.
+            near: a motion that is not far from what they do, when nothing was executed before.
+        """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
         gap = float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
@@ -160,6 +171,7 @@ class Walker:
         if not answered.decision.acceptable:
             return None
         stage = Stage(answered.question.formulation, (*limits, short), first, (answered.decision,))
+        self.margins[:] = [stage.largest_margin]
         return through(stage, others, unasked_goals(self.task), self.solver)
 
     @cached_property

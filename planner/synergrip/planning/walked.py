@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.conic.along import AtStates
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
@@ -22,6 +23,7 @@ from synergrip.statics.kept_dimensions import analyse_like
 from synergrip.statics.motion import Motion
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import steps
+from synergrip.values import Value
 
 FORCE, OF_FORCES = 1e-3, 1e-3
 """A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
@@ -34,6 +36,17 @@ REACHED = 0.01
 the grasp."""
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Figures(Value):
+    """What executed references are and use, at the knots of a task and between them."""
+
+    motion: Motion
+    usages: tuple[Usage, ...]
+    elastic_motion: Array  # (T, 6)
+    between: Between | None
+    checks: tuple[Check, ...]
+
+
 def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     """Return the plan that a walk ended with, at its true states; unknown when it did not reach or hold.
 
@@ -42,34 +55,50 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         walker: who walked.
         linear: the plan for the start posture, where the walk began.
     """
-    task, analysis, executed = walker.task, walker.start, walk.executed
+    task, analysis, stage = walker.task, walker.start, walk.stage
     decisions = (*linear.decisions, *walker.decisions)
-    if walk.way is None or walk.behind > _allowed(walker):
-        return Unknown(task, analysis, _not_reached(walk, walker), decisions, "reach", reached=_reached(walk, walker))
+    if walk.way is None or walk.behind > allowed(walker):
+        reached = _reached(walk, walker)
+        return Unknown(task, analysis, reached.because, decisions, "reach", reached)
     if not walk.true:
         why = (
             f"after {walk.passes} passes what the linearised grasp promises and what the hand does still differ by "
             f"{walk.gap:.3g} N"
         )
         return Unknown(task, analysis, why, decisions, "execution")
-    motion, usages, between, elastic = _looked_at(walk, walker, linear)
-    checks = (Check("equilibrium", executed.residual, BALANCED), *kept(usages, motion, analysis.response.scale.length))
-    if between is not None:
-        checks = (*checks, *kept(between.usages, motion, analysis.response.scale.length, "between the knots: "))
-    failed = [check for check in checks if not check.passed]
+    found = figures(walk, walker, linear.formulation)
+    failed = [check for check in found.checks if not check.passed]
     if failed:
-        said = "; ".join(f"{check.name} by {check.error:.3g}" for check in failed)
+        said = "; ".join(f"{check.name}, by {check.error:.3g}" for check in failed)
         return Unknown(task, analysis, f"at the true equilibrium limits are missed: {said}", decisions, "execution")
     alpha, beta, gamma = analysis.coordinates.coordinates(walk.references)
-    stage = walk.stage
+    last = linear if stage is None else stage
     return replace(
-        linear, formulation=linear.formulation if stage is None else stage.formulation.whole, motion=motion,
-        alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma), margins=frozen(usages[0].value), usages=usages,
-        checks=checks, decisions=decisions, between=between, executed=executed,
-        elastic_motion=elastic,
-        notes=(*(linear.notes if stage is None else stage.notes), *_notes(walk, walker)),
-        interrupted=stage.interrupted if stage is not None else linear.interrupted,
+        linear, motion=found.motion, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
+        margins=frozen(found.usages[0].value), usages=found.usages, checks=found.checks, decisions=decisions,
+        between=found.between, executed=walk.executed, passes=walk.passes, elastic_motion=found.elastic_motion,
+        largest_margin=linear.largest_margin if stage is None else walk.largest_margin,
+        notes=(*(() if stage is None else stage.notes), *_notes(walk, walker)), interrupted=last.interrupted,
     )  # fmt: skip
+
+
+def figures(walk: Walk, walker: Walker, formulation: Formulation) -> Figures:
+    """Return the figures of a walk all of whose knots were reached.
+
+    Args:
+        walk: references and their execution.
+        walker: whose task it is.
+        formulation: of the task at its knots, for names and units.
+    """
+    task, length = walker.task, walker.start.response.scale.length
+    motion, there = _moved(walk.executed, task.wrench, walker.wanted, walker, formulation)
+    usages = limit_usages(task, there, motion)
+    between = _between(walk, walker, formulation)
+    elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
+    checks = (Check("equilibrium", walk.executed.residual, BALANCED), *kept(usages, motion, length))
+    if task.between == "hold" and between is not None:
+        checks = (*checks, *kept(between.usages, motion, length, "between the knots: "))
+    return Figures(replace(motion, du=walk.executed.du), usages, elastic, between, checks)
 
 
 def kept(usages: Sequence[Usage], motion: Motion, length: float, where: str = "") -> tuple[Check, ...]:
@@ -93,28 +122,24 @@ def _room(usage: Usage, rooms: dict[str, float]) -> float:
     return rooms.get(usage.unit) or LIMIT * float(np.max(usage.scale, initial=0.0))
 
 
-def _allowed(walker: Walker) -> float:
+def allowed(walker: Walker) -> float:
+    """Return how far the rigid motion may be behind the wanted one [m]."""
     return walker.task.tolerance or REACHED * walker.start.response.scale.length
 
 
-def _looked_at(walk: Walk, walker: Walker, linear: Plan) -> tuple[Motion, tuple[Usage, ...], Between | None, Array]:
-    """Return the true motion at the knots, what it uses of every limit there, and the same between them."""
+def _between(walk: Walk, walker: Walker, formulation: Formulation) -> Between | None:
+    """Return what the references really do between the knots; None where there is nothing, or they end there."""
     task = walker.task
-    motion, formulation = _moved(walk.executed, task.wrench, walker.wanted, walker, linear)
-    usages = limit_usages(task, formulation, motion)
-    elastic = frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
-    motion = replace(motion, du=walk.executed.du)
     if len(task.times) < 2:
-        return motion, usages, None, elastic
+        return None
     looks, samples, corners = _looks(walker)
-    executed = walker.executor.run(
-        looks.times, frozen(interpolated(looks.times, task.times, walk.references)), looks.wrench
-    )
+    references = frozen(interpolated(looks.times, task.times, walk.references))
+    executed = walker.executor.run(looks.times, references, looks.wrench)
     if not executed.whole:
-        return motion, usages, None, elastic
-    there, around = _moved(executed, looks.wrench, looks.target, walker, linear)
-    own = tuple(limit.usage(around, there) for limit in task.all_limits if not limit.couples_knots)
-    return motion, usages, Between(samples, 0.0, 0.0, 0.0, own, corners), elastic
+        return None
+    motion, there = _moved(executed, looks.wrench, looks.target, walker, formulation)
+    usages = tuple(limit.usage(there, motion) for limit in task.all_limits if not limit.couples_knots)
+    return Between(samples, 0.0, 0.0, 0.0, usages, corners)
 
 
 def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
@@ -135,7 +160,9 @@ def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
     return whole.of(np.argsort(whole.times, kind="stable")), 1 if sampled is None else max(sampled.samples, 1), corners
 
 
-def _moved(executed: Execution, wrench: Array, target: Array, walker: Walker, linear: Plan) -> tuple[Motion, AtStates]:
+def _moved(
+    executed: Execution, wrench: Array, target: Array, walker: Walker, formulation: Formulation
+) -> tuple[Motion, AtStates]:
     """Return executed references as a motion, with the formulation in which its limits are looked at."""
     start, task = walker.start, walker.task
     left = executed.left(target)
@@ -144,12 +171,12 @@ def _moved(executed: Execution, wrench: Array, target: Array, walker: Walker, li
     change = wrench - start.grasp.w_0
     sag = np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)])
     displacement = frozen(target - left)
-    formulation = AtStates.of(
-        linear.formulation.whole, times=executed.times, wrench=wrench, target=target,
+    there = AtStates.of(
+        formulation.whole, times=executed.times, wrench=wrench, target=target,
         rigid=frozen(displacement + beside),
     )  # fmt: skip
     motion = motion_of(executed, start, wrench, frozen(sag))
-    return replace(motion, du=displacement), formulation
+    return replace(motion, du=displacement), there
 
 
 def _not_reached(walk: Walk, walker: Walker) -> str:
@@ -158,7 +185,7 @@ def _not_reached(walk: Walk, walker: Walker) -> str:
     if walk.way is None:
         k = len(executed.states)
         return f"not reached from t = {times[k]:.3g} s: {executed.why or 'no equilibrium was found there'}"
-    k = int(np.argmax(walk.way.behind > _allowed(walker)))
+    k = int(np.argmax(walk.way.behind > allowed(walker)))
     stuck = _stuck(walk, walker, k)
     return (
         f"not reached from t = {times[k]:.3g} s: there the object is {1e3 * walk.way.behind[k]:.3g} mm behind, and by "
@@ -183,7 +210,7 @@ def _stuck(walk: Walk, walker: Walker, k: int) -> str:
 
 def _reached(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, and the pose of the object there."""
-    k = len(walk.executed.states) if walk.way is None else int(np.argmax(walk.way.behind > _allowed(walker)))
+    k = len(walk.executed.states) if walk.way is None else int(np.argmax(walk.way.behind > allowed(walker)))
     pose = walk.executed.du[max(k - 1, 0)] if len(walk.executed.states) else np.zeros(6)
     return Reached(float(walker.task.times[max(k - 1, 0)]), frozen(pose), _not_reached(walk, walker))
 
@@ -193,5 +220,5 @@ def _notes(walk: Walk, walker: Walker) -> Iterator[str]:
     if walk.behind > LENGTH:
         yield (
             f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
-            f"within the {1e3 * _allowed(walker):.2g} mm that count as followed"
+            f"within the {1e3 * allowed(walker):.2g} mm that count as followed"
         )
