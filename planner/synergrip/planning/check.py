@@ -8,6 +8,7 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
+from synergrip.equilibrium.execution import Execution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
@@ -44,6 +45,8 @@ class Judgement(Value):
     checks: tuple[Check, ...]
     between: Between | None = None
     """The references between the knots of both."""
+    executed: Execution | None = None
+    """Their true states, when the task asks for what the hand that moves does with them."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -124,7 +127,15 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     followed = Check("rigid motion [m]", walk.behind, allowed(walker))
     margins = frozen(found.usages[0].value)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between
+        task,
+        analysis,
+        formulation,
+        found.motion,
+        margins,
+        found.usages,
+        (followed, *found.checks),
+        found.between,
+        walk.executed,
     )
 
 

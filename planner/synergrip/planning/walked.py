@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -90,35 +90,38 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation) -> Figures:
         walker: whose task it is.
         formulation: of the task at its knots, for names and units.
     """
-    task, length = walker.task, walker.start.response.scale.length
+    task = walker.task
     motion, there = _moved(walk.executed, task.wrench, walker.wanted, walker, formulation)
     usages = limit_usages(task, there, motion)
     between = _between(walk, walker, formulation)
     elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
-    checks = (Check("equilibrium", walk.executed.residual, BALANCED), *kept(usages, motion, length))
+    rooms = _rooms(walk.executed, walker)
+    checks = (Check("equilibrium", walk.executed.residual, BALANCED), *kept(usages, rooms))
     if task.between == "hold" and between is not None:
-        checks = (*checks, *kept(between.usages, motion, length, "between the knots: "))
+        checks = (*checks, *kept(between.usages, rooms, "between the knots: "))
     return Figures(replace(motion, du=walk.executed.du), usages, elastic, between, checks)
 
 
-def kept(usages: Sequence[Usage], motion: Motion, length: float, where: str = "") -> tuple[Check, ...]:
+def kept(usages: Sequence[Usage], rooms: Mapping[str, float], where: str = "") -> tuple[Check, ...]:
     """Return a check for every limit, in its own unit, to the digits that a true state is promised to.
 
     Args:
         usages: of the limits.
-        motion: of the whole task; its largest force counts.
-        length: of the grasp [m].
+        rooms: by unit, how far beyond a limit counts as kept.
         where: said before the title.
     """
-    force = max(FORCE, OF_FORCES * float(np.abs(motion.forces).max(initial=0.0)))
-    rooms = {"N": force, "N m": force * length, "m": LENGTH, "rad": ANGLE}
     return tuple(
         Check(f"{where}{usage.title}", max(float(usage.excess.max(initial=0.0)), 0.0), _room(usage, rooms))
         for usage in usages
     )
 
 
-def _room(usage: Usage, rooms: dict[str, float]) -> float:
+def _rooms(executed: Execution, walker: Walker) -> dict[str, float]:
+    force = max(FORCE, OF_FORCES * float(np.abs(executed.states.forces).max(initial=0.0)))
+    return {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
+
+
+def _room(usage: Usage, rooms: Mapping[str, float]) -> float:
     return rooms.get(usage.unit) or LIMIT * float(np.max(usage.scale, initial=0.0))
 
 
@@ -139,7 +142,8 @@ def _between(walk: Walk, walker: Walker, formulation: Formulation) -> Between | 
         return None
     motion, there = _moved(executed, looks.wrench, looks.target, walker, formulation)
     usages = tuple(limit.usage(there, motion) for limit in task.all_limits if not limit.couples_knots)
-    return Between(samples, 0.0, 0.0, 0.0, usages, corners)
+    rooms = _rooms(walk.executed, walker)
+    return Between(samples, 0.0, 0.0, 0.0, usages, corners, tuple(_room(usage, rooms) for usage in usages))
 
 
 def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
