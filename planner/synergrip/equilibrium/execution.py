@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
@@ -68,6 +68,27 @@ class Execution(Value):
         """(K, n_q) joint displacement from the start [rad or m]."""
         return frozen(self.states.q - self.setting.held.q)
 
+    def interpolated(self, times: Array) -> States:
+        """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
+
+        Where contacts roll, those of the first squeeze come before them.
+        """
+        from scipy.spatial.transform import Rotation
+
+        known = self.states
+        last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
+        span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
+        share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
+        q, position, forces = (
+            (1 - share) * values[last - 1] + share * values[last] for values in (known.q, known.position, known.forces)
+        )
+        before = Rotation.from_matrix(np.array(known.rotation[last - 1]))
+        turn = (Rotation.from_matrix(np.array(known.rotation[last])) * before.inv()).as_rotvec()
+        rotation = (Rotation.from_rotvec(share * turn) * before).as_matrix()
+        there = States(q, position, rotation, forces)
+        lead = len(self.path.states) - len(known)
+        return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
+
     def left(self, wanted: Array) -> Array:
         """Return the twist (K, 6) from where the object is to where it is wanted.
 
@@ -104,20 +125,6 @@ class Execution(Value):
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
         return frozen(1.0 / soft)
-
-    @cached_property
-    def grasps(self) -> tuple[Grasp, ...]:
-        """(K,) the grasp at every equilibrium: where its contacts, G and J are, with the forces and the load there."""
-        grasp, balance = self.setting.grasp, self.balance
-        found = []
-        for k, forces in enumerate(self.states.forces):
-            contacts = tuple(
-                replace(contact, point=frozen(balance.arms[k, i]), frame=frozen(balance.frames[k, i]))
-                for i, contact in enumerate(grasp.contacts)
-            )
-            G, J = frozen(balance.G[k]), frozen(balance.J[k])
-            found.append(replace(grasp, contacts=contacts, G=G, J=J, lambda_0=frozen(forces), w_0=frozen(-G @ forces)))
-        return tuple(found)
 
     @cached_property
     def du(self) -> Array:

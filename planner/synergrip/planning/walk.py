@@ -23,11 +23,10 @@ from synergrip.conic.rows import Rows, norm_within
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
-from synergrip.planning.executing import Executor
+from synergrip.planning.executing import Executor, analyses_of
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.planning.stages import Stage, through
 from synergrip.statics.analysis import Analysis
-from synergrip.statics.kept_dimensions import analyse_like
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
 from synergrip.tasks.scaling import expected_units, units_of
@@ -118,6 +117,8 @@ class Walker:
     solver: Answerer
     decisions: list[Decision] = field(default_factory=list)
     margins: list[float | None] = field(default_factory=list)
+    reserve: float = 0.0
+    """[N] how much more than the task asks contacts are to keep at the knots, so that they keep that between them."""
 
     def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
@@ -125,8 +126,12 @@ class Walker:
         Args:
             linear: the motion that the plan promises.
         """
-        best, share, tries = self.executed(linear.dz_r, linear.forces, linear), 1.0, 0
-        for count in range(1, MOST_PASSES + 1):
+        return self.on(self.executed(linear.dz_r, linear.forces, linear))
+
+    def on(self, best: Walk) -> Walk:
+        """Return the walk that the passes end with, from another one."""
+        share, tries = 1.0, 0
+        for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
             if best.way is None or done or share < SHORTEST:
                 break
@@ -156,7 +161,7 @@ class Walker:
         gap = float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
         if not executed.whole:
             return Walk(frozen(references), executed, gap, None)
-        each = [analyse_like(grasp, self.start) for grasp in executed.grasps]
+        each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
     def _pass(self, way: Steps, walk: Walk, share: float) -> Stage | None:
@@ -165,7 +170,8 @@ class Walker:
         formulation = self.around(way, walk, beta)
         short = ShortStep(frozen(STEP * share + 1.5 * moved))
         first, *others = self.task.goals
-        limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
+        asked = replace(self.task, margin=self.task.margin + self.reserve)
+        limits = asked.kept if isinstance(first, LargestMargin) else asked.all_limits
         answered = ask(Question(formulation, (*limits, short), first), self.solver)
         self.decisions.append(answered.decision)
         if not answered.decision.acceptable:

@@ -14,13 +14,13 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
-from synergrip.planning.executing import motion_of
+from synergrip.planning.executing import analyses_of, motion_of
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Check, Plan, Reached, Unknown
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
-from synergrip.statics.kept_dimensions import analyse_like
 from synergrip.statics.motion import Motion
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import steps
 from synergrip.values import Value
@@ -29,6 +29,9 @@ FORCE, OF_FORCES = 1e-3, 1e-3
 """A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
 LENGTH, ANGLE = 1e-5, 1e-4
 """[m], [rad] to which limits on motions are kept."""
+MORE, MOST_RESERVE = 1.2, 1.0
+"""What is asked for at the knots for each newton of margin that is missing between them, and up to what share of the
+margin."""
 BALANCED = 1e-8
 """Relative error of the equilibrium."""
 REACHED = 0.01
@@ -67,6 +70,10 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         )
         return Unknown(task, analysis, why, decisions, "execution")
     found = figures(walk, walker, linear.formulation)
+    if short := _short_between(found, task):
+        more = replace(walker, reserve=walker.reserve + MORE * short)
+        if more.reserve <= MOST_RESERVE * max(task.margin, short):
+            return answer_of(more.on(replace(walk, gap=np.inf)), more, linear)
     failed = [check for check in found.checks if not check.passed]
     if failed:
         said = "; ".join(f"{check.name}, by {check.error:.3g}" for check in failed)
@@ -80,6 +87,14 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         largest_margin=linear.largest_margin if stage is None else walk.largest_margin,
         notes=(*(() if stage is None else stage.notes), *_notes(walk, walker)), interrupted=last.interrupted,
     )  # fmt: skip
+
+
+def _short_between(found: Figures, task: TimedTask) -> float:
+    """Return by how much a slip margin that is to hold between the knots falls short there [N]; 0 when it is kept."""
+    if task.between != "hold" or found.between is None or found.between.rooms is None:
+        return 0.0
+    short = float(found.between.usages[0].excess.max(initial=0.0))
+    return short if short > found.between.rooms[0] else 0.0
 
 
 def figures(walk: Walk, walker: Walker, formulation: Formulation) -> Figures:
@@ -135,22 +150,23 @@ def _between(walk: Walk, walker: Walker, formulation: Formulation) -> Between | 
     task = walker.task
     if len(task.times) < 2:
         return None
-    looks, samples, corners = _looks(walker)
+    looks, corners = _looks(walker)
     references = frozen(interpolated(looks.times, task.times, walk.references))
-    executed = walker.executor.run(looks.times, references, looks.wrench)
+    near = walk.executed.interpolated(looks.times)
+    executed = walker.executor.run(looks.times, references, looks.wrench, near)
     if not executed.whole:
         return None
     motion, there = _moved(executed, looks.wrench, looks.target, walker, formulation)
     usages = tuple(limit.usage(there, motion) for limit in task.all_limits if not limit.couples_knots)
     rooms = _rooms(walk.executed, walker)
-    return Between(samples, 0.0, 0.0, 0.0, usages, corners, tuple(_room(usage, rooms) for usage in usages))
+    return Between(1, 0.0, 0.0, 0.0, usages, corners, tuple(_room(usage, rooms) for usage in usages))
 
 
-def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
-    """Return the instants that are looked at: knots, corners, curved pieces, and the middle of every piece."""
+def _looks(walker: Walker) -> tuple[Looks, tuple[float, ...]]:
+    """Return the instants that are looked at: knots, corners, and the middle of every piece between them."""
     task = walker.task
     sampled = intersample_of(task, walker.start)
-    known = Looks(task.times, task.wrench, walker.wanted) if sampled is None else sampled.all
+    known = Looks(task.times, task.wrench, walker.wanted) if sampled is None else sampled.grid
     middles = frozen((known.times[:-1] + known.times[1:]) / 2)
     middles = middles[np.diff(known.times) > 0]
     wrench = None if task.course is None else task.course.load_at(middles)
@@ -161,7 +177,7 @@ def _looks(walker: Walker) -> tuple[Looks, int, tuple[float, ...]]:
     pairs = ((known.times, middles), (known.wrench, wrench), (known.target, target))
     whole = Looks(*(np.concatenate(pair) for pair in pairs))
     corners = () if sampled is None else tuple(dict.fromkeys(sampled.corners.times.tolist()))
-    return whole.of(np.argsort(whole.times, kind="stable")), 1 if sampled is None else max(sampled.samples, 1), corners
+    return whole.of(np.argsort(whole.times, kind="stable")), corners
 
 
 def _moved(
@@ -170,7 +186,7 @@ def _moved(
     """Return executed references as a motion, with the formulation in which its limits are looked at."""
     start, task = walker.start, walker.task
     left = executed.left(target)
-    each = [analyse_like(grasp, start) for grasp in executed.grasps]
+    each = analyses_of(executed, start)
     beside = steps(each, start, task, left).beside
     change = wrench - start.grasp.w_0
     sag = np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)])
