@@ -83,7 +83,8 @@ def _along(plan: Plan, answers: Answerer) -> Outcome:
 
     if plan.grasp.held is None:
         return plan
-    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
+    again = SOLVERS["clarabel"] if answers is SOLVERS["cvxpy"] else answers  # which knows the start posture only
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), again)
     return answer_of(walker.walk(plan.motion), walker, plan)
 
 
