@@ -83,7 +83,7 @@ def test_what_a_pass_promises_is_what_happens_but_for_geometric_stiffness() -> N
     ("name", "overrides"),
     [
         ("human-ball", ()),
-        ("gripper-peg", ("task.knots=13",)),
+        ("gripper-peg", ()),
         ("robonaut-handle", ("task.knots=11",)),
         ("barrett-ball-lift-joints", ("task.move[0].lift=-20 mm", "task.knots=21")),
         ("dlr-ball-lift-free", ("limits.synergy_reference=0.2",)),
@@ -114,7 +114,7 @@ def test_a_plan_of_the_start_posture_slips_where_one_along_the_motion_does_not()
 
 
 def test_check_compares_the_true_figures(tmp_path: Path) -> None:
-    problem = load_problem("gripper-peg", ["task.knots=13", "task.linearise=along"])
+    problem = load_problem("gripper-peg", ["task.linearise=along"])
     planned(problem.grasp, problem.task).save(tmp_path)
     judged = judge_references(problem.grasp, problem.timed, read_references(tmp_path, problem.grasp))
     assert judged.verdict == "feasible"
@@ -159,7 +159,7 @@ def test_goals_and_their_order_are_kept() -> None:
 
 
 def test_the_second_solver_begins_and_clarabel_goes_along() -> None:
-    problem = load_problem("gripper-peg", ["task.knots=7", "task.linearise=along"])
+    problem = load_problem("gripper-peg", ["task.linearise=along"])
     answer = planned(problem.grasp, problem.task, solver="cvxpy")
     assert answer.verdict == "feasible"
 

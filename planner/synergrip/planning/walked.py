@@ -32,6 +32,7 @@ LENGTH, ANGLE = 1e-5, 1e-4
 MORE, MOST_RESERVE = 1.2, 1.0
 """What is asked for at the knots for each newton of margin that is missing between them, and up to what share of the
 margin."""
+BETWEEN = "between the knots"
 BALANCED = 1e-8
 """Relative error of the equilibrium."""
 REACHED = 0.01
@@ -77,6 +78,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     failed = [check for check in found.checks if not check.passed]
     if failed:
         said = "; ".join(f"{check.name}, by {check.error:.3g}" for check in failed)
+        said += "; more knots straighten it" if all(BETWEEN in check.name for check in failed) else ""
         return Unknown(task, analysis, f"at the true equilibrium limits are missed: {said}", decisions, "execution")
     alpha, beta, gamma = analysis.coordinates.coordinates(walk.references)
     last = linear if stage is None else stage
@@ -113,7 +115,7 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation) -> Figures:
     rooms = _rooms(walk.executed, walker)
     checks = (Check("equilibrium", walk.executed.residual, BALANCED), *kept(usages, rooms))
     if task.between == "hold" and between is not None:
-        checks = (*checks, *kept(between.usages, rooms, "between the knots: "))
+        checks = (*checks, *kept(between.usages, rooms, f"{BETWEEN}: "))
     return Figures(replace(motion, du=walk.executed.du), usages, elastic, between, checks)
 
 
