@@ -14,9 +14,10 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
-from synergrip.planning.executing import analyses_of, motion_of
+from synergrip.planning.executing import Executor, analyses_of, motion_of
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Check, Plan, Reached, Unknown
+from synergrip.planning.solvers import SOLVERS, Answerer
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
 from synergrip.statics.motion import Motion
@@ -49,6 +50,20 @@ class Figures(Value):
     elastic_motion: Array  # (T, 6)
     between: Between | None
     checks: tuple[Check, ...]
+
+
+def along(plan: Plan, answers: Answerer) -> Plan | Unknown:
+    """Return the answer around the true equilibria of the hand; a grasp given as matrices has none to speak of.
+
+    Args:
+        plan: for the start posture.
+        answers: the solver; the second formulation writes down the start posture only, and Clarabel goes on.
+    """
+    if plan.grasp.held is None:
+        return plan
+    solver = SOLVERS["clarabel"] if answers is SOLVERS["cvxpy"] else answers
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), solver)
+    return answer_of(walker.walk(plan.motion), walker, plan)
 
 
 def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
