@@ -13,6 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
+from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
@@ -22,6 +23,7 @@ from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,10 @@ class Plan(Tabled):
     between: Between | None = None
     """The plan between its knots; None when nothing is known of it."""
 
+    executed: Execution | None = None
+    """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
+    passes: int = 0
+    """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
 
@@ -183,6 +189,16 @@ class Infeasible(Reasoned):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Reached(Value):
+    """How far a motion got that was not followed to its end."""
+
+    until_s: float
+    pose: Array
+    """(6,) displacement of the object there: translation and rotation vector [m, rad]."""
+    because: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Unknown(Reasoned):
     """Nothing could be verified either way.
 
@@ -195,10 +211,15 @@ class Unknown(Reasoned):
     analysis: Analysis
     why: str
     decisions: tuple[Decision, ...]
+    stage: str = "solver"
+    """"solver": nothing that was solved verifies; "reach": the hand does not follow the motion; "execution": the hand
+    does not do what a plan promises."""
+    reached: Reached | None = None
+    """Until when the motion was followed, at the stage "reach"."""
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

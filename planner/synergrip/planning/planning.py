@@ -24,7 +24,7 @@ from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
-from synergrip.planning.outcome import Infeasible, Outcome, Unknown
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answered, Answerer, answerer, ask
@@ -69,6 +69,10 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     answers = answerer(solver, "solver")
     known, asked = _judged(grasp, task)
     outcome = _analysed(known, asked, answers)
+    if asked.linearise == "along" and isinstance(outcome, Plan):
+        from synergrip.planning.walked import along
+
+        outcome = along(outcome, answers)
     LOG.info("%r", outcome)
     return outcome
 

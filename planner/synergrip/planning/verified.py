@@ -64,7 +64,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, formulation, motion),
-         *_far(analysis, motion), *_missed(found), *frame_notes(analysis.grasp)), found, stage.interrupted,
+         *_far(analysis, motion), *_missed(found), *frame_notes(analysis.grasp)), found, interrupted=stage.interrupted,
     )  # fmt: skip
 
 

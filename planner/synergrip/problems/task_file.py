@@ -95,6 +95,11 @@ class TaskTable(Table):
         default="report",
         description="what happens between the knots: reported, or kept within all limits by a reserve at the knots",
     )
+    linearise: Literal["once", "along"] = Field(
+        default="once",
+        description="where the grasp is linearised: once, at the start posture, or along the motion, at the true "
+        "equilibria of the hand",
+    )
     drift: Size | None = Field(
         default=None, description="how far the object may move on the other axes; no bound when absent"
     )

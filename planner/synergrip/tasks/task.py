@@ -51,6 +51,8 @@ class Task(ByContent):
         drift: how far the object may move on the other axes [m]; None when as far as it likes.
         between: what happens between the knots: "report" it, or "hold" the limits there too.
         load_factor: by which the whole load is multiplied.
+        linearise: "once", at the start posture, as the paper does; or "along" the motion, on a hand: again and again
+            at the true equilibria, until what is promised is what the hand does.
 
     Raises:
         InputError: everything that is wrong, each with the argument, what came and what was expected.
@@ -73,6 +75,7 @@ class Task(ByContent):
     drift: float | None = None
     between: Literal["report", "hold"] = "report"
     load_factor: float = 1.0
+    linearise: Literal["once", "along"] = "once"
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
@@ -91,7 +94,8 @@ class Task(ByContent):
         judge.issues += [
             *limit_issues(limits), *goal_issues(goals), *_axis_issues(axes, self.drift),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
+            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold")),
+                         linearise=(self.linearise, ("once", "along"))),
         ]  # fmt: skip
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)

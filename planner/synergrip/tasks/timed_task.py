@@ -83,6 +83,8 @@ class TimedTask(Value):
     """Load and wish at any time; straight lines between the knots when None."""
     between: Literal["report", "hold"] = "report"
     """Whether what happens between the knots is reported, or also kept within all limits."""
+    linearise: Literal["once", "along"] = "once"
+    """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a problem file; a wrench of 6 numbers is the same at all knots.
@@ -104,7 +106,8 @@ class TimedTask(Value):
             *judge.issues,
             *size_issues(self.margin, self.tolerance, self.drift, compliant=is_word(self.tracking, ("compliant",))),
             *goal_issues(self.goals),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold"))),
+            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold")),
+                         linearise=(self.linearise, ("once", "along"))),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
             *limit_issues(self.limits),
         ])  # fmt: skip

@@ -65,11 +65,17 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
     return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
 
 
+def followed_axes(analysis: Analysis, task: TimedTask) -> tuple[Array, Array]:
+    """Return what the asked axes see of Gamma_ucs (asked, dim), and the directions (dim, m) that they do not see."""
+    seen = axis_weights(task.axes, analysis.response.scale.length) @ analysis.spaces.Gamma_ucs
+    return seen, split(seen, 1.0).null_space
+
+
 def _on_axes(analysis: Analysis, task: TimedTask, target: Array) -> Followed:
     """Fix beta as far as the asked axes see it."""
     scale = analysis.response.scale
     weights = axis_weights(task.axes, scale.length)
-    seen = weights @ analysis.spaces.Gamma_ucs  # (asked, dim Gamma_ucs)
+    seen, unseen = followed_axes(analysis, task)
     beta = target @ weights.T @ np.linalg.pinv(seen, rcond=RANK_TOLERANCE).T
     outside = target @ weights.T - beta @ seen.T
     k = int(np.argmax(np.linalg.norm(outside, axis=1)))
@@ -89,7 +95,7 @@ def _on_axes(analysis: Analysis, task: TimedTask, target: Array) -> Followed:
         )
         residual = np.linalg.solve(scale.motion, covector)
         raise MotionDirectionError(message, frozen(residual), float(task.times[k]), reach / wish, reach)
-    return Followed(frozen(beta), frozen(split(seen, 1.0).null_space), target)
+    return Followed(frozen(beta), frozen(unseen), target)
 
 
 def _twist(weights: Array, values: Array) -> Array:

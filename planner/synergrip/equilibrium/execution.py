@@ -1,0 +1,242 @@
+"""References executed: the equilibria that a hand goes through, instant by instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from synergrip.documents.naming import naming_arguments
+from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.newton import at_rest, settled
+from synergrip.equilibrium.setting import ContactModel, Setting, setting
+from synergrip.equilibrium.states import Loads, States
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, Places, frozen
+from synergrip.statics.response import Response
+from synergrip.values import Value
+
+SQUEEZE = 10
+"""Steps in which the references of the first instant are reached."""
+SHORTEST = Fraction(1, 640)
+"""Share of a step from one instant to the next below which it is given up."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Execution(Value):
+    """The equilibria at those of T instants that were reached, K of them."""
+
+    times: Array  # (T,) [s]
+    references: Array  # (T, n_z)
+    path: Balance
+    """The equations at all equilibria that were gone through, those of the first squeeze, too."""
+    kept: Places
+    """(K,) which of them are those of the instants."""
+    iterations: int
+    why: str = ""
+    """Why the others were not reached; empty when all were."""
+
+    @property
+    def setting(self) -> Setting:
+        """The grasp at its start."""
+        return self.path.setting
+
+    @cached_property
+    def balance(self) -> Balance:
+        """(K) The equations at the instants."""
+        return self.path.taken(self.kept)
+
+    @property
+    def states(self) -> States:
+        """(K) joints, object and forces."""
+        return self.balance.states
+
+    @property
+    def whole(self) -> bool:
+        """Whether all instants were reached."""
+        return len(self.states) == len(self.times)
+
+    @property
+    def guess(self) -> States:
+        """States to begin at when references near these are executed."""
+        return self.path.states if len(self.path.states) == len(self.times) + _lead(self.setting) else self.states
+
+    @cached_property
+    def joint(self) -> Array:
+        """(K, n_q) joint displacement from the start [rad or m]."""
+        return frozen(self.states.q - self.setting.held.q)
+
+    def interpolated(self, times: Array) -> States:
+        """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
+
+        Where contacts roll, those of the first squeeze come before them.
+        """
+        from scipy.spatial.transform import Rotation
+
+        known = self.states
+        last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
+        span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
+        share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
+        q, position, forces = (
+            (1 - share) * values[last - 1] + share * values[last] for values in (known.q, known.position, known.forces)
+        )
+        before = Rotation.from_matrix(np.array(known.rotation[last - 1]))
+        turn = (Rotation.from_matrix(np.array(known.rotation[last])) * before.inv()).as_rotvec()
+        rotation = (Rotation.from_rotvec(share * turn) * before).as_matrix()
+        there = States(q, position, rotation, forces)
+        lead = len(self.path.states) - len(known)
+        return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
+
+    def left(self, wanted: Array) -> Array:
+        """Return the twist (K, 6) from where the object is to where it is wanted.
+
+        Args:
+            wanted: (T, 6) displacements from the start: translation and rotation vector [m, rad].
+        """
+        from scipy.spatial.transform import Rotation
+
+        aim = np.array(wanted[: len(self.states)])
+        turn = Rotation.from_rotvec(aim[:, 3:]) * Rotation.from_matrix(np.array(self.states.rotation)).inv()
+        return frozen(np.hstack([aim[:, :3] - self.du[:, :3], turn.as_rotvec()]))
+
+    @cached_property
+    def margins(self) -> Array:
+        """(K, n_c) slip margins [N]; contacts stick here whatever it is, and would slip where it is negative."""
+        grasp = self.setting.grasp
+        parts = zip(grasp.contacts, grasp.rows, strict=True)
+        return frozen(np.column_stack([contact.slip_margin(self.states.forces[:, rows]) for contact, rows in parts]))
+
+    @cached_property
+    def residual(self) -> float:
+        """The largest error of the equilibria, relative to lengths and forces of the grasp."""
+        return float(self.balance.error.max(initial=0.0))
+
+    @cached_property
+    def stiffness(self) -> Array:
+        """(K,) the smallest stiffness with which the object is held [N/m]; not above 0 where it is not stable."""
+        tangent, length = self.balance.tangent, self.setting.length
+        wrench = np.diag([1.0, 1.0, 1.0, length, length, length])
+        right = np.zeros((len(tangent), tangent.shape[1], 6))
+        right[:, -6:] = -wrench
+        moved = np.linalg.solve(tangent, right)[:, -6:]
+        given = wrench @ moved  # scaled twist for each scaled wrench
+        values = np.linalg.eigvalsh((given + given.mT) / 2)
+        soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
+        return frozen(1.0 / soft)
+
+    @cached_property
+    def du(self) -> Array:
+        """(K, 6) displacement of the object from the start: translation and rotation vector [m, rad]."""
+        from scipy.spatial.transform import Rotation
+
+        turn = Rotation.from_matrix(np.array(self.states.rotation)).as_rotvec()
+        return frozen(np.hstack([self.states.position - self.setting.held.body.position, turn]))
+
+
+@naming_arguments
+def execute(
+    grasp: Grasp | Setting, times: Array, references: Array, loads: Loads, *, contact_model: ContactModel = "rolling",
+    response: Response | None = None, guess: States | None = None,
+) -> Execution:  # fmt: skip
+    """Return the equilibria of a hand that synergy references lead through.
+
+    Args:
+        grasp: on a hand, as it is before the first reference; or its `setting`.
+        times: (T,) [s].
+        references: (T, n_z) from those at the start.
+        loads: (T) on the object.
+        contact_model: see `setting`.
+        response: of the grasp, when it is known.
+        guess: (T) states near the equilibria; all instants are then tried at once first.
+
+    Returns:
+        the equilibria; it ends where there is none to be found, and says why.
+
+    Raises:
+        InputError: a grasp given as matrices.
+    """
+    own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
+    references = np.asarray(references, dtype=float)
+    lead = _lead(own)
+    way = _led(own, references, loads, lead)
+    if guess is not None and len(guess) in (len(times), lead + len(times)):
+        near = guess if len(guess) == lead + len(times) else _led_states(own, guess, lead)
+        balance, count = settled(own, near, way.loads, way.references)
+        if np.all(at_rest(balance)) and on_faces(balance) == len(near):
+            return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
+    return _followed(own, times, references, loads)
+
+
+def _lead(own: Setting) -> int:
+    """Return how many steps of the first squeeze are gone through: the way counts only where contacts roll."""
+    return SQUEEZE - 1 if own.contact_model == "rolling" else 0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _Way(Value):
+    references: Array
+    loads: Loads
+
+
+def _led(own: Setting, references: Array, loads: Loads, lead: int) -> _Way:
+    """Return references and loads with steps from the start to the first instant before them."""
+    shares = np.arange(1, lead + 1)[:, None] / (lead + 1)
+    first = own.unloaded(loads)
+    before = Loads(
+        (1 - shares) * first.wrench + shares * loads.wrench[:1],
+        loads.points,
+        shares[:, :, None] * loads.at_points[:1],
+    )
+    return _Way(np.concatenate([shares * references[:1], references]), Loads.joined([before, loads]))
+
+
+def _led_states(own: Setting, states: States, lead: int) -> States:
+    """Return states with some before them, on the way from the start: good enough for Newton's method to begin at."""
+    shares = np.arange(1, lead + 1) / (lead + 1)
+    parts = [own.start if share < 0.5 else states.taken([0]) for share in shares]
+    return States.joined([*parts, states])
+
+
+def on_faces(balance: Balance) -> int:
+    """Return how many instants pass before a contact leaves its face."""
+    return min((meeting.left for meeting in balance.meetings if meeting.left is not None), default=len(balance.states))
+
+
+def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:
+    """Follow the equilibria from the start, in steps as short as it takes."""
+    here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
+    path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
+    for k in range(len(times)):
+        gone, step = Fraction(0), Fraction(1, SQUEEZE if k == 0 else 1)
+        from_z, from_w, to_w = z, w, loads.taken([k])
+        while gone < 1 and not why:
+            there = float(min(Fraction(1), gone + step))
+            z, w = (1 - there) * from_z + there * references[[k]], from_w.between(to_w, there)
+            balance, iterations = settled(here, state, w, z)
+            count += iterations
+            if at_rest(balance)[0] and on_faces(balance):
+                here, state, gone = balance.moved_on(), balance.states, gone + step
+                path.append((state, z, w))
+            elif step / 2 >= SHORTEST:
+                step /= 2
+            else:
+                why = _why(balance)
+        if why:
+            break
+        kept.append(len(path) - 1)
+    states, zs, ws = (
+        zip(*path[: kept[-1] + 1], strict=True) if kept else ((own.start,), (0 * z,), (own.unloaded(loads),))
+    )
+    whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
+    return Execution(times, references, whole, np.array(kept, dtype=int), count, why)
+
+
+def _why(balance: Balance) -> str:
+    """Return why there is no equilibrium to go on to."""
+    names = [contact.name for contact in balance.setting.grasp.contacts]
+    off = [name for name, meeting in zip(names, balance.meetings, strict=True) if meeting.left is not None]
+    if off and at_rest(balance)[0]:
+        return f"contact '{off[0]}' runs over the edge of its face there"
+    return "no equilibrium is near: the hand does not follow there"

@@ -1,0 +1,90 @@
+"""Tracking around a path: what is left to go at every knot, and which rigid motion of that knot goes it.
+
+Near a singular posture (a straight finger, say) the rigid motion that is asked for takes joint motions without end.
+There it is asked for in part only, as damped least squares have it, so that a step of the planner stays a small one;
+what is left of the way is told, and is zero wherever the hand can follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from synergrip.conic.limits.object_error import AXES, axis_weights
+from synergrip.linalg import Array, frozen
+from synergrip.statics.analysis import Analysis
+from synergrip.statics.kept_dimensions import turned
+from synergrip.statics.theorem1 import motion_coordinates
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.tracking import followed_axes
+from synergrip.values import Value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Steps(Value):
+    """What the way that is left says about the rigid motion at every knot."""
+
+    each: tuple[Analysis, ...]
+    """(T,) the grasp at every knot; beta of those directions that the program may choose comes first."""
+    beta: Array  # (T, dim Gamma_ucs) that goes all of it [m]
+    basis: Array
+    """(dim Gamma_ucs, m) orthonormal directions in which beta is the program's choice."""
+    beside: Array
+    """(T, 6) the part of the way left that no rigid motion of the knot goes [m, rad]."""
+
+    @cached_property
+    def behind(self) -> Array:
+        """(T,) how far the object is behind, as far as rigid motions could bring it nearer [m]."""
+        return np.asarray(np.linalg.norm(self.beta, axis=1))
+
+    def damped(self, damping: float) -> tuple[Array, Array]:
+        """Return beta (T, dim Gamma_ucs) [m] that is not dear, and how far (T,) the joints move for it.
+
+        Args:
+            damping: [m/rad] joint motions are as dear as this much of the way.
+        """
+        parts = []
+        for at, beta in zip(self.each, self.beta, strict=True):
+            joints = _joints_of(at)
+            damped = np.linalg.solve(np.eye(len(beta)) + damping**2 * joints.T @ joints, beta)
+            parts.append((damped, float(np.linalg.norm(joints @ damped))))
+        betas, moved = zip(*parts, strict=True)
+        return frozen(np.array(betas).reshape(self.beta.shape)), frozen(moved)
+
+
+def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Array) -> Steps:
+    """Return the rigid motion at every knot that goes what is left of the way.
+
+    Args:
+        each: (T,) the grasp along the path.
+        start: the grasp at the start.
+        task: says what is tracked, and on which axes.
+        left: (T, 6) twist from where the object is to where it is wanted [m, rad].
+    """
+    dimension = start.spaces.Gamma_ucs.shape[1]
+    reached = [motion_coordinates(at.response, at.spaces, way) for at, way in zip(each, left, strict=True)]
+    beside = np.array([outside for _, outside in reached])
+    beta, basis = np.array([own for own, _ in reached]).reshape(len(left), dimension), np.zeros((dimension, 0))
+    if task.tracking == "compliant":
+        beta, basis = np.zeros_like(beta), np.eye(dimension)
+    elif len(task.axes) < len(AXES):
+        seen = axis_weights(task.axes, start.response.scale.length)
+        free = followed_axes(start, task)[1].shape[1]
+        each, basis = [turned(at, seen, free) for at in each], np.eye(dimension)[:, :free]
+        beta = np.array([_seen(at, seen, way, free) for at, way in zip(each, left, strict=True)])
+    return Steps(tuple(each), frozen(beta), frozen(basis), frozen(beside))
+
+
+def _seen(at: Analysis, seen: Array, way: Array, free: int) -> Array:
+    """Return the least beta, along what is not free, that goes a way (6,) as far as it is seen."""
+    motions = (seen @ at.spaces.Gamma_ucs)[:, free:]
+    return np.concatenate([np.zeros(free), np.linalg.lstsq(motions, seen @ way, rcond=None)[0]])
+
+
+def _joints_of(at: Analysis) -> Array:
+    """Return how the joints move with beta (n_q, dim Gamma_ucs) [rad/m]."""
+    forces, motions, _ = at.coordinates.dimensions
+    return np.asarray(at.response.dq_dzr @ at.coordinates.inverse[:, forces : forces + motions])
