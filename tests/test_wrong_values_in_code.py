@@ -84,6 +84,9 @@ RIGHT: dict[str, dict[str, Any]] = {
     "respond_many": {"grasps": [grasp]},
     "subspaces_many": {"responses": responses},
     "coordinates_many": {"group": sg.subspaces_many(responses)[0]},
+    "execute": {"grasp": grasp, "times": [0.0, 1.0], "references": np.zeros((2, 4)), "loads": sg.Loads.of(still),
+                "contact_model": "rolling", "response": response, "guess": None},
+    "Loads": {"wrench": still, "points": np.zeros((1, 3)), "at_points": np.zeros((2, 1, 3))},
     "Usage": {"title": "t", "unit": "N", "items": ("a",), "value": [[0.0]], "lower": [0.0], "upper": [1.0],
               "scale": [1.0], "times": [0.0]},
     "SlipMargin": {"margin": 0.5},
@@ -117,7 +120,7 @@ RIGHT: dict[str, dict[str, Any]] = {
                                          "SynergyAcceleration", "ElasticMotion")},
 }  # fmt: skip
 OTHERS = {
-    "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses",
+    "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses", "Execution",
     "Limit", "within", "norm_within", "squares_of", "Goal", "LargestMargin", "LeastPeak", "LeastEffort",
     "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",

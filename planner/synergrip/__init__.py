@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from synergrip.conic.program import Program as Program
     from synergrip.conic.rows import norm_within as norm_within
     from synergrip.conic.rows import within as within
+    from synergrip.equilibrium.execution import Execution as Execution
+    from synergrip.equilibrium.execution import execute as execute
+    from synergrip.equilibrium.states import Loads as Loads
     from synergrip.errors import InputError as InputError
     from synergrip.errors import OutputError as OutputError
     from synergrip.errors import Refusal as Refusal
@@ -125,6 +128,8 @@ _HOMES = {
     "statics": ("respond", "subspaces", "coordinates"),
     "statics.responses": ("respond_many",),
     "statics.subspace_groups": ("subspaces_many", "coordinates_many"),
+    "equilibrium.execution": ("execute", "Execution"),
+    "equilibrium.states": ("Loads",),
     "conic.limits.limit": ("Limit", "Usage"),
     "conic.limits.slip_margin": ("SlipMargin",),
     "conic.limits.friction_reserve": ("FrictionReserve",),

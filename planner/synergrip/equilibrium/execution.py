@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.newton import at_rest, settled
@@ -143,30 +144,54 @@ def execute(
     """Return the equilibria of a hand that synergy references lead through.
 
     Args:
-        grasp: on a hand, as it is before the first reference; or its `setting`.
+        grasp: on a hand, as it is before the first reference; or its `setting`, which has a model and forces already.
         times: (T,) [s].
-        references: (T, n_z) from those at the start.
+        references: (T, n_z) of the synergies, from those at the start [rad, m or as the synergies are scaled].
         loads: (T) on the object.
-        contact_model: see `setting`.
+        contact_model: "rolling" or "fixed", see `setting`.
         response: of the grasp, when it is known.
-        guess: (T) states near the equilibria; all instants are then tried at once first.
+        guess: (T) states near the equilibria, or `Execution.guess` of as many instants; all of them are then tried at
+            once first. What is found is the same.
 
     Returns:
         the equilibria; it ends where there is none to be found, and says why.
 
     Raises:
-        InputError: a grasp given as matrices.
+        InputError: a grasp given as matrices, no such contact model, arguments that do not fit each other.
     """
     own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
-    references = np.asarray(references, dtype=float)
+    times, references = _judged(own, times, references, loads, guess)
     lead = _lead(own)
     way = _led(own, references, loads, lead)
-    if guess is not None and len(guess) in (len(times), lead + len(times)):
+    if guess is not None:
         near = guess if len(guess) == lead + len(times) else _led_states(own, guess, lead)
         balance, count = settled(own, near, way.loads, way.references)
         if np.all(at_rest(balance)) and on_faces(balance) == len(near):
             return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
     return _followed(own, times, references, loads)
+
+
+def _judged(own: Setting, times: Array, references: Array, loads: Loads, guess: States | None) -> tuple[Array, Array]:
+    """Return times (T,) and references (T, n_z) as arrays, when all arguments fit each other."""
+    judge = Arguments("")
+    instants = judge.numbers("times", times, "times (T,)")
+    if instants is not None and (instants.ndim != 1 or not len(instants)):
+        judge.refuse("times", f"expected times (T,) [s], one at least; got {described(times)}")
+    count = len(instants) if instants is not None and not judge.issues else 0
+    if count:
+        wanted = (count, own.grasp.n_z)
+        references = judge.array("references", references, wanted, ", a row for each time, a column for each synergy")
+    else:
+        judge.numbers("references", references, "references (T, n_z)")
+    if judge.one("loads", loads, Loads, "Loads.of(np.zeros((T, 6)))") is not None and count and len(loads) != count:
+        judge.refuse("loads", f"expected loads at {count} times, got {len(loads)}")
+    if guess is not None and judge.one("guess", guess, States, "execution.guess") is not None and count:
+        known, start = [(count, own.grasp.n_q), (_lead(own) + count, own.grasp.n_q)], own.start
+        fits = guess.q.shape in known and guess.forces.shape == (len(guess), start.forces.shape[1])
+        if not fits:
+            judge.refuse("guess", f"expected states of this grasp at {count} times, got joints {guess.q.shape}")
+    judge.finish()
+    return np.asarray(instants), references
 
 
 def _lead(own: Setting) -> int:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.meeting import Model, Rolling, Sliding, Stuck
 from synergrip.equilibrium.states import Loads, States
@@ -23,6 +24,7 @@ from synergrip.statics.response import Response, respond
 from synergrip.values import Value
 
 ContactModel = Literal["rolling", "fixed"]
+MODELS = ("rolling", "fixed")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,10 +89,15 @@ def setting(grasp: Grasp, contact_model: ContactModel = "rolling", response: Res
         response: of the grasp, when it is known.
 
     Raises:
-        InputError: a grasp given as matrices, which has no kinematics; no such model.
+        InputError: no grasp, one given as matrices, which has no kinematics; no such model; no response.
     """
-    if contact_model not in ("rolling", "fixed"):
-        raise InputError.at("contact_model", one_of(contact_model, ("rolling", "fixed")))
+    judge = Arguments("")
+    judge.one("grasp", grasp, Grasp, "the one that make_grasp returns")
+    if not is_word(contact_model, MODELS):
+        judge.refuse("contact_model", one_of(contact_model, MODELS))
+    if response is not None:
+        judge.one("response", response, Response, "respond(grasp)")
+    judge.finish()
     held = grasp.held
     if held is None:
         raise InputError.at("grasp", "a grasp given as matrices has no kinematics; make_grasp makes one on a hand")

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.values import Value
 
@@ -36,20 +38,60 @@ class States(Value):
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Loads(Value):
-    """What acts on the object at T instants, axes of the palm."""
+    """What acts on the object at T instants, axes of the palm.
+
+    Args:
+        wrench: (T, 6) forces and moments about the origin of the object frame B while the object is not turned; both
+            go with that origin wherever it moves [N, N m].
+        points: (m, 3) points of the object, from B at the start, at which forces act that are in the wrench [m].
+        at_points: (T, m, 3) these forces; they keep their direction, their points turn with the object [N].
+
+    Raises:
+        InputError: values that are none, or shapes that do not fit each other.
+    """
 
     wrench: Array
-    """(T, 6) about the origin of B when the object is not turned; force and moment move with that origin [N, N m]."""
     points: Array
-    """(m, 3) points of the object, from B, at which forces act that are in the wrench [m]."""
-    at_points: Array  # (T, m, 3) these forces [N]
+    at_points: Array
+
+    def __post_init__(self) -> None:
+        """Judge the values."""
+        judge = Arguments("Loads")
+        wrench = judge.numbers("wrench", self.wrench, "wrenches (T, 6)")
+        if wrench is not None and (wrench.ndim != 2 or wrench.shape[1] != 6):
+            judge.refuse("wrench", f"expected wrenches (T, 6), 3 forces and 3 moments in each row; got {wrench.shape}")
+        points = judge.numbers("points", self.points, "points (m, 3)")
+        if points is not None and (points.ndim != 2 or points.shape[1] != 3):
+            judge.refuse("points", f"expected points (m, 3), got {points.shape}; np.zeros((0, 3)) for none")
+        at_points = judge.numbers("at_points", self.at_points, "forces (T, m, 3)")
+        if not judge.issues and wrench is not None and points is not None and at_points is not None:
+            shape = (len(wrench), len(points), 3)
+            if at_points.shape != shape:
+                why = f", a force for each of {shape[0]} wrenches at each of {shape[1]} points; got {at_points.shape}"
+                judge.refuse("at_points", f"expected shape {shape}{why}")
+        judge.finish()
+        for name, value in (("wrench", wrench), ("points", points), ("at_points", at_points)):
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        """Return T."""
+        return len(self.wrench)
 
     @classmethod
     def of(cls, wrench: Array) -> Loads:
-        """Return loads that act at the origin of B, wherever it is."""
-        return cls(wrench, np.zeros((0, 3)), np.zeros((len(wrench), 0, 3)))
+        """Return loads that act at the origin of B, wherever it is.
+
+        Args:
+            wrench: (T, 6) [N, N m].
+
+        Raises:
+            InputError: no wrenches.
+        """
+        count = 0 if np.ndim(wrench) == 0 else len(wrench)
+        return cls(wrench, np.zeros((0, 3)), np.zeros((count, 0, 3)))
 
     def taken(self, places: Any) -> Loads:
         """Return those at some of the instants."""

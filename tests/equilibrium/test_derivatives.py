@@ -1,0 +1,177 @@
+"""The tangent against differences, and the equations as the gradient of an energy that is written down here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from jaws_that_move import SOFT, jaws
+from scipy.spatial.transform import Rotation
+
+from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.setting import Setting, setting
+from synergrip.equilibrium.states import Loads, States
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.shapes.box import Box
+from synergrip.grasps.shapes.sphere import Sphere
+from synergrip.linalg import Array
+from synergrip.problems.problem import load_problem
+
+HARD = ("barrett-ball-hold", "barrett-ball-lift-joints")
+SOFT_ONES = ("human-glass", "gripper-peg")
+STEP = 1e-3
+
+
+@cache
+def bundled(name: str) -> Grasp:
+    return load_problem(name).grasp
+
+
+def anywhere(own: Setting, seed: int = 0, turn: float = 0.2) -> Balance:
+    """Return the equations at a state, under a load and with references that mean nothing."""
+    rng, grasp = np.random.default_rng(seed), own.grasp
+    start = own.start
+    state = States(
+        start.q + rng.normal(scale=0.2, size=(1, grasp.n_q)),
+        start.position + rng.normal(scale=0.01, size=(1, 3)),
+        Rotation.from_rotvec(rng.normal(scale=turn, size=(1, 3))).as_matrix(),
+        start.forces + rng.normal(scale=3.0, size=(1, grasp.n_l)),
+    )
+    pushes = rng.normal(size=(1, 2, 3))
+    loads = Loads(rng.normal(size=(1, 6)), rng.normal(scale=0.03, size=(2, 3)), pushes)
+    return Balance.of(own, state, loads, rng.normal(scale=0.1, size=(1, grasp.n_z)))
+
+
+def moved(balance: Balance, change: Array) -> Array:
+    """Return the residuals (n,) after the unknowns have changed: forces, joints, shift, turn."""
+    n_l, was = balance.setting.grasp.n_l, balance.states
+    forces, joints, shift, turn = np.split(change, [n_l, len(change) - 6, len(change) - 3])
+    rotation = Rotation.from_rotvec(turn).as_matrix() @ was.rotation
+    state = States(was.q + joints, was.position + shift, rotation, was.forces + forces)
+    return np.hstack(Balance.of(balance.setting, state, balance.loads, balance.references).residuals)[0]
+
+
+def differences(function: Callable[[Array], Array], count: int, step: float = STEP) -> Array:
+    """Return the derivatives (m, count) at 0, of the fourth order."""
+    found = []
+    for h in step * np.eye(count):
+        found.append((8 * (function(h) - function(-h)) - (function(2 * h) - function(-2 * h))) / (12 * step))
+    return np.array(found).T
+
+
+def off(balance: Balance, step: float = STEP) -> tuple[Array, Array]:
+    """Return how far the tangent is from the differences in its rows (r_s, r_q, r_w), and its largest entry there."""
+    tangent, n_l = balance.tangent[0], balance.setting.grasp.n_l
+    seen = differences(lambda change: moved(balance, change), len(tangent), step)
+    rows = (slice(0, n_l), slice(n_l, -6), slice(-6, None))
+    apart = [float(np.abs(tangent[part] - seen[part]).max()) for part in rows]
+    return np.array(apart), np.array([np.abs(tangent[part]).max() for part in rows])
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_the_tangent_of_hard_contacts_that_stick_is_the_derivative(name: str) -> None:
+    grasp = bundled(name)
+    rng = np.random.default_rng(1)
+    C_z = np.diag(rng.uniform(0.01, 0.1, size=grasp.n_z))
+    own = setting(replace(grasp, C_z=C_z), "fixed")
+    assert all(contact.kind.components == ("n", "t", "o") for contact in grasp.contacts)
+    for seed in range(3):
+        apart, size = off(anywhere(own, seed))
+        assert np.all(apart < 1e-8 * size)
+
+
+def test_a_push_turns_with_the_object() -> None:
+    rng = np.random.default_rng(2)
+    loads = Loads(rng.normal(size=(1, 6)), rng.normal(size=(2, 3)), rng.normal(size=(1, 2, 3)))
+    R = Rotation.from_rotvec([[0.3, -0.4, 0.5]]).as_matrix()
+    by_hand = loads.wrench[0].copy()
+    for point, force in zip(loads.points, loads.at_points[0], strict=True):
+        by_hand[3:] += np.cross(R[0] @ point, force) - np.cross(point, force)
+    assert loads.acting(R)[0] == pytest.approx(by_hand, abs=1e-14)
+
+    def moment(turn: Array) -> Array:
+        return np.asarray(loads.acting(Rotation.from_rotvec(turn).as_matrix()[None] @ R)[0, 3:])
+
+    assert differences(moment, 3) == pytest.approx(loads.turning(R)[0], abs=1e-10)
+
+
+@pytest.mark.parametrize("name", SOFT_ONES)
+@pytest.mark.parametrize("model", ["fixed", "rolling"])
+def test_the_tangent_of_soft_and_of_rolling_contacts_is_that_of_small_forces(name: str, model: str) -> None:
+    """Left out: how moments turn with the links, and how a normal turns where a tip rolls; both grow with forces."""
+    own = setting(bundled(name), "fixed" if model == "fixed" else "rolling")
+    assert own.contact_model == model
+    apart = []
+    for share in (0.0, 0.5, 1.0):
+        state = replace(own.start, forces=share * own.start.forces)
+        balance = Balance.of(own, state, own.unloaded(Loads.of(np.zeros((1, 6)))), np.zeros((1, own.grasp.n_z)))
+        errors, size = off(balance, 1e-4)
+        assert np.all(errors < 0.1 * size)
+        apart.append(errors)
+    assert np.all(apart[0] < 1e-7)
+    assert apart[1] == pytest.approx(apart[2] / 2, abs=1e-6)  # in proportion to the forces
+
+
+def test_the_equations_are_the_gradient_of_an_energy() -> None:
+    """U = springs of contacts, with the work of the forces they start with, and of joints, less that of the load."""
+    grasp = bundled("barrett-ball-lift-joints")
+    assert not grasp.C_z.any()
+    own = setting(grasp, "fixed")
+    rng = np.random.default_rng(3)
+    C_q = np.diag(rng.uniform(0.01, 0.1, size=grasp.n_q))
+    own = setting(replace(grasp, C_q=C_q), "fixed")
+    at = anywhere(own)
+    dz_r, pushes, points = at.references[0], at.loads.at_points[0], at.loads.points
+    force = rng.normal(size=3)
+    wrench = np.hstack([force + pushes.sum(axis=0), np.cross(points, pushes).sum(axis=0)])
+    loads = Loads(wrench[None], points, pushes[None])
+    K_s, K_q = np.linalg.inv(grasp.C_s), np.linalg.inv(C_q)
+
+    def stretch(q: Array, p: Array, R: Array) -> Array:
+        motions = own.held.hand.kinematics.at(q, [(touch.pad.link, touch.pad.point) for touch in own.held.touches])
+        starts = own.held.hand.kinematics.at(own.held.q, [(t.pad.link, t.pad.point) for t in own.held.touches])
+        found = []
+        for contact, now, was in zip(grasp.contacts, motions, starts, strict=True):
+            from_pad = was.rotation.T @ (contact.point + own.held.body.position - was.position)
+            x_h = now.position + now.rotation @ from_pad
+            found.append((R @ contact.frame).T @ (x_h - p - R @ contact.point))
+        return np.concatenate(found)
+
+    def placed(change: Array) -> tuple[Array, Array, Array]:
+        n_q = grasp.n_q
+        R = Rotation.from_rotvec(change[n_q + 3 :]).as_matrix() @ at.states.rotation[0]
+        return at.states.q[0] + change[:n_q], at.states.position[0] + change[n_q : n_q + 3], R
+
+    def energy(change: Array) -> Array:
+        q, p, R = placed(change)
+        d, turned = stretch(q, p, R), q - own.held.q - grasp.S @ dz_r
+        springs = own.forces @ d + d @ K_s @ d / 2 + turned @ K_q @ turned / 2 - own.torques @ q
+        work = force @ p + sum(push @ (p + R @ point) for push, point in zip(pushes, points, strict=True))
+        return np.array([springs - work])
+
+    q, p, R = placed(np.zeros(grasp.n_q + 6))
+    forces = own.forces + K_s @ stretch(q, p, R)
+    state = States(q[None], p[None], R[None], forces[None])
+    r_s, r_q, r_w = Balance.of(own, state, loads, dz_r[None]).residuals
+    gradient = differences(energy, grasp.n_q + 6)[0]
+    assert r_s[0] == pytest.approx(np.zeros(grasp.n_l), abs=1e-12)
+    size = np.abs(gradient).max()
+    assert K_q @ r_q[0] == pytest.approx(gradient[: grasp.n_q], abs=1e-8 * size)
+    assert -r_w[0] == pytest.approx(gradient[grasp.n_q :], abs=1e-8 * size)
+
+
+def test_a_tip_that_rolls_does_the_work_that_its_springs_take_up() -> None:
+    """Action is reaction: a motion of hand and object together stretches no spring, and does no work."""
+    for shape in (Box(size=(0.04, 0.04, 0.04)), Sphere(radius=0.02)):
+        own = setting(jaws(shape, 0.02, 0.005, C_s=[1e-4] * 3 + [1.0], C_q=[0.0] * 6, kind=SOFT), "rolling")
+        balance = anywhere(own, turn=0.05)
+        assert balance.meetings[0].left is None
+        for i, meeting in enumerate(balance.meetings):
+            away = meeting.place[0] - balance.placed[i].point[0]
+            assert np.linalg.norm(away) == pytest.approx(0.005, abs=1e-12)
+            frame = meeting.frame[0]
+            assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
+            assert away == pytest.approx(0.005 * frame[:, 0], abs=1e-12)
