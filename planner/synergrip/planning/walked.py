@@ -80,10 +80,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         reached = _reached(walk, walker)
         return Unknown(task, analysis, reached.because, decisions, "reach", reached)
     if not walk.true:
-        why = (
-            f"after {walk.passes} passes what the linearised grasp promises and what the hand does still differ by "
-            f"{walk.gap:.3g} N"
-        )
+        why = f"after {walk.passes} passes what is promised and what the hand does still differ by {walk.gap:.3g} N"
         return Unknown(task, analysis, why, decisions, "execution")
     found = figures(walk, walker, linear.formulation)
     if short := _short_between(found, task):
