@@ -17,7 +17,7 @@ from executing_program import Tree, executed
 from synergrip.planning.digest import unchanged
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
-from synergrip.problems.problem import load_problem
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 
 REPOSITORY = Path(__file__).parents[2]
@@ -40,6 +40,12 @@ def document_of(name: str) -> dict[str, Any]:
     found = json.loads(json.dumps(outcome_document(problem.title, problem.grasp, answer), allow_nan=False))
     assert isinstance(found, dict)
     return found
+
+
+def load_of(problem: Problem, answer: Plan) -> dict[str, Any]:
+    load = outcome_document("", problem.grasp, answer)["execution"]["load"]
+    pushes = [{key: np.array(each[key]) for key in each} for each in load["forces"]]
+    return {**load, "times_s": np.array(load["times_s"]), "wrench": np.array(load["wrench"]), "forces": pushes}
 
 
 def test_the_other_program_knows_nothing_of_synergrip() -> None:
@@ -100,11 +106,59 @@ def test_a_jump_of_the_load_stands_twice() -> None:
     problem = load_problem("barrett-ball-hold", [push])
     answer = plan(problem.grasp, problem.task)
     assert isinstance(answer, Plan)
-    load = outcome_document("", problem.grasp, answer)["execution"]["load"]
+    load = load_of(problem, answer)
     for time in (0.5, 1.05):
         there = [w[0] for t, w in zip(load["times_s"], load["wrench"], strict=True) if abs(t - time) < 1e-9]
         assert len(there) == 2
         assert abs(there[1] - there[0]) == pytest.approx(1.0)
+
+
+def test_what_begins_at_the_instant_at_which_another_ends_jumps_with_it() -> None:
+    push = '{{force="{} N", direction=[0,1,0], start="{} s", end="{} s", profile="step"}}'
+    pushes = [push.format(1, 0.5, 1.05), push.format(2, 0.5, 1.5), push.format(0.5, 1.05, 1.5)]
+    problem = load_problem("barrett-ball-hold", [f"task.push=[{','.join(pushes)}]"])
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    load = load_of(problem, answer)
+    pushed = sum(each["force"] for each in load["forces"])
+    for time, expected in ((0.5, [0.0, 3.0]), (1.05, [3.0, 3.5, 2.5]), (1.5, [2.5, 0.0])):
+        there = np.abs(load["times_s"] - time) < 1e-9
+        assert pushed[there, 1] == pytest.approx(expected)
+        rest = load["wrench"][there, :3] - pushed[there]  # the weight, which does not jump
+        assert rest == pytest.approx(np.tile(rest[0], (len(rest), 1)))
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5])
+def test_a_push_says_where_it_acts(factor: float) -> None:
+    problem = load_problem("gripper-peg")
+    answer = plan(problem.grasp, problem.task.replace(load_factor=factor))
+    assert isinstance(answer, Plan)
+    load = load_of(problem, answer)
+    (push,) = load["forces"]
+    assert push["at_m"].tolist() == [0.0, 0.0, 0.03]
+    assert push["force"].min(axis=0) == pytest.approx([0.0, 0.0, -4.0 * factor])
+    weight = np.array([0.0, 0.0, 0.981 * factor])
+    assert load["wrench"][:, :3] - push["force"] == pytest.approx(np.tile(weight, (len(push["force"]), 1)))
+    assert load["wrench"][:, 3:] == pytest.approx(np.cross(push["at_m"], push["force"]))
+
+
+def test_straight_lines_follow_a_curved_load() -> None:
+    problem = load_problem("human-ball")  # the palm turns over, and the weight with it
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    load = load_of(problem, answer)
+    times = np.linspace(*problem.timed.times[[0, -1]], 501)
+    assert problem.timed.course is not None
+    true = problem.timed.course.load_at(times)
+    assert true is not None
+    told = np.array([np.interp(times, load["times_s"], column) for column in load["wrench"].T]).T
+    coarse = np.array([np.interp(times, answer.time, column) for column in answer.motion.wrench.T]).T
+    assert np.abs(told - true).max() < 0.08 * np.abs(coarse - true).max()  # four parts: a sixteenth of the distance
+
+
+def test_a_load_that_stays_is_not_curved_because_the_object_moves_on_a_curve() -> None:
+    assert document_of("gripper-peg")["execution"]["load"]["curved_s"] == []
+    assert document_of("barrett-ball-carry")["execution"]["load"]["curved_s"] == [[0.0, 0.8]]
 
 
 def test_gravity_seen_from_the_palm_is_the_load() -> None:

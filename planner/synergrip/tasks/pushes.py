@@ -103,7 +103,7 @@ class Push(Load):
             raise InputError.at("ramp", message)
         force = self.force * np.array(self.direction, dtype=float)
         wrench = np.concatenate([force, np.cross(self.at, force)])
-        return Pushing(frozen(wrench), self.profile, first, last, ramp)
+        return Pushing(frozen(wrench), self.profile, first, last, ramp, frozen(self.at))
 
     def corners(self, setting: Setting) -> Iterator[Corner]:
         """Yield its start, its end and its peak or corners; none when it lasts."""
@@ -124,6 +124,7 @@ class Pushing:
     start: float  # [s]
     end: float  # [s]
     ramp: float  # [s]
+    point: Array  # (3,) of the object on which it acts, from B at the start of the task, axes of the palm [m]
 
     def at(self, times: Array) -> Array:
         """Return the wrench (T, 6) about B at any times (T,) [s]; a step is on at its start and its end."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from hashlib import sha256
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +22,16 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.told import finite
 from synergrip.statics.motion import forces_at_start
 from synergrip.tasks.gravity import Weight
+from synergrip.tasks.marks import together
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.palm_motion import PalmMotion
 from synergrip.tasks.palm_path import PalmSpline
+from synergrip.tasks.pushes import Pushing
 from synergrip.tasks.timed_task import TimedTask
 
 KEY = "execution"
+SAMPLES = 4
+"""Into how many straight lines the load is divided where it is curved, from each knot or corner to the next."""
 
 
 def execution_document(plan: Plan) -> dict[str, Any] | None:
@@ -110,29 +115,65 @@ def _parameters(contact: Contact) -> Mapping[str, float]:
 
 
 def _load(task: TimedTask, body: Object) -> dict[str, Any]:
-    """Return the external wrench at every knot and corner, straight in between but where it is curved.
+    """Return the external wrench at every knot and corner, and more often where it is curved; straight in between.
 
-    Where it jumps an instant stands twice, with the wrench before and after.
+    Where it jumps, an instant stands more than once: just before, at it and just after, as far as these differ.
     """
-    lines = [(float(t), 0, wrench) for t, wrench in zip(task.times, task.wrench, strict=True)]
-    marks = task.course.marks if task.course is not None else None
-    curved: list[list[float]] = []
-    if marks is not None and task.course is not None:
-        instants = np.concatenate([marks.corners, [jump.time for jump in marks.jumps]])
-        inside = np.unique(instants[(instants >= task.times[0]) & (instants <= task.times[-1])])
-        found = task.course.load_at(inside)
-        there = np.tile(task.wrench[0], (len(inside), 1)) if found is None else found
-        known = set(task.times.tolist())
-        lines += [(float(t), 0, w) for t, w in zip(inside, there, strict=True) if float(t) not in known]
-        at = {time: wrench for time, _, wrench in lines}
-        lines += [(float(jump.time), jump.side, at[float(jump.time)] + jump.change)
-                  for jump in marks.jumps if float(jump.time) in at]  # fmt: skip
-        curved = [[float(start), float(end)] for start, end in marks.curved]
-    ordered = sorted(lines, key=lambda line: line[:2])
+    lines, parts, factor = _lines(task), getattr(task.course, "load", ()), getattr(task.course, "factor", 1.0)
     return {
-        "times_s": [time for time, _, _ in ordered], "wrench": np.array([wrench for _, _, wrench in ordered]),
-        "axes": "palm", "point": body.position, "curved_s": curved,
+        "times_s": [time for time, _, _ in lines], "wrench": np.array([wrench for _, _, wrench in lines]),
+        "axes": "palm", "point": body.position,
+        "forces": [{"at_m": part.point, "force": factor * _pushed(part, lines)}
+                   for part in parts if isinstance(part, Pushing)],
+        "curved_s": [[float(start), float(end)] for start, end in sorted(set(_curved(task)))],
     }  # fmt: skip
+
+
+def _curved(task: TimedTask) -> tuple[tuple[float, float], ...]:
+    """Return the spans [s] in which the load is curved, whatever the wanted motion is."""
+    if task.course is None:
+        return ()
+    parts = getattr(task.course, "load", None)
+    return (task.course.marks if parts is None else together(part.marks for part in parts)).curved
+
+
+Line = tuple[float, int, Array]
+"""Time [s]; -1 just before it, 0 at it, 1 just after; wrench (6,)."""
+
+
+def _lines(task: TimedTask) -> list[Line]:
+    """Return the wrench at all instants that count, in order."""
+    knots = task.times.tolist()
+    lines: list[Line] = [(time, 0, wrench) for time, wrench in zip(knots, task.wrench, strict=True)]
+    if task.course is None:
+        return lines
+    marks = task.course.marks
+    instants = np.concatenate([marks.corners, [jump.time for jump in marks.jumps], *_within(task, marks.corners)])
+    inside = np.unique(instants[(instants >= knots[0]) & (instants <= knots[-1])])
+    found = task.course.load_at(inside)
+    there = np.tile(task.wrench[0], (len(inside), 1)) if found is None else found
+    lines += [(float(t), 0, w) for t, w in zip(inside, there, strict=True) if float(t) not in set(knots)]
+    at = {time: wrench for time, _, wrench in lines}
+    for time, side in sorted({(float(jump.time), jump.side) for jump in marks.jumps if float(jump.time) in at}):
+        changes = [jump.change for jump in marks.jumps if (float(jump.time), jump.side) == (time, side)]
+        lines.append((time, side, at[time] + sum(changes)))
+    return sorted(lines, key=lambda line: line[:2])
+
+
+def _within(task: TimedTask, corners: Array) -> Iterator[Array]:
+    """Yield instants within the curved spans: `SAMPLES` parts from each knot or corner to the next."""
+    for start, end in _curved(task):
+        ends = np.unique(np.concatenate([task.times, corners, [start, end]]))
+        ends = ends[(ends >= start) & (ends <= end)]
+        yield from (np.linspace(a, b, SAMPLES + 1) for a, b in pairwise(ends))
+
+
+def _pushed(push: Pushing, lines: list[Line]) -> Array:
+    """Return the force (K, 3) of a push at lines of the load: also just before and after it jumps."""
+    shares = push.share(np.array([time for time, _, _ in lines]))
+    gone = {(float(jump.time), jump.side) for jump in push.marks.jumps}
+    off = np.array([(time, side) in gone for time, side, _ in lines])
+    return np.outer(np.where(off, 0.0, shares), push.wrench[:3])
 
 
 def _surroundings(task: TimedTask, mass: float) -> tuple[Array | None, PalmInWorld | None]:
