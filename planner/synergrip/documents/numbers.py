@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio

@@ -19,9 +19,9 @@ from synergrip.documents.fields import (
     array_of,
     listed,
     listed_by,
-    number_or,
     unit_schema,
 )
+from synergrip.documents.numbers import number_or
 from synergrip.documents.quantities import kind_of, without_unit
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, repeated
