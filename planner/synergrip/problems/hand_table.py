@@ -16,9 +16,9 @@ from synergrip.documents.fields import (
     either,
     listed,
     named,
-    number,
     unit_schema,
 )
+from synergrip.documents.numbers import number
 from synergrip.documents.quantities import ratio
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
