@@ -28,8 +28,11 @@ OVERLAP = 1e-9
 """How deep pads are in the object at the start [m], so that they touch."""
 LIGHT, LIGHT_INERTIA = 1e-6, 1e-9
 """[kg], [kg m^2] of links."""
-STIFF = (0.9999, 0.9999, 1e-3, 0.5, 2.0)
-"""The impedance of contacts: next to nothing gives beside the pads."""
+STIFF = (0.999, 0.999, 1e-3, 0.5, 2.0)
+"""The impedance of contacts: they give some 1e-7 m, next to nothing beside the pads, and enough that a small jerk does
+not part what touches for a step."""
+SOFTEST = 4.0
+"""Time constant of contacts, in steps."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -125,7 +128,9 @@ def _refuse(plan: PlayedPlan) -> None:
             issues.append(Issue(message, key=f"{key}.kind"))
         linear = pad.compliance[:3, :3]
         if np.linalg.eigvalsh((linear + linear.T) / 2).min() <= 0:
-            message = f"the pad of contact '{name}' is rigid (C_s = 0), which no elastic pad can be; give it a stiffness"
+            message = (
+                f"the pad of contact '{name}' is rigid (C_s = 0), which no elastic pad can be; give it a stiffness"
+            )
             issues.append(Issue(message, key=f"{key}.compliance"))
         if np.any(pad.compliance[3:, :3]) or np.any(pad.compliance[:3, 3:]):
             message = f"contact '{name}' couples its spin with its forces, which slides and a hinge cannot"
@@ -143,14 +148,14 @@ def _lag(plan: PlayedPlan, mass: float) -> float:
 
 
 def _armature(plan: PlayedPlan, springs: JointSprings, step: float) -> Array:
-    """Return the inertia of joints (n_q,): row sums of their stiffness, that of the pads included, bound frequencies."""
+    """Return the inertia of joints (n_q,): row sums of stiffness, that of the pads included, bound frequencies."""
     total = np.abs(springs.K)
     points = plan.kinematics.at(plan.q_0, [(pad.link, pad.centre) for pad in plan.pads])
     for pad, point in zip(plan.pads, points, strict=True):
         linear = np.abs(point.jacobian[:3])
         total = total + linear.T @ linear / np.linalg.eigvalsh(pad.compliance[:3, :3]).min()
     sums = total.sum(axis=1)
-    return np.maximum(sums, 1e-3 * sums.max()) * (step / SWING) ** 2
+    return np.asarray(np.maximum(sums, 1e-3 * sums.max()) * (step / SWING) ** 2)
 
 
 def _add_object(spec: Any, plan: PlayedPlan, mass: float) -> None:
@@ -204,15 +209,17 @@ def _add_pad(
         joint.axis, joint.armature = (link.T @ normal).tolist(), k * (step / SWING) ** 2
         _spring(joint, k, lag, float(forces[3]))
         stiffness.append(k)
-    body.add_geom(name=f"pad:{number}", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[radius, 0, 0], contype=0, conaffinity=0)
-    values_of = contact.kind
-    slide, cross = getattr(values_of, "friction", 0.0), getattr(values_of, "cross_friction", None)
+    body.add_geom(
+        name=f"pad:{number}", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[radius, 0, 0], contype=0, conaffinity=0
+    )
+    kind = contact.kind
+    slide, cross = getattr(kind, "friction", 0.0), getattr(kind, "cross_friction", None)
     if cross is not None and cross != slide:
         raise InputError.at(f"execution.contacts[{number}].kind", f"contact '{contact.name}' has two frictions")
-    spin = getattr(values_of, "spin_friction", 0.0)
+    spin = getattr(kind, "spin_friction", 0.0)
     spec.add_pair(
         name=f"pad:{number}", geomname1=f"pad:{number}", geomname2="object", condim=_CONDIM[contact.kind.name],
-        friction=[slide, slide, spin, 0.0, 0.0], solref=[2 * step, 1.0], solimp=list(STIFF),
+        friction=[slide, slide, spin, 0.0, 0.0], solref=[SOFTEST * step, 1.0], solimp=list(STIFF),
     )  # fmt: skip
     glue = spec.add_actuator(name=f"pad:{number}", target=f"pad:{number}", trntype=mujoco.mjtTrn.mjTRN_BODY)
     glue.gainprm[0] = 1.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
@@ -80,6 +80,14 @@ class PlayedPlan(Value):
         """Names of the contacts."""
         return tuple(pad.contact.name for pad in self.pads)
 
+    def with_friction(self, factor: float) -> PlayedPlan:
+        """Return it with all friction multiplied by a factor."""
+        if factor == 1.0:
+            return self
+        contacts = [replace(pad.contact, kind=pad.contact.kind.slippery(factor)) for pad in self.pads]
+        pads = [replace(pad, contact=contact) for pad, contact in zip(self.pads, contacts, strict=True)]
+        return replace(self, pads=tuple(pads))
+
 
 def read_played_plan(path: Path) -> PlayedPlan:
     """Return the plan in a folder or a plan.json.
@@ -144,7 +152,9 @@ def _tree(told: Told, folder: Path) -> LinkTree:
 
 def _shape(shape: Any, told: Told) -> Mapping[str, Any]:
     if shape is None:
-        message = "a bare mass has no surface to touch; give the object a shape (sphere, box or cylinder) and plan again"
+        message = (
+            "a bare mass has no surface to touch; give the object a shape (sphere, box or cylinder) and plan again"
+        )
         raise told.refused("object.shape", message)
     name = next(iter(shape), "") if isinstance(shape, dict) else str(shape)
     if name not in ("sphere", "box", "cylinder"):

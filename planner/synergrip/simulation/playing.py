@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.simulation.model import Model, make_model
-from synergrip.simulation.observing import touches
+from synergrip.simulation.observing import Touch, touches
 from synergrip.simulation.played_plan import PlayedPlan
 from synergrip.simulation.timeline import Timeline, timeline, to_the_first_knot
 from synergrip.values import Value
@@ -29,6 +29,9 @@ EVERY = 10
 SAMPLES = 400
 """Instants of the play that are kept."""
 
+FLOWN = 0.05
+"""How far from where it was to be [m] an object is that has left the hand."""
+
 Progress = Callable[[float, float], None]
 
 
@@ -38,13 +41,18 @@ class Played(Value):
 
     time: Array  # (N,) [s] of the plan
     forces: Array  # (N, n_l); 0 where a pad does not touch
-    margins: Array  # (N, n_c) [N]; -inf would be no number: 0 where a pad does not touch
+    margins: Array  # (N, n_c) [N]; 0 where a pad does not touch
     slips: Array  # (N, n_c) [m] since the friction is the true one
     spins: Array  # (N, n_c) [rad] turned about the normal since then
     touching: Array  # (N, n_c) bool
     du: Array  # (N, 6) motion of the object since the start
     q: Array  # (N, n_q)
+    least: Array  # (n_c,) [N] smallest margins, looked for more often than what is kept
+    least_at: Array  # (n_c,) [s] of the plan when that was
+    apart: Array  # (n_c,) [s] of the simulation: the longest time without touch
     duration: float  # [s] of the play on the clock of the simulation
+    flown: bool
+    """Whether the object went so far from where it was to be that the play was ended."""
     model: Model = field(repr=False)
 
 
@@ -80,6 +88,9 @@ class _Run:
         self.data.qpos[model.places] = plan.q_0
         self.slipped, self.turned = np.zeros((len(plan.pads), 3)), np.zeros(len(plan.pads))
         self.rows: list[tuple[Any, ...]] = []
+        contacts = len(plan.pads)
+        self.least, self.least_at = np.full(contacts, np.inf), np.zeros(contacts)
+        self.apart, self.since, self.flown = np.zeros(contacts), np.zeros(contacts), False
         self.keep, self.count, self.total = 0, 0, 1.0
         self.damping = model.lag * model.springs.K
         self.q_r = plan.q_0
@@ -124,7 +135,8 @@ class _Run:
     def through(self, line: Timeline) -> None:
         steps = int(np.ceil(line.duration / self.model.step))
         for number in range(steps):
-            self.advance(line, (number + 1) * self.model.step)
+            if not self.flown:
+                self.advance(line, (number + 1) * self.model.step)
 
     def still(self, line: Timeline) -> None:
         for _ in range(int(np.ceil(SETTLE / self.model.step))):
@@ -147,47 +159,73 @@ class _Run:
         data.xfrc_applied[model.body] = now.wrench
         if len(plan.load.at):
             turned = data.xmat[model.body].reshape(3, 3)
-            data.xfrc_applied[model.body, 3:] += np.cross(plan.load.at @ turned.T - plan.load.at, now.forces).sum(axis=0)
+            data.xfrc_applied[model.body, 3:] += np.cross(plan.load.at @ turned.T - plan.load.at, now.forces).sum(
+                axis=0
+            )
         mujoco.mj_step(model.mujoco, data)
         if springs.count:
             data.qpos[model.places] += springs.prescribed @ (q_r - data.qpos[model.places])
             data.qvel[model.dofs] += springs.prescribed @ (rate - data.qvel[model.dofs])
         self.count += 1
         if self.count % EVERY == 0:
-            self.follow()
+            self.follow(now.at)
         if self.keep and self.count % self.keep == 0:
             self.look(now.at)
 
-    def follow(self) -> None:
-        """Add up how the contacts slide."""
-        data = self.data
-        if not np.isfinite(data.qvel).all() or data.warning[6].number or data.warning[4].number:
-            raise InputError.at("step", "the simulation ran away; try a smaller step")
-        span = EVERY * self.model.step
-        for number, touch in enumerate(touches(self.model, data)):
+    def follow(self, at: float) -> None:
+        """Add up how the contacts slide, and see which margin is smallest, at a time of the plan [s]."""
+        data, span = self.data, EVERY * self.model.step
+        if not np.isfinite(data.qvel).all() or np.abs(data.qvel).max() > 1e6:
+            raise InputError.at(
+                "step", f"the simulation ran away with steps of {self.model.step:g} s; try smaller ones"
+            )
+        found = touches(self.model, data)
+        for number, touch in enumerate(found):
             if touch is not None:
                 self.slipped[number] += span * touch.sliding
                 self.turned[number] += span * touch.spinning
+        if self.keep:
+            margins, touching = self.judged(found)
+            lower = margins < self.least
+            self.least[lower], self.least_at[lower] = margins[lower], at
+            self.since = np.where(touching, 0.0, self.since + span)
+            self.apart = np.maximum(self.apart, self.since)
+            wanted = np.array([np.interp(at, self.plan.times, column) for column in self.plan.du[:, :3].T])
+            self.flown = bool(np.linalg.norm(self.moved()[:3] - wanted) > FLOWN)
         if self.progress and self.count % (100 * EVERY) == 0:
-            self.progress(data.time, self.total)
+            self.progress(min(float(data.time), self.total), self.total)
+
+    def judged(self, found: list[Touch | None]) -> tuple[Array, Array]:
+        """Return slip margins (n_c,) and which contacts touch."""
+        pairs = list(zip(self.plan.pads, found, strict=True))
+        margins = [0.0 if t is None else float(pad.contact.slip_margin(t.force)) for pad, t in pairs]
+        return np.array(margins), np.array([t is not None and t.force[0] > 0 for _, t in pairs])
+
+    def moved(self) -> Array:
+        """Return shift and rotation vector (6,) of the object since the start."""
+        import mujoco
+
+        place, turn = self.data.qpos[self.model.body_place :][:7], np.zeros(3)
+        mujoco.mju_quat2Vel(turn, place[3:], 1.0)
+        return np.concatenate([place[:3] - self.plan.position, turn])
 
     def look(self, at: float) -> None:
         """Keep what is seen now."""
-        plan, model, data = self.plan, self.model, self.data
-        found = touches(model, data)
+        found = touches(self.model, self.data)
+        margins, touching = self.judged(found)
         forces = [np.zeros(pad.contact.n_rows) if t is None else t.force
-                  for pad, t in zip(plan.pads, found, strict=True)]  # fmt: skip
-        margins = [float(pad.contact.slip_margin(force)) for pad, force in zip(plan.pads, forces, strict=True)]
-        slips = np.linalg.norm(self.slipped, axis=1)
-        place, turn = data.qpos[model.body_place :][:7], np.zeros(3)
-        import mujoco
-
-        mujoco.mju_quat2Vel(turn, place[3:], 1.0)
-        du = np.concatenate([place[:3] - plan.position, turn])
-        touching = [t is not None and t.force[0] > 0 for t in found]
-        self.rows.append((at, np.concatenate(forces), margins, slips, self.turned.copy(), touching, du,
-                          data.qpos[model.places].copy()))  # fmt: skip
+                  for pad, t in zip(self.plan.pads, found, strict=True)]  # fmt: skip
+        lower = margins < self.least
+        self.least[lower], self.least_at[lower] = margins[lower], at
+        self.rows.append((at, np.concatenate(forces), margins, np.linalg.norm(self.slipped, axis=1),
+                          self.turned.copy(), touching, self.moved(),
+                          self.data.qpos[self.model.places].copy()))  # fmt: skip
 
     def seen(self, duration: float) -> Played:
-        columns = [frozen(np.array(column)) for column in zip(*self.rows, strict=True)]
-        return Played(*columns, duration, self.model)
+        """Return what was kept."""
+        time, forces, margins, slips, spins, touching, du, q = (
+            frozen(np.array(column)) for column in zip(*self.rows, strict=True)
+        )
+        least, least_at, apart = frozen(self.least), frozen(self.least_at), frozen(self.apart)
+        return Played(time, forces, margins, slips, spins, touching, du, q, least, least_at, apart, duration,
+                      self.flown, self.model)  # fmt: skip

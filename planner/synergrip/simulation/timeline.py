@@ -63,7 +63,7 @@ def timeline(plan: PlayedPlan, speed: str) -> Timeline:
         flat = values.reshape(len(values), int(np.prod(values.shape[1:])))
         columns = [np.interp(knots, load.times, column) for column in flat.T]
         between = np.array(columns).reshape(flat.shape[1], len(knots)).T
-        return np.vstack([flat, between])[order][kept].reshape(int(kept.sum()), *values.shape[1:])
+        return np.asarray(np.vstack([flat, between])[order][kept].reshape(int(kept.sum()), *values.shape[1:]))
 
     dz_r = _between(plan.times, plan.dz_r, at[kept])
     wrench, forces = of_load(load.wrench), of_load(load.forces)
@@ -74,6 +74,7 @@ def timeline(plan: PlayedPlan, speed: str) -> Timeline:
 
 def to_the_first_knot(plan: PlayedPlan, line: Timeline, wrench_0: Array, duration: float) -> Timeline:
     """Return the squeeze: from dz_r = 0 under the wrench (6,) of the start to the first station of a timeline."""
+
     def both(start: Array, end: Array) -> Array:
         return frozen(np.stack([start, end]))
 
@@ -98,4 +99,4 @@ def _slow(plan: PlayedPlan, at: Array, dz_r: Array, wrench: Array) -> Array:
         (np.abs(np.diff(wrench[:, :3], axis=0)).max(axis=1), "force"),
         (np.abs(np.diff(dz_r, axis=0)).max(axis=1), "reference"),
     ]
-    return np.maximum(np.max([size / SLOWEST[of] for size, of in changes], axis=0), SHORTEST)
+    return np.asarray(np.maximum(np.max([size / SLOWEST[of] for size, of in changes], axis=0), SHORTEST))
