@@ -28,7 +28,9 @@ ONLY_IN = {
     "cvxpy": {
         f"referee/{name}.py" for name in ("judge", "maps", "model", "formulas", "motion_formulas", "motion_goals")
     },
-    "typer": {f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "synergies")},
+    "typer": {
+        f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "simulate", "synergies")
+    },
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
