@@ -17,7 +17,7 @@ from synergrip.simulation.joint_springs import joint_springs
 from synergrip.simulation.played_plan import read_played_plan
 from synergrip.simulation.timeline import timeline
 
-HELD = ("task.move=[]", "task.knots=3")
+HELD = ("task.move=[]", "task.knots=21")
 
 
 @pytest.fixture(scope="module")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -60,7 +61,7 @@ def simulate(
         picture_place(picture)
         if output:
             possible("--output", output, refuse_simulation_place)
-        found = played(plan, speed=speed.value, step=step, friction=friction, half_step=not once, progress=_told)
+        found = played(plan, speed=speed.value, step=step, friction=friction, half_step=not once, progress=_teller())
         document, wrote = simulation_document(found), list[str]()
 
         def text() -> str:
@@ -83,13 +84,16 @@ def simulate(
     raise typer.Exit(found.exit_code)
 
 
-def _told(what: str, share: float) -> None:
-    """Tell on a terminal how far it is, on one line that is written over; elsewhere, when it begins."""
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{what} ... {share:.0%}" if share < 1 else "\r\x1b[K", end="", file=sys.stderr, flush=True)
-    elif what not in _begun:
-        _begun.add(what)
-        print(f"{what} ...", file=sys.stderr, flush=True)
+def _teller() -> Callable[[str, float], None]:
+    """Return what tells on a terminal how far it is, on a line that is written over; elsewhere, when it begins."""
+    begun = set[str]()
 
+    def told(what: str, share: float) -> None:
+        if sys.stderr.isatty():
+            text = f"\r\x1b[K{what} ... {share:.0%}" if share < 1 else "\r\x1b[K"
+            print(text, end="", file=sys.stderr, flush=True)
+        elif what not in begun:
+            begun.add(what)
+            print(f"{what} ...", file=sys.stderr, flush=True)
 
-_begun: set[str] = set()
+    return told

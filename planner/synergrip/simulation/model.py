@@ -14,7 +14,7 @@ import numpy as np
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.hands.kinematics import link_spec
 from synergrip.linalg import Array, frozen
-from synergrip.simulation.joint_springs import JointSprings, joint_springs
+from synergrip.simulation.joint_springs import NOTHING, JointSprings, joint_springs
 from synergrip.simulation.played_plan import Pad, PlayedPlan
 from synergrip.values import Value
 
@@ -24,6 +24,8 @@ SWING = 0.15
 """Largest product of a natural frequency of joints and pads and the step."""
 STAND_IN = 0.1
 """Mass [kg] of an object without one, where it does not count."""
+HEAVY = 1e6
+"""How much more inertia joints have that do not give at all."""
 OVERLAP = 1e-9
 """How deep pads are in the object at the start [m], so that they touch."""
 LIGHT, LIGHT_INERTIA = 1e-6, 1e-9
@@ -155,7 +157,8 @@ def _armature(plan: PlayedPlan, springs: JointSprings, step: float) -> Array:
         linear = np.abs(point.jacobian[:3])
         total = total + linear.T @ linear / np.linalg.eigvalsh(pad.compliance[:3, :3]).min()
     sums = total.sum(axis=1)
-    return np.asarray(np.maximum(sums, 1e-3 * sums.max()) * (step / SWING) ** 2)
+    found = np.maximum(sums, 1e-3 * sums.max()) * (step / SWING) ** 2
+    return np.asarray(np.where(np.diag(springs.held) < NOTHING, HEAVY * found, found))
 
 
 def _add_object(spec: Any, plan: PlayedPlan, mass: float) -> None:

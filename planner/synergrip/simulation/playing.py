@@ -154,7 +154,7 @@ class _Run:
         q, v = data.qpos[model.places], data.qvel[model.dofs]
         tau = springs.held @ plan.tau_0 - springs.K @ (q - q_r) - self.damping @ (v - rate)
         if springs.count:
-            tau -= springs.prescribed @ data.qfrc_constraint[model.dofs]
+            tau -= springs.prescribed @ (data.qfrc_constraint + data.qfrc_actuator)[model.dofs]
         data.qfrc_applied[model.dofs] = tau
         data.xfrc_applied[model.body] = now.wrench
         if len(plan.load.at):
