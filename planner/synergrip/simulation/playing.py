@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
@@ -29,6 +30,8 @@ EVERY = 10
 SAMPLES = 400
 """Instants of the play that are kept."""
 
+LOST = 5e-3
+"""[s] without touch from which on a contact is lost; a jerk may part what touches for a step."""
 FLOWN = 0.05
 """How far from where it was to be [m] an object is that has left the hand."""
 
@@ -89,7 +92,7 @@ class _Run:
         self.slipped, self.turned = np.zeros((len(plan.pads), 3)), np.zeros(len(plan.pads))
         self.rows: list[tuple[Any, ...]] = []
         contacts = len(plan.pads)
-        self.least, self.least_at = np.full(contacts, np.inf), np.zeros(contacts)
+        self.least, self.least_at = np.full(contacts, np.inf), np.zeros(contacts)  # inf until it touches or is lost
         self.apart, self.since, self.flown = np.zeros(contacts), np.zeros(contacts), False
         self.keep, self.count, self.total = 0, 0, 1.0
         self.damping = model.lag * model.springs.K
@@ -186,16 +189,16 @@ class _Run:
                 self.turned[number] += span * touch.spinning
         if self.keep:
             margins, touching = self.judged(found)
-            lower = margins < self.least
-            self.least[lower], self.least_at[lower] = margins[lower], at
             self.since = np.where(touching, 0.0, self.since + span)
+            lower = (margins < self.least) & (touching | (self.since > LOST))
+            self.least[lower], self.least_at[lower] = margins[lower], at
             self.apart = np.maximum(self.apart, self.since)
             wanted = np.array([np.interp(at, self.plan.times, column) for column in self.plan.du[:, :3].T])
             self.flown = bool(np.linalg.norm(self.moved()[:3] - wanted) > FLOWN)
         if self.progress and self.count % (100 * EVERY) == 0:
             self.progress(min(float(data.time), self.total), self.total)
 
-    def judged(self, found: list[Touch | None]) -> tuple[Array, Array]:
+    def judged(self, found: list[Touch | None]) -> tuple[Array, NDArray[np.bool_]]:
         """Return slip margins (n_c,) and which contacts touch."""
         pairs = list(zip(self.plan.pads, found, strict=True))
         margins = [0.0 if t is None else float(pad.contact.slip_margin(t.force)) for pad, t in pairs]
@@ -215,7 +218,7 @@ class _Run:
         margins, touching = self.judged(found)
         forces = [np.zeros(pad.contact.n_rows) if t is None else t.force
                   for pad, t in zip(self.plan.pads, found, strict=True)]  # fmt: skip
-        lower = margins < self.least
+        lower = (margins < self.least) & touching
         self.least[lower], self.least_at[lower] = margins[lower], at
         self.rows.append((at, np.concatenate(forces), margins, np.linalg.norm(self.slipped, axis=1),
                           self.turned.copy(), touching, self.moved(),
@@ -226,6 +229,10 @@ class _Run:
         time, forces, margins, slips, spins, touching, du, q = (
             frozen(np.array(column)) for column in zip(*self.rows, strict=True)
         )
-        least, least_at, apart = frozen(self.least), frozen(self.least_at), frozen(self.apart)
+        least, least_at, apart = (
+            frozen(np.where(np.isfinite(self.least), self.least, 0.0)),
+            frozen(self.least_at),
+            frozen(self.apart),
+        )
         return Played(time, forces, margins, slips, spins, touching, du, q, least, least_at, apart, duration,
                       self.flown, self.model)  # fmt: skip

@@ -16,7 +16,7 @@ from synergrip.errors import InputError, kind_of, one_of
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Plan
 from synergrip.simulation.played_plan import PlayedPlan, read_played_plan
-from synergrip.simulation.playing import Played, play
+from synergrip.simulation.playing import LOST, Played, play
 from synergrip.values import Value
 
 SPEEDS = ("slow", "real")
@@ -26,8 +26,6 @@ SLIPPED = 5e-5
 """[m] from which on a contact has slipped; friction in the engine creeps by some 1e-6 m."""
 SPUN = 0.01
 """[rad] about its normal from which on a contact has slipped."""
-LOST = 5e-3
-"""[s] without touch from which on a contact is lost."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
