@@ -12,7 +12,10 @@ import synergrip
 
 PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
-LINE = "ground documents hands grasps statics equilibrium conic tasks problems|referee planning explain|simulation reports cli"
+LINE = (
+    "ground documents hands grasps statics equilibrium conic tasks problems|referee planning "
+    "explain|simulation reports cli"
+)
 """From left to right; those beside each other do not know each other. The ground the house stands on is not a folder:
 errors, linear algebra, files."""
 PLACES = {room: place for place, rooms in enumerate(LINE.split()) for room in rooms.split("|")}
