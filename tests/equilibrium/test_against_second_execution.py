@@ -76,8 +76,7 @@ def test_steps_from_knot_to_knot_are_what_is_left() -> None:
     problem = load_problem("human-ball-near")
     answer = plan(problem.grasp, problem.task)
     assert isinstance(answer, Plan)
-    start, end = np.array(answer.dz_r)[0], np.array(answer.dz_r)[-1]
-    wrench = np.array(answer.motion.wrench)[:1]
+    start, end = np.array(answer.dz_r)[0], np.array(answer.dz_r)[len(answer.time) // 2]
     found = []
     for count in (3, 5, 41):
         shares = np.linspace(0, 1, count)[:, None]
@@ -86,6 +85,5 @@ def test_steps_from_knot_to_knot_are_what_is_left() -> None:
         own = execute(problem.grasp, shares[:, 0], references, there)
         assert own.whole, own.why
         found.append(own.states.forces[-1])
-    assert len(wrench) == 1
     rough, finer = (float(np.abs(each - found[-1]).max()) for each in found[:2])
     assert 3 < rough / finer < 5.5

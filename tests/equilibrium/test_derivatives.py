@@ -83,6 +83,14 @@ def test_the_tangent_of_hard_contacts_that_stick_is_the_derivative(name: str) ->
         assert np.all(apart < 1e-8 * size)
 
 
+def test_the_balance_of_soft_contacts_that_stick_has_its_derivative() -> None:
+    """That of r_w alone: how their moments turn with the links is left out of r_s and r_q."""
+    grasp = bundled("gripper-peg")
+    assert "m" in grasp.contacts[0].kind.components
+    apart, size = off(anywhere(setting(grasp, "fixed")))
+    assert apart[2] < 1e-8 * size[2]
+
+
 def test_a_push_turns_with_the_object() -> None:
     rng = np.random.default_rng(2)
     loads = Loads(rng.normal(size=(1, 6)), rng.normal(size=(2, 3)), rng.normal(size=(1, 2, 3)))
@@ -163,15 +171,16 @@ def test_the_equations_are_the_gradient_of_an_energy() -> None:
     assert -r_w[0] == pytest.approx(gradient[grasp.n_q :], abs=1e-8 * size)
 
 
-def test_a_tip_that_rolls_does_the_work_that_its_springs_take_up() -> None:
-    """Action is reaction: a motion of hand and object together stretches no spring, and does no work."""
+def test_a_tip_that_rolls_stays_on_the_surface_and_acts_where_it_touches() -> None:
     for shape in (Box(size=(0.04, 0.04, 0.04)), Sphere(radius=0.02)):
         own = setting(jaws(shape, 0.02, 0.005, C_s=[1e-4] * 3 + [1.0], C_q=[0.0] * 6, kind=SOFT), "rolling")
         balance = anywhere(own, turn=0.05)
-        assert balance.meetings[0].left is None
-        for i, meeting in enumerate(balance.meetings):
-            away = meeting.place[0] - balance.placed[i].point[0]
-            assert np.linalg.norm(away) == pytest.approx(0.005, abs=1e-12)
-            frame = meeting.frame[0]
+        for placed, meeting in zip(balance.placed, balance.meetings, strict=True):
+            assert meeting.left is None
+            frame, R = meeting.frame[0], placed.rotation[0]
             assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
-            assert away == pytest.approx(0.005 * frame[:, 0], abs=1e-12)
+            assert meeting.place[0] - placed.point[0] == pytest.approx(0.005 * frame[:, 0], abs=1e-12)
+            centre = R.T @ (placed.point[0] - placed.position[0] - frame @ meeting.stretch[0, :3])
+            distance, outward = shape.surface(centre)
+            assert distance == pytest.approx(0.005, abs=1e-12)
+            assert R @ outward == pytest.approx(-frame[:, 0], abs=1e-12)

@@ -151,7 +151,7 @@ def execute(
         contact_model: "rolling" or "fixed", see `setting`.
         response: of the grasp, when it is known.
         guess: (T) states near the equilibria, or `Execution.guess` of as many instants; all of them are then tried at
-            once first. What is found is the same.
+            once first. What is found is the same, up to the way that tips roll where shorter steps are needed.
 
     Returns:
         the equilibria; it ends where there is none to be found, and says why.
