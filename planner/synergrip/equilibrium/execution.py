@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.balance import Balance
-from synergrip.equilibrium.newton import at_rest, settled
+from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.grasp import Grasp
@@ -224,11 +224,6 @@ def _led_states(own: Setting, states: States, lead: int) -> States:
     return States.joined([*parts, states])
 
 
-def on_faces(balance: Balance) -> int:
-    """Return how many instants pass before a contact leaves its face."""
-    return min((meeting.left for meeting in balance.meetings if meeting.left is not None), default=len(balance.states))
-
-
 def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:
     """Follow the equilibria from the start, in steps as short as it takes."""
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
@@ -247,7 +242,7 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Ex
             elif step / 2 >= SHORTEST:
                 step /= 2
             else:
-                why = _why(balance)
+                why = why_not(balance)
         if why:
             break
         kept.append(len(path) - 1)
@@ -256,12 +251,3 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Ex
     )
     whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
     return Execution(times, references, whole, np.array(kept, dtype=int), count, why)
-
-
-def _why(balance: Balance) -> str:
-    """Return why there is no equilibrium to go on to."""
-    names = [contact.name for contact in balance.setting.grasp.contacts]
-    off = [name for name, meeting in zip(names, balance.meetings, strict=True) if meeting.left is not None]
-    if off and at_rest(balance)[0]:
-        return f"contact '{off[0]}' runs over the edge of its face there"
-    return "no equilibrium is near: the hand does not follow there"
