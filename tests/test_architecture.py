@@ -12,7 +12,10 @@ import synergrip
 
 PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
-LINE = "ground documents hands grasps statics equilibrium conic tasks problems|referee planning explain reports cli"
+LINE = (
+    "ground documents hands grasps statics equilibrium conic tasks problems|referee planning "
+    "explain|simulation reports cli"
+)
 """From left to right; those beside each other do not know each other. The ground the house stands on is not a folder:
 errors, linear algebra, files."""
 PLACES = {room: place for place, rooms in enumerate(LINE.split()) for room in rooms.split("|")}
@@ -21,14 +24,16 @@ LOOK_RIGHT = {"planning/answer.py": "synergrip.reports.data."}
 write and draw it. A hook that the front door fills would make an answer differ by what was imported before it."""
 ONLY_IN = {
     "matplotlib": {"reports/pictures/sheet.py"},
-    "mujoco": {"hands/kinematics.py", "hands/models/mjcf.py"},
+    "mujoco": {"hands/kinematics.py", "hands/models/mjcf.py", "simulation/model.py", "simulation/playing.py"},
     "clarabel": {"conic/solvers/clarabel_.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
     "cvxpy": {
         f"referee/{name}.py" for name in ("judge", "maps", "model", "formulas", "motion_formulas", "motion_goals")
     },
-    "typer": {f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "synergies")},
+    "typer": {
+        f"cli/{name}.py" for name in ("app", "running", "plan", "front", "analyse", "check", "simulate", "synergies")
+    },
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
@@ -70,7 +75,8 @@ def test_a_room_imports_only_rooms_to_its_left(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "library", ["documents", "hands", "grasps", "statics", "conic", "tasks", "referee", "planning", "explain"]
+    "library",
+    ["documents", "hands", "grasps", "statics", "conic", "tasks", "referee", "planning", "explain", "simulation"],
 )
 def test_the_library_stands_without_the_problem_file(library: str) -> None:
     for path in (PACKAGE / library).rglob("*.py"):

@@ -1,4 +1,7 @@
-"""Every limit and goal of the registries is whole: second formulation, a test that it bites, documentation, a name."""
+"""Every part of the registries is whole: second formulation, a test that it bites, documentation, a name.
+
+That formulas are right, `referee/test_every_part.py` and `grasps/test_contact_kinds.py` see.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import pkgutil
 import re
 from pathlib import Path
 from types import ModuleType
+from typing import get_type_hints
 
 import pytest
 from planning.test_goal_order import ORDERS, WEIGHTS
@@ -17,10 +21,19 @@ from random_formulations import random_formulation
 import synergrip
 import synergrip.conic.goals
 import synergrip.conic.limits
+import synergrip.conic.solvers
+import synergrip.grasps.contacts
+import synergrip.grasps.shapes
+from synergrip.cli.plan import plan as cli_plan
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.registry import GOALS
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.registry import LIMITS
+from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.contacts.kinds import KINDS
+from synergrip.grasps.shapes.shape import Shape
+from synergrip.grasps.shapes.shapes import SHAPES
+from synergrip.planning.solvers import SOLVERS
 from synergrip.referee import formulas
 
 DOCUMENTED = (Path(__file__).parent.parent / "docs" / "problem-file.md").read_text(encoding="utf-8")
@@ -33,7 +46,8 @@ def section(title: str) -> str:
 
 def in_files(package: ModuleType, kind: type) -> list[object]:
     """Return everything of a kind that the modules of a package hold at their top, by itself or by name."""
-    names = [each.name for each in pkgutil.iter_modules(package.__path__) if each.name != "registry"]
+    registries = ("registry", "kinds", "shapes")
+    names = [each.name for each in pkgutil.iter_modules(package.__path__) if each.name not in registries]
     modules = [importlib.import_module(f"{package.__name__}.{name}") for name in names]
     held = [value for module in modules for value in vars(module).values()]
     inside = [each for value in held if isinstance(value, dict) for each in value.values()]
@@ -45,7 +59,7 @@ def test_a_limit_is_whole(key: FileKey) -> None:
     grasp = random_formulation(0)[1].response.grasp
     kinds = {type(make(grasp)) for make in RANDOM.values()}
     there = {
-        "a formula in referee/formulas.py": key.kind in formulas.LIMITS,
+        "its formula, in LIMITS of referee/formulas.py": key.kind in formulas.LIMITS,
         "a line in tests/planning/test_limits_bite.py": key.name in {*BITES, *BITTEN_ELSEWHERE},
         "a row in docs/problem-file.md": f"| `{key.name}` |" in section("limits"),
         "its name in synergrip/__init__.py": getattr(synergrip, key.kind.__name__, None) is key.kind,
@@ -59,12 +73,40 @@ def test_a_limit_is_whole(key: FileKey) -> None:
 def test_a_goal_is_whole(name: str) -> None:
     goal = GOALS[name]
     there = {
-        "a formula in referee/formulas.py": type(goal) in formulas.GOALS,
+        "its formula, in GOALS of referee/formulas.py": type(goal) in formulas.GOALS,
         "an order in tests/planning/test_goal_order.py": name in {x for order in ORDERS for x in (*order, *WEIGHTS)},
         "a word in docs/problem-file.md": bool(re.search(rf'[`"]{name}[`"]', section("goal"))),
         "its name in synergrip/__init__.py": getattr(synergrip, type(goal).__name__, None) is type(goal),
     }
     assert not [what for what, is_there in there.items() if not is_there]
+
+
+@pytest.mark.parametrize("part", [*KINDS.values(), *SHAPES.values()], ids=lambda part: part.name)
+def test_a_kind_of_contact_and_a_shape_have_their_names(part: type) -> None:
+    """Their other parts are asked for in tests/grasps."""
+    assert getattr(synergrip, part.__name__, None) is part, "its name is not in synergrip/__init__.py"
+    assert "Example:" in (part.__doc__ or ""), "an Example: is not in its docstring"
+
+
+@pytest.mark.parametrize("name", SOLVERS)
+def test_a_solver_is_documented(name: str) -> None:
+    option = str(get_type_hints(cli_plan, include_extras=True)["solver"].__metadata__[0].help)
+    there = {
+        "a word in plan() of planning/planning.py": f'"{name}"' in (synergrip.plan.__doc__ or ""),
+        "a word in the help of --solver in cli/plan.py": name in option,
+    }
+    assert not [what for what, is_there in there.items() if not is_there]
+
+
+def test_no_kind_shape_or_solver_is_left_out_of_its_registry() -> None:
+    for package, base, registry in (
+        (synergrip.grasps.contacts, ContactKind, KINDS), (synergrip.grasps.shapes, Shape, SHAPES),
+    ):  # fmt: skip
+        found = {c for c in in_files(package, type) if isinstance(c, type) and issubclass(c, base) and c is not base}
+        assert found == set(registry.values())
+        assert all(name == part.name for name, part in registry.items())
+    files = {each.name.rstrip("_") for each in pkgutil.iter_modules(synergrip.conic.solvers.__path__)}
+    assert files - SOLVERS.keys() == {"interrupts", "qpsolvers"}, "a file of conic/solvers is not in SOLVERS"
 
 
 def test_nothing_that_a_file_offers_is_left_out_of_its_registry() -> None:

@@ -74,6 +74,8 @@ if TYPE_CHECKING:
     from synergrip.planning.planning import plan as plan
     from synergrip.problems.problem import Problem as Problem
     from synergrip.problems.problem import load_problem as load_problem
+    from synergrip.simulation.simulation import Simulation as Simulation
+    from synergrip.simulation.simulation import simulate as simulate
     from synergrip.statics import coordinates as coordinates
     from synergrip.statics import respond as respond
     from synergrip.statics import subspaces as subspaces
@@ -167,6 +169,7 @@ _HOMES = {
     "problems.problem": ("load_problem", "Problem"),
     "planning.planning": ("plan",),
     "planning.outcome": ("Plan", "Infeasible", "Unknown"),
+    "simulation.simulation": ("simulate", "Simulation"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

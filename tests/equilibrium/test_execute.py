@@ -114,20 +114,18 @@ def test_a_finger_is_not_longer_than_it_is() -> None:
     assert found.why == "no equilibrium is near: the hand does not follow there"
     count = len(found.states)
     assert 0 < count < 11
-    assert {len(each) for each in (found.du, found.joint, found.margins, found.stiffness, found.grasps)} == {count}
+    assert {len(each) for each in (found.du, found.joint, found.margins, found.stiffness, found.balance.G)} == {count}
 
 
 def test_the_grasp_at_an_equilibrium_is_one_in_balance() -> None:
     grasp = bundled("gripper-peg")
     z, wrench = driven(grasp, 2.0)
     found = execute(grasp, np.zeros(1), z, Loads.of(wrench))
-    there = found.grasps[0]
-    assert there.G @ found.states.forces[0] == pytest.approx(-wrench[0], abs=1e-9)
-    for i, contact in enumerate(there.contacts):
-        rows = there.rows[i]
-        assert there.G[:3, rows][:, :3] == pytest.approx(np.array(contact.frame), abs=1e-15)
-        moment = np.cross(contact.point, contact.frame[:, 0])
-        assert there.G[3:, rows.start] == pytest.approx(moment, abs=1e-12)
+    G, frames, arms = found.balance.G[0], found.balance.frames[0], found.balance.arms[0]
+    assert G @ found.states.forces[0] == pytest.approx(-wrench[0], abs=1e-9)
+    for rows, frame, arm in zip(grasp.rows, frames, arms, strict=True):
+        assert G[:3, rows][:, :3] == pytest.approx(frame, abs=1e-15)
+        assert G[3:, rows.start] == pytest.approx(np.cross(arm, frame[:, 0]), abs=1e-12)
     wanted = np.array(found.du)
     assert found.left(wanted) == pytest.approx(np.zeros((1, 6)), abs=1e-12)
     wanted[0, 0] += 1e-3

@@ -157,7 +157,6 @@ def test_errors_are_whole_after_a_pickle(error: InputError) -> None:
         ("barrett-ball-carry", "why", ("'feasible'", "only Infeasible or Unknown has", ".dz_r", ".margins")),
         ("barrett-ball-carry", "conflicts", ("only Infeasible has",)),
         ("unknown", "dz_r", ("'unknown'", ".why")),
-        ("unknown", "stage", ("only Infeasible has",)),
     ],
 )
 def test_attributes_of_another_verdict_say_so(name: str, attribute: str, words: tuple[str, ...]) -> None:

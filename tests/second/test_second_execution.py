@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import second_execution
+from judged_execution import compared
 from scipy.spatial.transform import Rotation
 from second.equilibrium import Equilibrium, State
 from second.jaws import cube, document, written
@@ -56,16 +57,29 @@ def test_it_knows_nothing_of_the_package() -> None:
 
 @BOTH
 def test_jaws_squeeze_carry_and_shift_a_box(tmp_path: Path, model: str) -> None:
-    c, c_t, k, squeeze, shift, weight = 1e-4, 2e-4, 3e-4, 0.004, 0.03, 1.2
+    c, c_t, k, c_z, squeeze, shift, weight = 1e-4, 2e-4, 3e-4, 5e-4, 0.004, 0.03, 1.2
     jaws = document(written(tmp_path), cube(0.02), 0.02, 0.005, [c, c_t, c_t, 1.0], [0.0, k, 0.0, k])
+    jaws["execution"]["C_z"] = np.diag([0.0, c_z, 0.0, c_z]).tolist()
     jaws |= {"dz_r": [[0.0, squeeze + shift, 0.0, squeeze - shift]], "wrench": [[0, 0, -weight, 0, 0, 0]]}
     found = executed(jaws, tmp_path, model)
     assert found.ended is None
-    normal, sag = squeeze / (c + k), c_t * weight / 2
+    normal, sag = squeeze / (c + k + c_z), c_t * weight / 2
     assert found.forces[0] == pytest.approx([normal, 0, weight / 2, 0, normal, 0, weight / 2, 0], abs=1e-7)
     assert found.du[0] == pytest.approx([shift, 0, -sag, 0, 0, 0], abs=1e-9)
     assert found.tau[0] == pytest.approx([0, normal, 0, normal], abs=1e-7)
     assert found.margins[0] == pytest.approx([0.5 * normal - weight / 2] * 2, abs=1e-7)
+
+
+@BOTH
+def test_what_is_stretched_at_the_start_counts_from_there(tmp_path: Path, model: str) -> None:
+    c, k, squeeze, held = 1e-4, 3e-4, 0.004, 2.0
+    jaws = document(written(tmp_path), cube(0.02), 0.02, 0.005, [c, c, c, 1.0], [0.0, k, 0.0, k])
+    jaws["execution"] |= {"lambda_0": [held, 0, 0, 0, held, 0, 0, 0], "tau_0": [0, held, 0, held]}
+    still = executed(jaws, tmp_path, model)
+    assert still.forces[0] == pytest.approx([held, 0, 0, 0, held, 0, 0, 0], abs=1e-9)
+    found = executed(jaws | {"dz_r": [[0.0, squeeze, 0.0, squeeze]]}, tmp_path, model)
+    assert found.forces[0, [0, 4]] == pytest.approx(held + squeeze / (c + k), abs=1e-7)
+    assert found.q[0] == pytest.approx([0, c * squeeze / (c + k)] * 2, abs=1e-10)
 
 
 def test_a_ball_rolls_between_tips_that_part(tmp_path: Path) -> None:
@@ -149,7 +163,7 @@ def test_it_agrees_with_the_linear_plan_to_first_order(name: str, model: str) ->
         assert np.all((larger / smaller > 3) & (larger / smaller < 5)), off
 
 
-@pytest.mark.parametrize("name", ["gripper-peg", "human-glass", "robonaut-handle"])
+@pytest.mark.parametrize("name", ["gripper-peg", "human-glass", "robonaut-handle", "table2-soft-motors"])
 def test_torques_do_the_work_of_the_forces(name: str) -> None:
     equilibrium, rng = equilibrium_of(name, "fixed"), np.random.default_rng(0)
     q = equilibrium.q_0 + rng.normal(scale=0.1, size=equilibrium.n_q)
@@ -237,6 +251,24 @@ def test_a_push_keeps_its_point_on_the_object(tmp_path: Path, model: str) -> Non
     turn = found.du[0, 3]
     assert turn > 0.05
     assert 2 * abs(found.forces[0, 3]) == pytest.approx(0.04 * 8.0 * np.cos(turn), rel=1e-3)
+
+
+def test_a_promise_is_compared_with_all_that_was_reached() -> None:
+    document = planned("gripper-box")
+    found = executed(document, REPOSITORY, "fixed")
+    same = compared(found.margins, found)
+    assert same.same
+    assert same.difference == 0.0
+    assert same.keeps(found.margins.min())
+    assert not same.keeps(found.margins.min() + 0.02)
+    promised = found.margins.copy()
+    promised[7, 1] -= 0.05  # not the worst one: at most a hundredth of the largest force, some 0.03 N, is the same
+    assert compared(promised, found).promised == same.promised
+    assert not compared(promised, found).same
+    part = executed(planned("gripper-box", "task.move[0].lift=500 mm"), REPOSITORY, "fixed")
+    ended = compared(np.ones((41, 2)), part)
+    assert not ended.same
+    assert not ended.keeps(-100.0)
 
 
 def test_the_face_is_the_nearest_one() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.balance import Balance
-from synergrip.equilibrium.newton import at_rest, settled
+from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.grasp import Grasp
@@ -69,6 +69,27 @@ class Execution(Value):
         """(K, n_q) joint displacement from the start [rad or m]."""
         return frozen(self.states.q - self.setting.held.q)
 
+    def interpolated(self, times: Array) -> States:
+        """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
+
+        Where contacts roll, those of the first squeeze come before them.
+        """
+        from scipy.spatial.transform import Rotation
+
+        known = self.states
+        last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
+        span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
+        share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
+        q, position, forces = (
+            (1 - share) * values[last - 1] + share * values[last] for values in (known.q, known.position, known.forces)
+        )
+        before = Rotation.from_matrix(np.array(known.rotation[last - 1]))
+        turn = (Rotation.from_matrix(np.array(known.rotation[last])) * before.inv()).as_rotvec()
+        rotation = (Rotation.from_rotvec(share * turn) * before).as_matrix()
+        there = States(q, position, rotation, forces)
+        lead = len(self.path.states) - len(known)
+        return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
+
     def left(self, wanted: Array) -> Array:
         """Return the twist (K, 6) from where the object is to where it is wanted.
 
@@ -105,20 +126,6 @@ class Execution(Value):
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
         return frozen(1.0 / soft)
-
-    @cached_property
-    def grasps(self) -> tuple[Grasp, ...]:
-        """(K,) the grasp at every equilibrium: where its contacts, G and J are, with the forces and the load there."""
-        grasp, balance = self.setting.grasp, self.balance
-        found = []
-        for k, forces in enumerate(self.states.forces):
-            contacts = tuple(
-                replace(contact, point=frozen(balance.arms[k, i]), frame=frozen(balance.frames[k, i]))
-                for i, contact in enumerate(grasp.contacts)
-            )
-            G, J = frozen(balance.G[k]), frozen(balance.J[k])
-            found.append(replace(grasp, contacts=contacts, G=G, J=J, lambda_0=frozen(forces), w_0=frozen(-G @ forces)))
-        return tuple(found)
 
     @cached_property
     def du(self) -> Array:
@@ -217,11 +224,6 @@ def _led_states(own: Setting, states: States, lead: int) -> States:
     return States.joined([*parts, states])
 
 
-def on_faces(balance: Balance) -> int:
-    """Return how many instants pass before a contact leaves its face."""
-    return min((meeting.left for meeting in balance.meetings if meeting.left is not None), default=len(balance.states))
-
-
 def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:
     """Follow the equilibria from the start, in steps as short as it takes."""
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
@@ -240,7 +242,7 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Ex
             elif step / 2 >= SHORTEST:
                 step /= 2
             else:
-                why = _why(balance)
+                why = why_not(balance)
         if why:
             break
         kept.append(len(path) - 1)
@@ -249,12 +251,3 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Ex
     )
     whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
     return Execution(times, references, whole, np.array(kept, dtype=int), count, why)
-
-
-def _why(balance: Balance) -> str:
-    """Return why there is no equilibrium to go on to."""
-    names = [contact.name for contact in balance.setting.grasp.contacts]
-    off = [name for name, meeting in zip(names, balance.meetings, strict=True) if meeting.left is not None]
-    if off and at_rest(balance)[0]:
-        return f"contact '{off[0]}' runs over the edge of its face there"
-    return "no equilibrium is near: the hand does not follow there"

@@ -47,6 +47,20 @@ def at_rest(balance: Balance) -> Array:
     return np.asarray(balance.error <= AT_REST)
 
 
+def on_faces(balance: Balance) -> int:
+    """Return how many instants pass before a contact leaves its face."""
+    return min((meeting.left for meeting in balance.meetings if meeting.left is not None), default=len(balance.states))
+
+
+def why_not(balance: Balance) -> str:
+    """Return why there is no equilibrium to go on to."""
+    names = [contact.name for contact in balance.setting.grasp.contacts]
+    off = [name for name, meeting in zip(names, balance.meetings, strict=True) if meeting.left is not None]
+    if off and at_rest(balance)[0]:
+        return f"contact '{off[0]}' runs over the edge of its face there"
+    return "no equilibrium is near: the hand does not follow there"
+
+
 def _steps(balance: Balance) -> Array:
     """Return Newton's step (T, n_l + n_q + 6) at every state, shortened where it is long; 0 where it is singular."""
     right = -np.concatenate(balance.residuals, axis=1)

@@ -84,14 +84,14 @@ def kinematics(tree: LinkTree, joints: Sequence[str]) -> MujocoKinematics:
             raise InputError.at(f"joints[{index}]", one_of(name, tree.moving))
     if sorted(joints) != sorted(tree.moving):
         raise InputError.at("joints", f"expected each of {', '.join(tree.moving)} once")
-    model = _spec(tree).compile()
+    model = link_spec(tree).compile()
     places = {name: int(model.joint(f"joint:{name}").qposadr[0]) for name in tree.moving}
     bodies = {link: int(model.body(f"link:{link}").id) for link in tree.links}
     return MujocoKinematics(tuple(joints), bodies, model, tuple(places[name] for name in joints))
 
 
-def _spec(tree: LinkTree) -> Any:
-    """Return the model as a `mujoco.MjSpec`; names get a prefix because "world" is taken there."""
+def link_spec(tree: LinkTree) -> Any:
+    """Return the links as a `mujoco.MjSpec`; names get a prefix, link: or joint:, because "world" is taken there."""
     import mujoco
 
     kinds = {"hinge": mujoco.mjtJoint.mjJNT_HINGE, "slide": mujoco.mjtJoint.mjJNT_SLIDE}

@@ -38,10 +38,13 @@ class Between(Value):
     corners: tuple[float, ...] = ()
     """[s] the corners between the knots that were looked at, each once: lines of tables, starts, ends, peaks, jumps."""
 
+    rooms: tuple[float, ...] | None = None
+    """For each usage, how far beyond its limit counts as kept where the hand really moves; None in the linear model."""
+
     @property
     def exact(self) -> bool:
         """True when nothing is curved: what holds at the knots and at the corners then holds at all times."""
-        return self.samples == 0
+        return self.samples == 0 and self.rooms is None
 
     @property
     def straight(self) -> bool:
@@ -50,8 +53,10 @@ class Between(Value):
 
     @property
     def excess(self) -> float:
-        """How far the worst value is beyond its limit, in units of the limit; negative inside."""
-        return max(usage.violation for usage in self.usages)
+        """How far the worst value is beyond its limit, in units of the limit; not above 0 where that is kept."""
+        rooms = (0.0,) * len(self.usages) if self.rooms is None else self.rooms
+        pairs = zip(self.usages, rooms, strict=True)
+        return max(min(u.violation, 0.0) if u.excess.max(initial=0.0) <= room else u.violation for u, room in pairs)
 
 
 def between(task: TimedTask, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:

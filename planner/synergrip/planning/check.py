@@ -8,6 +8,7 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
+from synergrip.equilibrium.execution import Execution
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
@@ -44,6 +45,8 @@ class Judgement(Value):
     checks: tuple[Check, ...]
     between: Between | None = None
     """The references between the knots of both."""
+    executed: Execution | None = None
+    """Their true states, when the task asks for what the hand that moves does with them."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -96,6 +99,8 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
     there = _at(task, times)
     formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
     motion = forward(analysis.response, times, interpolated(times, references.times, references.values), there.wrench)
+    if task.linearise == "along" and analysis.grasp.held is not None:
+        return _judged_along(analysis, there, formulation, motion)
     usages = limit_usages(there, formulation, motion)
     reached = analysis.coordinates.coordinates(motion.dz_r)
     tracking = _tracking(task, times, reached[1], formulation)
@@ -103,6 +108,35 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
     found = between(there, analysis, formulation, motion)
     checks += between_checks(there, found)
     return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
+
+
+def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
+    """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
+    from synergrip.planning.executing import Executor
+    from synergrip.planning.solvers import SOLVERS
+    from synergrip.planning.walk import Walker
+    from synergrip.planning.walked import allowed, figures
+
+    walker = Walker(task, analysis, Executor.of(analysis, task), SOLVERS["clarabel"])
+    walk = walker.executed(linear.dz_r, linear.forces, linear)
+    if walk.way is None:
+        usages = limit_usages(task, formulation, linear)
+        missed = Check(f"equilibrium: {walk.executed.why}", float("inf"), 0.0)
+        return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
+    found = figures(walk, walker, formulation)
+    followed = Check("rigid motion [m]", walk.behind, allowed(walker))
+    margins = frozen(found.usages[0].value)
+    return Judgement(
+        task,
+        analysis,
+        formulation,
+        found.motion,
+        margins,
+        found.usages,
+        (followed, *found.checks),
+        found.between,
+        walk.executed,
+    )
 
 
 def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Check:

@@ -11,6 +11,7 @@ from synergrip.equilibrium.setting import Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array, frozen
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
 from synergrip.tasks.pushes import Pushing
 from synergrip.tasks.timed_task import TimedTask
@@ -30,22 +31,28 @@ class Executor:
         """Return the executor of a task; pads with a radius roll on objects with a shape."""
         return cls(setting(analysis.grasp, "rolling", analysis.response), task)
 
-    def run(self, times: Array, references: Array, wrench: Array, near: Motion | None = None) -> Execution:
+    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States | None = None) -> Execution:
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).
 
         Args:
             times: [s].
             references: from those at the start.
             wrench: on the object, about B where it starts.
-            near: a motion at these times that is not far from it, where none was executed before.
+            near: states near the equilibria; or a motion that is not far from them, where none was executed before.
         """
-        guess = self.known.get(len(times))
-        if guess is None and near is not None:
+        guess = near if isinstance(near, States) else self.known.get(len(times))
+        if guess is None and isinstance(near, Motion):
             guess = _states(self.setting, near)
         found = execute(self.setting, times, references, loads(self.task, times, wrench), guess=guess)
         if found.whole:
             self.known[len(times)] = found.guess
         return found
+
+
+def analyses_of(execution: Execution, start: Analysis) -> tuple[Analysis, ...]:
+    """Return the analysis of the grasp at every state of an execution."""
+    at = execution.balance
+    return analyse_along(start, G=at.G, J=at.J, points=at.arms, forces=at.states.forces)
 
 
 def loads(task: TimedTask, times: Array, wrench: Array) -> Loads:

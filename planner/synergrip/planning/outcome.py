@@ -77,6 +77,8 @@ class Plan(Tabled):
 
     executed: Execution | None = None
     """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
+    passes: int = 0
+    """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
 

@@ -70,21 +70,11 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     known, asked = _judged(grasp, task)
     outcome = _analysed(known, asked, answers)
     if asked.linearise == "along" and isinstance(outcome, Plan):
-        outcome = _along(outcome, answers)
+        from synergrip.planning.walked import along
+
+        outcome = along(outcome, answers)
     LOG.info("%r", outcome)
     return outcome
-
-
-def _along(plan: Plan, answers: Answerer) -> Outcome:
-    """Plan again around the true equilibria of the hand; a grasp given as matrices has none to speak of."""
-    from synergrip.planning.executing import Executor
-    from synergrip.planning.walk import Walker
-    from synergrip.planning.walked import answer_of
-
-    if plan.grasp.held is None:
-        return plan
-    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
-    return answer_of(walker.walk(plan.motion), walker, plan)
 
 
 def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> Outcome:

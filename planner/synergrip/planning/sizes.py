@@ -71,7 +71,10 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
     }  # fmt: skip
     by_key = {each.key: of_terms[each.size] for each in ARRAYS} | {
         "margin": {"worst_N": force, "per_contact_N": force}, "force_unit_N": force, "limits": limits,
-        "structure": {"singular_values": 1.0}, "between": looks, "largest_margin_N": GIVEN_UP / EXACT * force,
+        "structure": {"singular_values": 1.0}, "true": {
+            "margin": {"worst_N": force, "per_contact_N": force}, "lambda": forces, "du": du, "q": dq,
+            "smallest_stiffness_N_m": float(np.linalg.norm(response.K, 2)),
+        }, "between": looks, "largest_margin_N": GIVEN_UP / EXACT * force,
     }  # fmt: skip
     return Sizes(by_key)
 

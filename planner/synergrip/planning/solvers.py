@@ -27,8 +27,9 @@ from synergrip.values import Value
 Answerer = Callable[[Question, Program, Settings], Solution]
 
 
-def _clarabel(question: Question, program: Program, settings: Settings) -> Solution:
-    return proven(clarabel_.solve(program, settings), program, clarabel_.solve, settings)
+def directly(solve: Callable[[Program, Settings], Solution]) -> Answerer:
+    """Return a file of `conic/solvers` as who answers: what it cannot refute is proven by the relaxed program."""
+    return lambda question, program, settings: proven(solve(program, settings), program, solve, settings)
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:
@@ -37,8 +38,11 @@ def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution
     return referee.solve(question, program, settings)
 
 
-SOLVERS: dict[str, Answerer] = {"clarabel": _clarabel, "cvxpy": _cvxpy}
-""""cvxpy" writes the question down by itself, independently of the program's rows."""
+SOLVERS: dict[str, Answerer] = {
+    "clarabel": directly(clarabel_.solve),
+    "cvxpy": _cvxpy,
+}
+""""cvxpy" writes the question down by itself, independently of the program's rows. A new solver is a line here."""
 
 
 def answerer(name: str | Answerer, key: str = "--solver") -> Answerer:

@@ -20,6 +20,7 @@ from synergrip.planning.told import (
     margin_document,
     series_document,
     structure_document,
+    true_document,
 )
 from synergrip.tasks.scaling import units_of
 
@@ -53,7 +54,7 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
         "checks": _checks(judged, claimed.get("checks")),
         "between": between_document(judged.between),
         "columns": _columns(judged, arrays),
-    }  # fmt: skip
+    } | ({} if judged.executed is None else {"true": true_document(judged.executed, judged.usages[0])})  # fmt: skip
 
 
 INTERRUPTED = 130

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from synergrip.conic.limits.limit import Usage
+from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Check
@@ -57,6 +58,16 @@ def series_document(usage: Usage) -> dict[str, Any]:
     bounds = {end: [finite(value) for value in values] for end, values in ends.items()}
     series = {"items": list(usage.items), "values": usage.value, **bounds}
     return usage_document(usage) | {"series": series}
+
+
+def true_document(execution: Execution, margins: Usage) -> dict[str, Any]:
+    """Return the true states at the knots, of references executed on the hand that moves."""
+    return {
+        "contact_model": execution.setting.contact_model,
+        "margin": margin_document(margins) | {"per_contact_N": execution.margins},
+        "lambda": execution.states.forces, "du": execution.du, "q": execution.states.q,
+        "smallest_stiffness_N_m": execution.stiffness,
+    }  # fmt: skip
 
 
 def between_document(between: Between | None) -> dict[str, Any] | None:

@@ -23,11 +23,10 @@ from synergrip.conic.rows import Rows, norm_within
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
-from synergrip.planning.executing import Executor
+from synergrip.planning.executing import Executor, analyses_of
 from synergrip.planning.solvers import Answerer, ask
 from synergrip.planning.stages import Stage, through
 from synergrip.statics.analysis import Analysis
-from synergrip.statics.kept_dimensions import analyse_like
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
 from synergrip.tasks.scaling import expected_units, units_of
@@ -61,6 +60,8 @@ class Walk(Value):
     stage: Stage | None = None
     """What the goals of the last pass came to; None before the first."""
     passes: int = 0
+    largest_margin: float | None = None
+    """The largest margin [N] in the program of the last pass, when it was asked for."""
 
     @property
     def true(self) -> bool:
@@ -115,6 +116,9 @@ class Walker:
     executor: Executor
     solver: Answerer
     decisions: list[Decision] = field(default_factory=list)
+    margins: list[float | None] = field(default_factory=list)
+    reserve: float = 0.0
+    """[N] how much more than the task asks contacts are to keep at the knots, so that they keep that between them."""
 
     def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
@@ -122,8 +126,12 @@ class Walker:
         Args:
             linear: the motion that the plan promises.
         """
-        best, share, tries = self._executed(linear.dz_r, linear.forces, linear), 1.0, 0
-        for count in range(1, MOST_PASSES + 1):
+        return self.on(self.executed(linear.dz_r, linear.forces, linear))
+
+    def on(self, best: Walk) -> Walk:
+        """Return the walk that the passes end with, from another one."""
+        share, tries = 1.0, 0
+        for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
             if best.way is None or done or share < SHORTEST:
                 break
@@ -137,15 +145,23 @@ class Walker:
 
     def _after(self, stage: Stage) -> Walk:
         promised = stage.formulation.force.at(stage.v)
-        return replace(self._executed(stage.formulation.reference.at(stage.v), promised), stage=stage)
+        found = self.executed(stage.formulation.reference.at(stage.v), promised)
+        return replace(found, stage=stage, largest_margin=self.margins.pop())
 
-    def _executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+    def executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+        """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
+
+        Args:
+            references: at the knots of the task.
+            promised: forces.
+            near: a motion that is not far from what they do, when nothing was executed before.
+        """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
         gap = float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
         if not executed.whole:
             return Walk(frozen(references), executed, gap, None)
-        each = [analyse_like(grasp, self.start) for grasp in executed.grasps]
+        each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
     def _pass(self, way: Steps, walk: Walk, share: float) -> Stage | None:
@@ -154,12 +170,14 @@ class Walker:
         formulation = self.around(way, walk, beta)
         short = ShortStep(frozen(STEP * share + 1.5 * moved))
         first, *others = self.task.goals
-        limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
+        asked = replace(self.task, margin=self.task.margin + self.reserve)
+        limits = asked.kept if isinstance(first, LargestMargin) else asked.all_limits
         answered = ask(Question(formulation, (*limits, short), first), self.solver)
         self.decisions.append(answered.decision)
         if not answered.decision.acceptable:
             return None
         stage = Stage(answered.question.formulation, (*limits, short), first, (answered.decision,))
+        self.margins[:] = [stage.largest_margin]
         return through(stage, others, unasked_goals(self.task), self.solver)
 
     @cached_property

@@ -86,7 +86,7 @@ class ObjectTable(Table):
     """The grasped object."""
 
     title: str = Field(default="", description="name of the object, for people")
-    shape: ShapeTable | None = Field(default=None, description="exactly one of sphere, box and cylinder")
+    shape: ShapeTable | None = Field(default=None, description=f"exactly one of {', '.join(SHAPES)}")
     mass: Mass | None = Field(default=None, description="mass; needed for gravity")
     position: Annotated[
         tuple[float, ...] | None,

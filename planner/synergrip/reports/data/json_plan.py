@@ -24,6 +24,7 @@ from synergrip.planning.told import (
     margin_document,
     series_document,
     structure_document,
+    true_document,
 )
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
@@ -53,8 +54,11 @@ def outcome_document(
         return with_digest(plain(document | _plan(outcome)))
     if isinstance(outcome, Infeasible):
         return document | _infeasible(outcome)
-    certificate = {"kind": "none", "verified": False}
-    return document | {"why": outcome.why, "certificate": certificate}
+    certificate, reached = {"kind": "none", "verified": False}, outcome.reached
+    told = None if reached is None else {
+        "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
+    }  # fmt: skip
+    return document | {"why": outcome.why, "stage": outcome.stage, "certificate": certificate, "reached": told}
 
 
 def _plan(plan: Plan) -> dict[str, Any]:
@@ -65,11 +69,15 @@ def _plan(plan: Plan) -> dict[str, Any]:
         place[each.inside or each.key] = each.of(plan.moved)
     if (execution := execution_document(plan)) is not None:
         document[EXECUTION] = execution
+    if plan.executed is not None:
+        passes = {"programs": len(plan.decisions), "iterations": plan.executed.iterations, "passes": plan.passes}
+        document["true"] = true_document(plan.executed, plan.usages[0]) | passes
     return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,
         "limits": [series_document(usage) for usage in plan.usages],
-        "certificate": certificate_document(last.certificate) | {"solver": last.solution.solver},
+        "certificate": certificate_document(last.certificate)
+        | {"solver": last.solution.solver, "scope": "path" if plan.passes else "start"},
         "checks": [check_document(check) for check in plan.checks],
         "between": between_document(plan.between),
     }  # fmt: skip

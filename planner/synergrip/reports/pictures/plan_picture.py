@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.courses import Chart, charts
 from synergrip.reports.pictures.layout import MARGIN
@@ -33,10 +35,14 @@ def draw_plan(plan: Plan, title: str, path: Path) -> None:
         InputError: a suffix that says no format.
         OSError: the file cannot be written.
     """
-    parts = charts(plan)
-    width = 2 * (LEFT + WIDE) + MARGIN
     under = f"smallest slip margin {plan.margins.min():.4g} N over {plan.motion.times[-1]:.4g} s; dashed: where a line "
-    heading = Heading.of(title, f"{under}is wanted, and limits", width)
+    draw_charts(charts(plan), plan.motion.times, title, f"{under}is wanted, and limits", path)
+
+
+def draw_charts(parts: Sequence[Chart], times: Array, title: str, under: str, path: Path) -> None:
+    """Draw charts over times (T,), two in a row, under a title and a line below it."""
+    width = 2 * (LEFT + WIDE) + MARGIN
+    heading = Heading.of(title, under, width)
     head, block = heading.height, ABOVE + HIGH + BELOW
 
     def fill(sheet: Sheet) -> None:
@@ -46,7 +52,7 @@ def draw_plan(plan: Plan, title: str, path: Path) -> None:
             left, above = LEFT + column * (LEFT + WIDE), head + row * block + ABOVE
             sheet.write(left, above - 0.1, chart.label, UNDER)
             axes = sheet.chart(left, above, WIDE, HIGH)
-            _draw(axes, plan.motion.times, chart)
+            _draw(axes, times, chart)
             if index >= len(parts) - 2:
                 axes.set_xlabel("time [s]", fontsize=8)
 

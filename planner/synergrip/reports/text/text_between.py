@@ -24,6 +24,9 @@ def looked_at(between: Between, *, held: bool) -> Iterator[str]:
 
 
 def _departures(between: Between) -> Iterator[str]:
+    if between.rooms is not None:
+        yield f"the hand that moves, at {len(between.usages[0].times)} instants, knots and corners among them"
+        return
     if between.straight:
         yield "loads and wishes are straight lines from knot to knot"
         return

@@ -45,7 +45,7 @@ def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> li
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
-        lines += [_checked(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
+        lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]
     else:
@@ -78,6 +78,18 @@ def _checked(plan: Plan) -> str:
     parts = [f"certificate {verified} (cones {cones:.0e}, gap {gap:.0e})"]
     parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks]
     return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
+
+
+def _executed(plan: Plan) -> Iterator[str]:
+    """Yield what the figures are those of, when it is not the linear model of the start posture."""
+    if plan.executed is not None:
+        model = {"rolling": "pads roll", "fixed": "contacts stay where they are"}
+        told = (
+            f"the figures are those of the hand that moves, linearised anew {many(plan.passes, 'time')} along the "
+            f"motion; {model[plan.executed.setting.contact_model]} on hand and object; the object is held with "
+            f"{1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
+        )
+        yield from wrapped("true     ", told)
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:

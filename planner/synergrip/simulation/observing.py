@@ -1,0 +1,54 @@
+"""What is seen of the contacts: forces in their frames, margins, and how far they have slipped."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from synergrip.linalg import Array, frozen
+from synergrip.simulation.model import Model, PadModel
+from synergrip.values import Value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Touch(Value):
+    """One contact at an instant."""
+
+    force: Array  # (rows,) as the plan counts them
+    sliding: Array  # (3,) velocity of the pad over the object, axes of the object [m/s]
+    spinning: float  # [rad/s] about the normal
+
+
+def touches(model: Model, data: Any) -> list[Touch | None]:
+    """Return the contacts of a `mujoco.MjData` after a step; None for a pad that does not touch."""
+    found: list[Touch | None] = [None] * len(model.pads)
+    of = {each.geom: number for number, each in enumerate(model.pads)}
+    turned = data.xmat[model.body].reshape(3, 3)
+    for contact in data.contact[: data.ncon]:
+        first, second = (int(geom) for geom in contact.geom)
+        number, sign = (of[first], 1.0) if first in of else (of[second], -1.0)
+        if contact.efc_address >= 0:
+            found[number] = _touch(model.pads[number], data, contact, sign, turned)
+    return found
+
+
+def _touch(pad: PadModel, data: Any, contact: Any, sign: float, turned: Array) -> Touch:
+    rows = slice(contact.efc_address, contact.efc_address + contact.dim)
+    axes = sign * contact.frame.reshape(3, 3)  # normal toward the object, tangents
+    forces, speeds = np.zeros(4), np.zeros(4)
+    forces[: contact.dim], speeds[: contact.dim] = data.efc_force[rows], data.efc_vel[rows]
+    force = forces[:3] @ axes
+    frame = _carried(turned @ pad.frame_o, axes[0])
+    sliding = -turned.T @ (speeds[1:3] @ axes[1:])
+    every = np.array([*(force @ frame), forces[3]])
+    return Touch(frozen(every[: pad.pad.contact.n_rows]), frozen(sliding), float(speeds[3]))
+
+
+def _carried(frame: Array, normal: Array) -> Array:
+    """Return a frame (3, 3) turned by the smallest rotation that takes its n to a normal (3,)."""
+    n = frame[:, 0]
+    axis, cosine = np.cross(n, normal), float(n @ normal)
+    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.asarray((np.eye(3) + cross + cross @ cross / (1 + cosine)) @ frame)

@@ -1,0 +1,157 @@
+"""Plans played in the physics engine: a gripper that holds a box, what is too slippery, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from command_line import document, run
+
+import synergrip
+from synergrip.errors import InputError
+from synergrip.simulation.joint_springs import joint_springs
+from synergrip.simulation.played_plan import read_played_plan
+from synergrip.simulation.timeline import timeline
+
+HELD = ("task.move=[]", "task.knots=21")
+
+
+@pytest.fixture(scope="module")
+def held(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a plan of a gripper that holds a box still."""
+    folder = tmp_path_factory.mktemp("held")
+    problem = synergrip.load_problem("gripper-box", overrides=list(HELD))
+    answer = synergrip.plan(problem.grasp, problem.task)
+    assert isinstance(answer, synergrip.Plan)
+    answer.save(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def played(held: Path) -> synergrip.Simulation:
+    return synergrip.simulate(held)
+
+
+def test_forces_of_a_box_that_is_held_are_those_of_the_plan(held: Path, played: synergrip.Simulation) -> None:
+    plan = json.loads((held / "plan.json").read_text())
+    assert played.verdict == "held"
+    assert played.exit_code == 0
+    largest = np.abs(plan["lambda"]).max()
+    assert np.abs(played.forces[-1] - plan["lambda"][-1]).max() < 0.01 * largest
+    assert np.abs(played.forces[0] - plan["lambda"][0]).max() < 0.01 * largest
+    assert played.worst[0] == pytest.approx(played.promised_worst, abs=0.02 * largest)
+    assert played.motion_error[0] < 2e-5
+    assert played.slip.max() < 5e-6
+
+
+def test_half_the_step_gives_the_same(played: synergrip.Simulation) -> None:
+    assert played.half_step is not None
+    margin, shift = played.half_step
+    assert 0 < margin < 0.005
+    assert shift < 5e-6
+
+
+def test_too_little_friction_slips_and_says_so(held: Path, tmp_path: Path) -> None:
+    """A force of half the friction needed cannot hold the box, whose weight the tips carry by friction alone."""
+    found = document("simulate", str(held), "--friction", "0.5", "--once", "-o", str(tmp_path / "out"), code=3)
+    assert found["verdict"] in ("slipped", "lost contact")
+    assert found["slipped"] == found["contacts"]
+    assert found["margin"]["worst_N"] < 0.05
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"model.xml", "simulation.json", "simulation.csv"}
+    assert json.loads((tmp_path / "out" / "simulation.json").read_text()) == found
+
+
+def test_the_text_and_the_picture(held: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "held.svg"
+    result = run("simulate", str(held), "--once", "--speed", "real", "--picture", str(picture))
+    assert result.exit_code == 0, result.output
+    assert "every contact touched and none slipped" in result.stdout
+    assert "N promised" in result.stdout
+    assert picture.read_text().startswith("<?xml")
+    assert "playing" in result.stderr
+
+
+def changed(held: Path, folder: Path, change: Callable[[dict[str, Any]], object]) -> Path:
+    """Return a copy of a plan.json in which something is changed."""
+    data = json.loads((held / "plan.json").read_text())
+    change(data)
+    path = folder / "plan.json"
+    path.write_text(json.dumps(data))
+    return path
+
+
+def rigid(data: dict[str, Any]) -> None:
+    data["execution"]["contacts"][1]["compliance"] = np.zeros((4, 4)).tolist()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda data: data["execution"]["object"].update(shape=None), ("object.shape", "bare mass")),
+        (lambda data: data["execution"].update(sha256="0"), ("execution.sha256", "plan again")),
+        (rigid, ("contacts[1].compliance", "right/tip", "rigid")),
+        (lambda data: data["execution"]["contacts"][0].update(kind="patch"), ("contacts[0]", "patch_radius_m")),
+        (lambda data: data.pop("execution"), ("given as matrices",)),
+        (lambda data: data["execution"].pop("S"), ("execution.S", "missing")),
+        (lambda data: data["execution"].update(q_0=[0.0, 1.0]), ("execution.q_0", "4 finite numbers")),
+        (lambda data: data.pop("dz_r"), ("holds no plan",)),
+    ],
+)
+def test_refusals_name_what_is_missing(
+    held: Path, tmp_path: Path, change: Callable[[dict[str, Any]], object], said: tuple[str, ...]
+) -> None:
+    with pytest.raises(InputError) as refused:
+        synergrip.simulate(changed(held, tmp_path, change), half_step=False)
+    for words in said:
+        assert words in str(refused.value)
+
+
+def test_bad_plan_files_and_arguments_end_with_2(held: Path, tmp_path: Path) -> None:
+    assert run("simulate", str(tmp_path / "none")).exit_code == 2
+    assert run("simulate", str(held), "--step", "-1").exit_code == 2
+    with pytest.raises(InputError, match="speed"):
+        synergrip.simulate(held, speed="fast")
+    with pytest.raises(InputError, match="plan"):
+        synergrip.simulate(3)  # type: ignore[arg-type]
+
+
+def test_springs_of_joints_are_the_inverse_where_something_gives() -> None:
+    rng = np.random.default_rng(3)
+    S = rng.normal(size=(5, 2))
+    C = S @ np.diag([0.2, 0.03]) @ S.T
+    springs = joint_springs(C)
+    torque = rng.normal(size=5)
+    moved = -C @ torque
+    assert springs.count == 3
+    assert -springs.K @ moved == pytest.approx(springs.held @ torque, abs=1e-9)
+    assert springs.prescribed @ moved == pytest.approx(np.zeros(5), abs=1e-12)
+
+
+def test_joints_that_do_not_give_follow_their_references(held: Path, tmp_path: Path) -> None:
+    """All joints stiff: the pads alone give, and carry what they did and what the joints' way squeezes them by."""
+
+    def stiff(data: dict[str, Any]) -> None:
+        data["execution"]["C_q"] = np.zeros((4, 4)).tolist()
+        data["dz_r"] = (0.1 * np.array(data["dz_r"])).tolist()
+
+    path = changed(held, tmp_path, stiff)
+    plan = read_played_plan(path)
+    found = synergrip.simulate(path, half_step=False, friction=5.0)
+    wanted = plan.q_0 + plan.S @ plan.dz_r[-1]
+    assert found.q[-1] == pytest.approx(wanted, abs=1e-9)
+    points = [plan.kinematics.at(q, [(plan.pads[0].link, plan.pads[0].centre)])[0].position for q in (plan.q_0, wanted)]
+    normal = plan.pads[0].contact.normal @ (points[1] - points[0]) / plan.pads[0].compliance[0, 0]
+    assert normal > 0.1
+    assert found.forces[-1, 0] == pytest.approx(plan.forces_0[0][0] + normal, rel=0.005)
+
+
+def test_the_timeline_passes_all_knots_and_is_as_long_as_the_plan_at_its_own_speed(held: Path) -> None:
+    plan = read_played_plan(held)
+    line = timeline(plan, "real")
+    assert line.duration == pytest.approx(plan.times[-1] - plan.times[0])
+    for time, dz_r in zip(plan.times, plan.dz_r, strict=True):
+        assert line.applied(time - plan.times[0]).dz_r == pytest.approx(dz_r, abs=1e-12)
