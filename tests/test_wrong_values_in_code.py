@@ -125,6 +125,7 @@ OTHERS = {
     "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
+    "simulate", "Simulation",
 }  # fmt: skip
 """Bases, answers, values that only other functions make, and what takes no arguments or is tried above."""
 PLACES = [(name, argument) for name, arguments in RIGHT.items() for argument in arguments]
