@@ -9,16 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from held_ball import at, ball, grasp, hand, hard, task
 
 import synergrip as sg
 
 nan = math.nan
-hard = sg.HardFinger(friction=0.6)
-hand = sg.load_hand("barrett")
-ball = sg.Object(mass=0.2, shape=sg.Sphere(radius=0.05))
-at = [sg.ContactAt(pad, hard, stiffness=8e3) for pad in ("finger1/tip", "finger2/tip", "finger3/tip")]
-grasp = sg.make_grasp(hand, ball, posture="ball", synergies="motors", contacts=at)
-task = sg.Task(duration=1.0, knots=3)
 PLAN = sg.plan(grasp, task)
 any_call: Any = sg
 """Every public name, without its types: these calls are wrong on purpose."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from second_execution import executed as executed_otherwise
 
 from synergrip import Plan, Unknown, load_problem
 from synergrip import plan as planned
+from synergrip.cli.progress import telling
 from synergrip.conic.along import AlongPath
 from synergrip.conic.along import Path as Known
 from synergrip.conic.formulation import Units, formulate
@@ -21,6 +23,7 @@ from synergrip.planning.executing import Executor, analyses_of
 from synergrip.planning.references import References, read_references
 from synergrip.planning.solvers import SOLVERS
 from synergrip.planning.walk import Walker
+from synergrip.planning.walked import answer_of
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.response import Maps
 
@@ -73,7 +76,7 @@ def test_what_a_pass_promises_is_what_happens_but_for_geometric_stiffness() -> N
     assert np.allclose(formulation.reference.constant - walk.references, formulation.change.constant)
     change = 1e-3 * np.random.default_rng(1).normal(size=plan.dz_r.shape)
     moved = np.array([at.response.dlambda_dzr @ dz for at, dz in zip(walk.way.each, change, strict=True)])
-    found = walker.executed(walk.references + change, walk.executed.states.forces + moved)
+    found = walker.executed(walk.references + change, walk.executed.states.forces + moved, walk.executed.guess)
     assert found.gap < 0.05 * np.abs(moved).max()
     stale = np.abs(plan.analysis.response.dlambda_dzr @ change.T - moved.T).max()
     assert found.gap < 0.5 * stale  # the maps of the start are off by far more at the end of the motion
@@ -160,8 +163,57 @@ def test_goals_and_their_order_are_kept() -> None:
 
 def test_the_second_solver_begins_and_clarabel_goes_along() -> None:
     problem = load_problem("gripper-peg", ["task.linearise=along"])
-    answer = planned(problem.grasp, problem.task, solver="cvxpy")
-    assert answer.verdict == "feasible"
+    for solver in ("cvxpy", telling(SOLVERS["cvxpy"])):  # the second one is that of the command line
+        answer = planned(problem.grasp, problem.task, solver=solver)
+        assert answer.verdict == "feasible"
+        assert {decision.solution.solver.split()[0] for decision in answer.decisions} >= {"Clarabel"}
+
+
+def test_a_plan_rests_on_the_pass_that_it_keeps() -> None:
+    """Passes that are taken back, or have no answer, are no part of it: its certificate is of its own program."""
+    answer = along("human-ball-5")
+    first = once("human-ball-5")
+    assert answer.passes > 3  # some are taken back
+    assert len(answer.decisions) < len(first.decisions) + answer.passes
+    assert all(decision.optimal for decision in answer.decisions)
+    last = answer.decisions[-1]
+    unknowns = last.program.unknowns(last.solution.x)
+    assert unknowns.shape[0] == len(answer.time)
+
+
+def walked(name: str) -> tuple[Walker, Any, Plan]:
+    plan = once(name, SHORT)
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), SOLVERS["clarabel"])
+    return walker, walker.walk(plan.motion), plan
+
+
+def test_an_equilibrium_that_the_hand_would_leave_is_no_plan() -> None:
+    walker, walk, plan = walked("barrett-ball-roll")
+    assert answer_of(walk, walker, plan).verdict == "feasible"
+    walk.executed.__dict__["stiffness"] = frozen([*walk.executed.stiffness[:-1], -1.0])
+    answer = answer_of(walk, walker, plan)
+    assert isinstance(answer, Unknown)
+    assert (answer.stage, "stability, by 1" in answer.why) == ("execution", True)
+
+
+def test_a_way_that_ends_between_the_knots_is_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    walker, walk, plan = walked("barrett-ball-roll")
+    run = Executor.run
+
+    def ended(self: Executor, times: Any, references: Any, wrench: Any, near: Any) -> Any:
+        found = run(self, times, references, wrench, near)
+        return replace(found, kept=found.kept[:-2], why="no equilibrium is near")
+
+    monkeypatch.setattr(Executor, "run", ended)
+    answer = answer_of(walk, walker, plan)
+    assert isinstance(answer, Unknown)
+    assert answer.why.endswith("between the knots: no equilibrium is near; more knots straighten it")
+
+
+def test_what_load_and_wish_do_between_the_knots_is_told_as_before() -> None:
+    answer, first = along("barrett-ball-roll", SHORT), once("barrett-ball-roll", SHORT)
+    assert answer.between.path_departure == first.between.path_departure > 0
+    assert answer.between.corners == first.between.corners
 
 
 def test_a_grasp_of_matrices_has_no_motion_to_go_along() -> None:

@@ -11,12 +11,13 @@ whole, since away from the start the motions of Gamma_ucs cost a little force, t
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from synergrip.conic.affine import Affine
+from synergrip.conic.beside_knots import fields_of
 from synergrip.conic.formulation import Formulation
 from synergrip.linalg import Array
 from synergrip.values import Value
@@ -45,8 +46,7 @@ class AlongPath(Formulation):
     @classmethod
     def around_path(cls, formulation: Formulation, path: Path) -> AlongPath:
         """Return the formulation of changes of a path, from one whose `each` are the grasps along it."""
-        own = {field.name: getattr(formulation, field.name) for field in fields(Formulation)}
-        return cls(**own, path=path)
+        return cls(**fields_of(formulation), path=path)
 
     @property
     def known(self) -> Path:
@@ -105,8 +105,10 @@ class AtStates(Formulation):
     @classmethod
     def of(cls, formulation: Formulation, *, times: Array, wrench: Array, target: Array, rigid: Array) -> AtStates:
         """Return it at some instants (T,), with the target and the rigid part (T, 6) of the motion there."""
-        own = {field.name: getattr(formulation, field.name) for field in fields(Formulation)}
-        return cls(**own | {"times": times, "wrench": wrench, "target": target, "each": None}, known_rigid=rigid)
+        return cls(
+            **fields_of(formulation) | {"times": times, "wrench": wrench, "target": target, "each": None},
+            known_rigid=rigid,
+        )
 
     def rigid_motion(self, dz_r: Array) -> Array:
         """Return the rigid part (T, 6) of the motion [m, rad]."""

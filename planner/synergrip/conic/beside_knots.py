@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,11 @@ from synergrip.conic.each_knot import Statics
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.linalg import Array, frozen, interpolated
+
+
+def fields_of(formulation: Formulation) -> dict[str, Any]:
+    """Return what every formulation has, by name, to make one of another kind of it."""
+    return {each.name: getattr(formulation, each.name) for each in fields(Formulation)}
 
 
 def beside(formulation: Formulation, looks: Looks) -> Formulation:
@@ -31,7 +37,7 @@ def beside(formulation: Formulation, looks: Looks) -> Formulation:
     def moved(part: Affine) -> Affine:
         return replace(part, constant=frozen(interpolated(looks.times, formulation.times, part.constant)))
 
-    own = {each.name: getattr(formulation, each.name) for each in fields(Formulation)} | {
+    own = fields_of(formulation) | {
         "times": looks.times, "wrench": looks.wrench, "target": looks.target, "alpha": moved(formulation.alpha),
         "beta": moved(formulation.beta), "gamma": moved(formulation.gamma),
     }  # fmt: skip

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.shapes.shape import Shape
-from synergrip.linalg import Array
+from synergrip.linalg import Array, cross
 from synergrip.values import Value
 
 EDGE = 1e-6
@@ -98,7 +99,7 @@ class Sliding(Model):
         """Return how much nearer the pad is; the force acts where the surface is nearest."""
         inside = np.einsum("tji,tj->ti", placed.rotation, placed.point - placed.position)
         distance, outward = surface_at(self.shape, inside)
-        frame = placed.rotation @ frames_along(-outward)
+        frame = placed.rotation @ np.array([contact_frame(normal) for normal in -outward])
         stretch = np.zeros((len(inside), 6))
         stretch[:, 0] = self.radius - distance
         place = placed.point + distance[:, None] * frame[:, :, 0]
@@ -186,15 +187,5 @@ def rotation_vectors(rotations: Array) -> Array:
 
 def carried_along(old: Array, new: Array) -> Array:
     """Return the smallest rotation (3, 3) that turns one unit vector into another that is not its opposite."""
-    axis = np.cross(old, new)
-    x, y, z = axis
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    skew = cross(np.cross(old, new))
     return np.asarray(np.eye(3) + skew + skew @ skew / (1.0 + old @ new))
-
-
-def frames_along(normals: Array) -> Array:
-    """Return frames (T, 3, 3) whose first columns are unit vectors; how the others lie means nothing."""
-    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    t = least - np.einsum("ti,ti->t", least, normals)[:, None] * normals
-    t /= np.linalg.norm(t, axis=1)[:, None]
-    return np.stack([normals, t, np.cross(normals, t)], axis=2)

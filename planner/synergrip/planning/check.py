@@ -113,9 +113,10 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
     from synergrip.planning.executing import Executor
+    from synergrip.planning.reach import allowed
     from synergrip.planning.solvers import SOLVERS
     from synergrip.planning.walk import Walker
-    from synergrip.planning.walked import allowed, figures
+    from synergrip.planning.walked import figures
 
     walker = Walker(task, analysis, Executor.of(analysis, task), SOLVERS["clarabel"])
     walk = walker.executed(linear.dz_r, linear.forces, linear)
@@ -123,7 +124,7 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         usages = limit_usages(task, formulation, linear)
         missed = Check(f"equilibrium: {walk.executed.why}", float("inf"), 0.0)
         return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
-    found = figures(walk, walker, formulation)
+    found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     followed = Check("rigid motion [m]", walk.behind, allowed(walker))
     margins = frozen(found.usages[0].value)
     return Judgement(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,40 +14,33 @@ from synergrip.linalg import Array, frozen
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
-from synergrip.tasks.pushes import Pushing
+from synergrip.tasks.pushes import pushes_in
 from synergrip.tasks.timed_task import TimedTask
 
 
 @dataclass(frozen=True, eq=False)
 class Executor:
-    """Executes references of a task on a hand; what was found last time is where it begins the next time."""
+    """Executes references of a task on a hand."""
 
     setting: Setting
     task: TimedTask
-    known: dict[int, States] = field(default_factory=dict)
-    """States by the number of instants, of the last execution at as many."""
 
     @classmethod
     def of(cls, analysis: Analysis, task: TimedTask) -> Executor:
         """Return the executor of a task; pads with a radius roll on objects with a shape."""
         return cls(setting(analysis.grasp, "rolling", analysis.response), task)
 
-    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States | None = None) -> Execution:
+    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States) -> Execution:
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).
 
         Args:
             times: [s].
             references: from those at the start.
             wrench: on the object, about B where it starts.
-            near: states near the equilibria; or a motion that is not far from them, where none was executed before.
+            near: states near the equilibria, or a motion that is not far from them.
         """
-        guess = near if isinstance(near, States) else self.known.get(len(times))
-        if guess is None and isinstance(near, Motion):
-            guess = _states(self.setting, near)
-        found = execute(self.setting, times, references, loads(self.task, times, wrench), guess=guess)
-        if found.whole:
-            self.known[len(times)] = found.guess
-        return found
+        guess = near if isinstance(near, States) else _states(self.setting, near)
+        return execute(self.setting, times, references, loads(self.task, times, wrench), guess=guess)
 
 
 def analyses_of(execution: Execution, start: Analysis) -> tuple[Analysis, ...]:
@@ -55,12 +49,17 @@ def analyses_of(execution: Execution, start: Analysis) -> tuple[Analysis, ...]:
     return analyse_along(start, G=at.G, J=at.J, points=at.arms, forces=at.states.forces)
 
 
+def sag_of(each: Sequence[Analysis], wrench: Array, start: Analysis) -> Array:
+    """Return the displacement (T, 6) that the change of the load (T, 6) makes, by the maps of each state [m, rad]."""
+    change = wrench - start.grasp.w_0
+    return frozen(np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)]))
+
+
 def loads(task: TimedTask, times: Array, wrench: Array) -> Loads:
     """Return the loads at some times: pushes act on points of the object, which move with it."""
-    parts = [part for part in getattr(task.course, "load", ()) if isinstance(part, Pushing)]
-    factor = getattr(task.course, "factor", 1.0)
-    points = np.array([part.point for part in parts]).reshape(-1, 3)
-    forces = [factor * np.outer(part.share(times), part.wrench[:3]) for part in parts]
+    parts = pushes_in(task.course)
+    points = np.array([push.point for push, _ in parts]).reshape(-1, 3)
+    forces = [factor * np.outer(push.share(times), push.wrench[:3]) for push, factor in parts]
     at_points = np.stack(forces, axis=1) if forces else np.zeros((len(times), 0, 3))
     return Loads(np.array(wrench), points, at_points)
 

@@ -28,7 +28,7 @@ from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answered, Answerer, answerer, ask
-from synergrip.planning.stages import Stage, not_the_best, through
+from synergrip.planning.stages import Stage, begun, through
 from synergrip.planning.verified import verified_plan
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.tasks.goals import unasked_goals
@@ -155,8 +155,7 @@ class _Planner:
         best = self._ask(limits, first)
         if not best.decision.acceptable:
             return self._without_optimum(best.decision, first)
-        notes = () if best.decision.optimal else (not_the_best(best.decision),)
-        stage = Stage(best.question.formulation, limits, first, (best.decision,), notes)
+        stage = begun(best, limits, first)
         if stage.falls_short_of(self.task.margin):
             return self._short_of_margin(best, stage.largest_margin or 0.0)
         last = through(stage, others, unasked_goals(self.task), self.solver)

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
 from synergrip.conic.decide import Decision, decide, rank
 from synergrip.conic.formulation import Units
@@ -33,6 +34,9 @@ def directly(solve: Callable[[Program, Settings], Solution]) -> Answerer:
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:
+    """Answer by the second formulation; it writes down the start posture, and leaves what is around a path."""
+    if isinstance(question.formulation, AlongPath):
+        return SOLVERS["clarabel"](question, program, settings)
     from synergrip.referee import judge as referee
 
     return referee.solve(question, program, settings)

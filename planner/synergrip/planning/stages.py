@@ -18,7 +18,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.linalg import Array
 from synergrip.log import LOG
-from synergrip.planning.solvers import Answerer, ask
+from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.tasks.timed_task import unbounded
 from synergrip.values import Value
 
@@ -70,6 +70,13 @@ class Stage(Value):
         """Return whether the last goal is the largest margin and does not reach a margin [N]."""
         largest = self.largest_margin
         return largest is not None and largest < margin - SLACKS[0] * self.formulation.force_unit
+
+
+def begun(answered: Answered, limits: tuple[Limit, ...], goal: Goal) -> Stage:
+    """Return the stage of the first goal, with a note where it did not verify that no plan is better."""
+    decision = answered.decision
+    notes = () if decision.optimal else (not_the_best(decision),)
+    return Stage(answered.question.formulation, limits, goal, (decision,), notes)
 
 
 def through(stage: Stage, goals: Sequence[Goal], unasked: Sequence[Goal], solver: Answerer) -> Stage:

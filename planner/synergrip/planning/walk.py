@@ -8,7 +8,7 @@ step it took; a step that was too long is taken back and tried again shorter.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,11 +21,12 @@ from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.question import Question
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.equilibrium.execution import Execution
+from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
-from synergrip.planning.executing import Executor, analyses_of
-from synergrip.planning.solvers import Answerer, ask
-from synergrip.planning.stages import Stage, through
+from synergrip.planning.executing import Executor, analyses_of, sag_of
+from synergrip.planning.solvers import Answered, Answerer, ask
+from synergrip.planning.stages import Stage, begun, through
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -62,6 +63,8 @@ class Walk(Value):
     passes: int = 0
     largest_margin: float | None = None
     """The largest margin [N] in the program of the last pass, when it was asked for."""
+    tried: tuple[Decision, ...] = ()
+    """On the first goal, of every pass; of those taken back, too."""
 
     @property
     def true(self) -> bool:
@@ -115,8 +118,6 @@ class Walker:
     start: Analysis
     executor: Executor
     solver: Answerer
-    decisions: list[Decision] = field(default_factory=list)
-    margins: list[float | None] = field(default_factory=list)
     reserve: float = 0.0
     """[N] how much more than the task asks contacts are to keep at the knots, so that they keep that between them."""
 
@@ -135,26 +136,32 @@ class Walker:
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
             if best.way is None or done or share < SHORTEST:
                 break
-            stage = self._pass(best.way, best, share)
-            found = None if stage is None else self._after(stage)
+            answered, limits = self._first(best.way, best, share)
+            found = self._after(answered, limits, best) if answered.decision.acceptable else None
             good = found is not None and found.better_than(best)
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
-            best = replace(found if good and found is not None else best, passes=count)
+            tried = (*best.tried, answered.decision)
+            best = replace(found if good and found is not None else best, passes=count, tried=tried)
             share, tries = (min(1.0, 2 * share), 0) if good else (SHORTER * share, tries + 1)
         return best
 
-    def _after(self, stage: Stage) -> Walk:
-        promised = stage.formulation.force.at(stage.v)
-        found = self.executed(stage.formulation.reference.at(stage.v), promised)
-        return replace(found, stage=stage, largest_margin=self.margins.pop())
+    def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
+        """Return what the goals after the first come to, executed."""
+        first, *others = self.task.goals
+        stage = begun(answered, limits, first)
+        largest = stage.largest_margin
+        stage = through(stage, others, unasked_goals(self.task), self.solver)
+        references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
+        found = self.executed(references, promised, best.executed.guess)
+        return replace(found, stage=stage, largest_margin=largest)
 
-    def executed(self, references: Array, promised: Array, near: Motion | None = None) -> Walk:
+    def executed(self, references: Array, promised: Array, near: Motion | States) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
 
         Args:
             references: at the knots of the task.
             promised: forces.
-            near: a motion that is not far from what they do, when nothing was executed before.
+            near: states or a motion that are not far from what they do.
         """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
@@ -164,21 +171,13 @@ class Walker:
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
-    def _pass(self, way: Steps, walk: Walk, share: float) -> Stage | None:
-        """Return what the goals come to around a path; None when the first has no answer there."""
+    def _first(self, way: Steps, walk: Walk, share: float) -> tuple[Answered, tuple[Limit, ...]]:
+        """Return what the first goal comes to around a path, and the limits that it keeps."""
         beta, moved = way.damped(DAMPING / share)
-        formulation = self.around(way, walk, beta)
-        short = ShortStep(frozen(STEP * share + 1.5 * moved))
-        first, *others = self.task.goals
-        asked = replace(self.task, margin=self.task.margin + self.reserve)
+        first, asked = self.task.goal, replace(self.task, margin=self.task.margin + self.reserve)
         limits = asked.kept if isinstance(first, LargestMargin) else asked.all_limits
-        answered = ask(Question(formulation, (*limits, short), first), self.solver)
-        self.decisions.append(answered.decision)
-        if not answered.decision.acceptable:
-            return None
-        stage = Stage(answered.question.formulation, (*limits, short), first, (answered.decision,))
-        self.margins[:] = [stage.largest_margin]
-        return through(stage, others, unasked_goals(self.task), self.solver)
+        limits = (*limits, ShortStep(frozen(STEP * share + 1.5 * moved)))
+        return ask(Question(self.around(way, walk, beta), limits, first), self.solver), limits
 
     @cached_property
     def wanted(self) -> Array:
@@ -191,7 +190,7 @@ class Walker:
         displacement = frozen(self.wanted - walk.executed.left(self.wanted))
         path = Path(
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
-            _sag(way.each, start, task),
+            sag_of(way.each, task.wrench, start),
         )  # fmt: skip
         sizes = expected_units(start, task, np.zeros_like(beta), self.wanted)
         formulation = formulate(
@@ -209,8 +208,3 @@ def _told(found: Walk | None, good: bool) -> str:
         return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
     told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
     return told if good else f"{told}, taken back"
-
-
-def _sag(each: Sequence[Analysis], start: Analysis, task: TimedTask) -> Array:
-    change = task.wrench - start.grasp.w_0
-    return frozen(np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)]))

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.equilibrium.meeting import carried_along
 from synergrip.linalg import Array, frozen
 from synergrip.simulation.model import Model, PadModel
 from synergrip.values import Value
@@ -40,15 +41,8 @@ def _touch(pad: PadModel, data: Any, contact: Any, sign: float, turned: Array) -
     forces, speeds = np.zeros(4), np.zeros(4)
     forces[: contact.dim], speeds[: contact.dim] = data.efc_force[rows], data.efc_vel[rows]
     force = forces[:3] @ axes
-    frame = _carried(turned @ pad.frame_o, axes[0])
+    before = turned @ pad.frame_o
+    frame = carried_along(before[:, 0], axes[0]) @ before
     sliding = -turned.T @ (speeds[1:3] @ axes[1:])
     every = np.array([*(force @ frame), forces[3]])
     return Touch(frozen(every[: pad.pad.contact.n_rows]), frozen(sliding), float(speeds[3]))
-
-
-def _carried(frame: Array, normal: Array) -> Array:
-    """Return a frame (3, 3) turned by the smallest rotation that takes its n to a normal (3,)."""
-    n = frame[:, 0]
-    axis, cosine = np.cross(n, normal), float(n @ normal)
-    cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.asarray((np.eye(3) + cross + cross @ cross / (1 + cosine)) @ frame)

@@ -13,7 +13,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, kind_of, one_of
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.outcome import Plan
 from synergrip.simulation.played_plan import PlayedPlan, read_played_plan
 from synergrip.simulation.playing import LOST, Played, play
@@ -153,7 +153,7 @@ def _read(plan: str | Path | Plan) -> PlayedPlan:
 
 def _simulation(plan: PlayedPlan, found: Played, finer: Played | None, speed: str, step: float) -> Simulation:
     def there(values: Array) -> Array:
-        return frozen(np.column_stack([np.interp(found.time, plan.times, column) for column in values.T]))
+        return frozen(interpolated(found.time, plan.times, values))
 
     true = plan.true_margins
     return Simulation(

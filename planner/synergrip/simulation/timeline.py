@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.simulation.played_plan import PlayedPlan
 from synergrip.values import Value
 
@@ -65,7 +65,7 @@ def timeline(plan: PlayedPlan, speed: str) -> Timeline:
         between = np.array(columns).reshape(flat.shape[1], len(knots)).T
         return np.asarray(np.vstack([flat, between])[order][kept].reshape(int(kept.sum()), *values.shape[1:]))
 
-    dz_r = _between(plan.times, plan.dz_r, at[kept])
+    dz_r = interpolated(at[kept], plan.times, plan.dz_r)
     wrench, forces = of_load(load.wrench), of_load(load.forces)
     steps = np.diff(at[kept]) if speed == "real" else _slow(plan, at[kept], dz_r, wrench)
     clock = np.concatenate([[0.0], np.cumsum(steps)])
@@ -85,13 +85,9 @@ def to_the_first_knot(plan: PlayedPlan, line: Timeline, wrench_0: Array, duratio
     )  # fmt: skip
 
 
-def _between(times: Array, values: Array, at: Array) -> Array:
-    return np.column_stack([np.interp(at, times, column) for column in values.T])
-
-
 def _slow(plan: PlayedPlan, at: Array, dz_r: Array, wrench: Array) -> Array:
     """Return how long each step (N - 1,) takes when nothing is faster than `SLOWEST`."""
-    du, forces = _between(plan.times, plan.du, at), _between(plan.times, plan.forces, at)
+    du, forces = interpolated(at, plan.times, plan.du), interpolated(at, plan.times, plan.forces)
     changes = [
         (np.linalg.norm(np.diff(du[:, :3], axis=0), axis=1), "object"),
         (np.linalg.norm(np.diff(du[:, 3:], axis=0), axis=1), "turn"),

@@ -167,3 +167,9 @@ class Pushing:
         if self.profile == "half-sine":
             return np.linspace(self.start, self.end, HALF_SINE_PARTS + 1)
         return np.array([time for _, time in self.corners])
+
+
+def pushes_in(course: object) -> list[tuple[Pushing, float]]:
+    """Return the pushes among what happens in a task, each with the factor of the whole load."""
+    factor = getattr(course, "factor", 1.0)
+    return [(part, factor) for part in getattr(course, "load", ()) if isinstance(part, Pushing)]

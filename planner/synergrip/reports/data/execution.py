@@ -26,7 +26,7 @@ from synergrip.tasks.marks import together
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.palm_motion import PalmMotion
 from synergrip.tasks.palm_path import PalmSpline
-from synergrip.tasks.pushes import Pushing
+from synergrip.tasks.pushes import Pushing, pushes_in
 from synergrip.tasks.timed_task import TimedTask
 
 KEY = "execution"
@@ -119,12 +119,12 @@ def _load(task: TimedTask, body: Object) -> dict[str, Any]:
 
     Where it jumps, an instant stands more than once: just before, at it and just after, as far as these differ.
     """
-    lines, parts, factor = _lines(task), getattr(task.course, "load", ()), getattr(task.course, "factor", 1.0)
+    lines = _lines(task)
     return {
         "times_s": [time for time, _, _ in lines], "wrench": np.array([wrench for _, _, wrench in lines]),
         "axes": "palm", "point": body.position,
-        "forces": [{"at_m": part.point, "force": factor * _pushed(part, lines)}
-                   for part in parts if isinstance(part, Pushing)],
+        "forces": [{"at_m": push.point, "force": factor * _pushed(push, lines)}
+                   for push, factor in pushes_in(task.course)],
         "curved_s": [[float(start), float(end)] for start, end in sorted(set(_curved(task)))],
     }  # fmt: skip
 
