@@ -184,7 +184,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "a weight negative": (lambda: any_call.WeightedSum([(sg.LeastEffort(), -1.0)]), "WeightedSum.goals[0]"),
     "goals twice": (lambda: any_call.Task(goals=[sg.LeastEffort(), sg.LeastEffort()]), "Task.goals[1]"),
     "gravity twice": (lambda: any_call.Task(loads=[sg.Gravity((0, 0, 1))] * 2), "Task.loads[1]"),
-    "knots as a span of time": (lambda: any_call.Task(knots=np.timedelta64(3)), "Task.knots"),
+    "knots as a span of time": (lambda: any_call.Task(knots=np.timedelta64(3, "s")), "Task.knots"),
     "waypoint after the end": (
         lambda: any_call.Task(duration=1.0, target=sg.Waypoints(times=[2.0], positions=[[0, 0, 0.01]])),
         "Task.target.times",

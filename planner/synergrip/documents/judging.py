@@ -134,7 +134,7 @@ class Arguments:
 
 def described(value: object) -> str:
     """Return what came, for a message: a number or a text itself, of anything else what it is."""
-    if isinstance(value, np.number) and not np.iscomplexobj(value):
+    if isinstance(value, np.number) and not np.iscomplexobj(value) and not isinstance(value, np.timedelta64):
         return f"{float(value):g}"
     if value is None or isinstance(value, bool | int | float | str | list | tuple | dict):
         return shown(value)
