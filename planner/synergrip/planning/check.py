@@ -46,7 +46,7 @@ class Judgement(Value):
     between: Between | None = None
     """The references between the knots of both."""
     executed: Execution | None = None
-    """Their true states, when the task asks for what the hand that moves does with them."""
+    """Their true states on the hand that moves; None for a grasp given as matrices."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -99,7 +99,7 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
     there = _at(task, times)
     formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
     motion = forward(analysis.response, times, interpolated(times, references.times, references.values), there.wrench)
-    if task.linearise == "along" and analysis.grasp.held is not None:
+    if analysis.grasp.held is not None:
         return _judged_along(analysis, there, formulation, motion)
     usages = limit_usages(there, formulation, motion)
     reached = analysis.coordinates.coordinates(motion.dz_r)
@@ -113,10 +113,10 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
     from synergrip.planning.executing import Executor
+    from synergrip.planning.figures import figures
     from synergrip.planning.reach import allowed
     from synergrip.planning.solvers import SOLVERS
     from synergrip.planning.walk import Walker
-    from synergrip.planning.walked import figures
 
     walker = Walker(task, analysis, Executor.of(analysis, task), SOLVERS["clarabel"])
     walk = walker.executed(linear.dz_r, linear.forces, linear)

@@ -216,10 +216,14 @@ class Unknown(Reasoned):
     does not do what a plan promises."""
     reached: Reached | None = None
     """Until when the motion was followed, at the stage "reach"."""
+    executed: Execution | None = None
+    """The true states that the references found lead to, at the stages "reach" and "execution"."""
+    usages: tuple[Usage, ...] = ()
+    """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

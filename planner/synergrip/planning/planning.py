@@ -69,10 +69,10 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     answers = answerer(solver, "solver")
     known, asked = _judged(grasp, task)
     outcome = _analysed(known, asked, answers)
-    if asked.linearise == "along" and isinstance(outcome, Plan):
-        from synergrip.planning.walked import along
+    if isinstance(outcome, Plan) and outcome.grasp.held is not None:
+        from synergrip.planning.walked import on_the_hand
 
-        outcome = along(outcome, answers)
+        outcome = on_the_hand(outcome, answers)
     LOG.info("%r", outcome)
     return outcome
 

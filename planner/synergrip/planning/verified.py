@@ -122,7 +122,9 @@ def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> I
 
 
 def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
-    """Yield a note when the object moves so far that the linear model is no more than a first guess."""
+    """Yield a note when the object moves so far that the linear model of given matrices is no more than a guess."""
+    if analysis.grasp.held is not None:
+        return
     scale = analysis.response.scale
     size = float(np.linalg.norm(scale.twist(motion.du), axis=1).max(initial=0.0))
     if size > FAR * scale.length:

@@ -96,9 +96,9 @@ class TaskTable(Table):
         description="what happens between the knots: reported, or kept within all limits by a reserve at the knots",
     )
     linearise: Literal["once", "along"] = Field(
-        default="once",
-        description="where the grasp is linearised: once, at the start posture, or along the motion, at the true "
-        "equilibria of the hand",
+        default="along",
+        description="where a grasp on a hand is linearised: along the motion, at the true equilibria, or once, at the "
+        "start posture",
     )
     drift: Size | None = Field(
         default=None, description="how far the object may move on the other axes; no bound when absent"

@@ -51,8 +51,8 @@ class Task(ByContent):
         drift: how far the object may move on the other axes [m]; None when as far as it likes.
         between: what happens between the knots: "report" it, or "hold" the limits there too.
         load_factor: by which the whole load is multiplied.
-        linearise: "once", at the start posture, as the paper does; or "along" the motion, on a hand: again and again
-            at the true equilibria, until what is promised is what the hand does.
+        linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
+            the hand does; or "once", at the start posture, as the paper does.
 
     Raises:
         InputError: everything that is wrong, each with the argument, what came and what was expected.
@@ -75,7 +75,7 @@ class Task(ByContent):
     drift: float | None = None
     between: Literal["report", "hold"] = "report"
     load_factor: float = 1.0
-    linearise: Literal["once", "along"] = "once"
+    linearise: Literal["once", "along"] = "along"
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""

@@ -83,7 +83,7 @@ class TimedTask(Value):
     """Load and wish at any time; straight lines between the knots when None."""
     between: Literal["report", "hold"] = "report"
     """Whether what happens between the knots is reported, or also kept within all limits."""
-    linearise: Literal["once", "along"] = "once"
+    linearise: Literal["once", "along"] = "along"
     """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
 
     def __post_init__(self) -> None:

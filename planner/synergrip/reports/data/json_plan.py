@@ -25,6 +25,7 @@ from synergrip.planning.told import (
     series_document,
     structure_document,
     true_document,
+    usage_document,
 )
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
@@ -58,7 +59,11 @@ def outcome_document(
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
     }  # fmt: skip
-    return document | {"why": outcome.why, "stage": outcome.stage, "certificate": certificate, "reached": told}
+    document |= {"why": outcome.why, "stage": outcome.stage, "certificate": certificate, "reached": told}
+    if outcome.executed is not None and outcome.usages:
+        document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
+        document["limits"] = [usage_document(usage) for usage in outcome.usages]
+    return document
 
 
 def _plan(plan: Plan) -> dict[str, Any]:

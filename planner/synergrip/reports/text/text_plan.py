@@ -49,7 +49,7 @@ def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> li
     elif isinstance(outcome, Infeasible):
         lines += [_proof(outcome), "", *_infeasible(outcome, word)]
     else:
-        lines += ["", f"{word}  {outcome.why}"]
+        lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
     notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
@@ -80,16 +80,24 @@ def _checked(plan: Plan) -> str:
     return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
 
 
+def _used(usages: Sequence[Usage]) -> Iterator[str]:
+    """Yield what references use of every limit at the true states, when these are no plan."""
+    if usages:
+        yield table(("", "worst", "at", "limit"), [row for usage in usages for row in usage_rows(usage)])
+
+
 def _executed(plan: Plan) -> Iterator[str]:
-    """Yield what the figures are those of, when it is not the linear model of the start posture."""
-    if plan.executed is not None:
-        model = {"rolling": "pads roll", "fixed": "contacts stay where they are"}
+    """Yield what the figures are those of: the hand that moves, or the linear model of given matrices."""
+    if plan.executed is None:
+        told = "not executed: matrices have no kinematics, and the figures are those of their linear model"
+    else:
+        model = {"rolling": "pads roll on hand and object", "fixed": "contacts stay where they are"}
+        how = f"linearised anew {many(plan.passes, 'time')} along the motion" if plan.passes else "planned at its start"
         told = (
-            f"the figures are those of the hand that moves, linearised anew {many(plan.passes, 'time')} along the "
-            f"motion; {model[plan.executed.setting.contact_model]} on hand and object; the object is held with "
-            f"{1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
+            f"the figures are those of the hand that moves, {how}; {model[plan.executed.setting.contact_model]}; the "
+            f"object is held with {1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
         )
-        yield from wrapped("true     ", told)
+    yield from wrapped("true     ", told)
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
