@@ -47,6 +47,8 @@ class Judgement(Value):
     """The references between the knots of both."""
     executed: Execution | None = None
     """Their true states on the hand that moves; None for a grasp given as matrices."""
+    fixed: Execution | None = None
+    """The same if pads stayed where they are on link and object; None where nothing rolls."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -128,16 +130,9 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     followed = Check("rigid motion [m]", walk.behind, allowed(walker))
     margins = frozen(found.usages[0].value)
     return Judgement(
-        task,
-        analysis,
-        formulation,
-        found.motion,
-        margins,
-        found.usages,
-        (followed, *found.checks),
-        found.between,
-        walk.executed,
-    )
+        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between,
+        walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench),
+    )  # fmt: skip
 
 
 def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Check:

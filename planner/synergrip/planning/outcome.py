@@ -69,7 +69,7 @@ class Plan(Tabled):
     decisions: tuple[Decision, ...]
     """The programs solved, in order; the last one is the plan's."""
     largest_margin: float | None
-    """The largest margin [N] when it was asked for."""
+    """The largest margin [N] when it was asked for; of an executed plan the one that it keeps."""
     notes: tuple[str, ...] = ()
     """What the plan is not, although its goal would have it so."""
     between: Between | None = None
@@ -77,6 +77,9 @@ class Plan(Tabled):
 
     executed: Execution | None = None
     """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
+    fixed: Execution | None = None
+    """The same references if pads stayed where they are on link and object: what it costs to be wrong about rolling;
+    None where nothing rolls."""
     passes: int = 0
     """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False

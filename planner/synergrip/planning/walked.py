@@ -85,8 +85,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     stage = walk.stage
     told = (*accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *notes(walk, walker))
     plan = linear if stage is None else replace(
-        linear, decisions=(*linear.decisions, *stage.decisions), largest_margin=walk.largest_margin,
-        interrupted=stage.interrupted,
+        linear, decisions=(*linear.decisions, *stage.decisions), interrupted=stage.interrupted,
     )  # fmt: skip
     return _with(plan, walk, walker, found, told)
 
@@ -94,10 +93,12 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
 def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, told: Sequence[str]) -> Plan:
     """Return a plan with the figures of a walk."""
     alpha, beta, gamma = walker.start.coordinates.coordinates(walk.references)
+    fixed = walker.executor.with_fixed_contacts(walk.executed, walker.task.wrench)
+    largest = None if plan.largest_margin is None else float(found.usages[0].value.min())
     return replace(
-        plan, motion=found.motion, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
+        plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, checks=found.checks, between=found.between,
-        executed=walk.executed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
+        executed=walk.executed, fixed=fixed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
     )  # fmt: skip
 
 
