@@ -11,7 +11,8 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments, is_word
 from synergrip.documents.naming import naming_arguments
-from synergrip.equilibrium.meeting import Model, Rolling, Several, Sliding, Stuck
+from synergrip.equilibrium.meeting import Model, Several, Sliding, Stuck
+from synergrip.equilibrium.rolling import Rolling
 from synergrip.equilibrium.states import Loads, States
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.contacts.contact import Contact
