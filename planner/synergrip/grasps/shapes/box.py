@@ -49,17 +49,15 @@ class Box(Shape):
         """Short text."""
         return "box " + " x ".join(f"{edge * 1e3:.3g}" for edge in self.size) + " mm"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and the normal of the nearest face (of the corner direction outside an edge)."""
-        over = np.abs(point) - np.array(self.size) / 2
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and the normals of the nearest faces (of the corner direction outside an edge)."""
+        over = np.abs(points) - np.array(self.size) / 2
         outside = np.maximum(over, 0.0)
-        distance = float(np.linalg.norm(outside))
-        if distance > 0:
-            return distance, np.sign(point) * outside / distance
-        face = int(np.argmax(over))
-        normal = np.zeros(3)
-        normal[face] = 1.0 if point[face] >= 0 else -1.0
-        return float(over[face]), normal
+        distance = np.linalg.norm(outside, axis=-1, keepdims=True)
+        nearest = np.eye(3)[np.argmax(over, axis=-1)]
+        outward = np.where(distance > 0, outside / np.where(distance > 0, distance, 1.0), nearest)
+        normals = np.where(np.asarray(points) >= 0, outward, -outward)
+        return np.where(distance > 0, distance, over.max(axis=-1, keepdims=True))[..., 0], normals
 
     @property
     def inertia(self) -> Array:

@@ -38,8 +38,8 @@ class Shape(ABC):
         """Short text, for example ``ball r 45.8 mm``."""
 
     @abstractmethod
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return the signed distance of `point` (3,) [m] to the surface (> 0 outside) and the unit outward normal."""
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return distances (...) of points (..., 3) to the surface [m] (> 0 outside) and outward unit normals."""
 
     @property
     @abstractmethod

@@ -45,11 +45,11 @@ class Sphere(Shape):
         """Short text."""
         return f"ball r {self.radius * 1e3:.3g} mm"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and outward normal; at the centre itself the normal is z."""
-        length = float(np.linalg.norm(point))
-        normal = point / length if length > 0 else np.array([0.0, 0.0, 1.0])
-        return length - self.radius, normal
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and outward normals; at the centre itself the normal is z."""
+        lengths = np.linalg.norm(points, axis=-1, keepdims=True)
+        normals = np.where(lengths > 0, points / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
+        return lengths[..., 0] - self.radius, normals
 
     @property
     def inertia(self) -> Array:
