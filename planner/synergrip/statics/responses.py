@@ -18,9 +18,8 @@ from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, scale_of
 from synergrip.grasps.stack import GraspStack, Matrices
-from synergrip.linalg import Array, Decisions, Places, frozen
+from synergrip.linalg import Array, Decisions, Places, decided, frozen
 from synergrip.statics.response import FIGURES, Accuracy, Maps, Response, is_enough, maps_in_float64, respond
-from synergrip.statics.restraint import restraints
 from synergrip.statics.saddle import STACKED
 from synergrip.statics.yielding import is_rigid
 
@@ -86,7 +85,7 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
         >>> responses.dlambda_dzr.shape  # (2, n_l, n_z)
     """
     stack = GraspStack.of(grasps)
-    restraint = restraints(stack.matrices.G, stack.metric)
+    restraint = decided(stack.of_object)
     parts = _in_chunks(stack, restraint.ranks == 6)
     left = np.setdiff1d(np.arange(len(stack)), np.concatenate([places for places, _, _ in parts]))
     refusals: dict[int, InputError | Refusal] = {}

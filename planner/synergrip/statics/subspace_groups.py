@@ -68,7 +68,8 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
         ...     print(group.dimensions, group.places, group.E_s.shape)
     """
     expected("responses", responses, Responses, "respond_many(grasps)")
-    moved = ContactMotions.of(responses.grasps.matrices, responses.grasps.metric)
+    grasps = responses.grasps
+    moved = ContactMotions.of(grasps.matrices, grasps.metric, grasps.of_object)
     groups = []
     for rank, alike in _by_rank(moved.rigid.ranks):
         same, theirs = moved.taken(alike), responses.taken(alike)

@@ -85,7 +85,8 @@ def subspaces(response: Response) -> Subspaces:
         InputError: no response.
     """
     expected("response", response, Response, "respond(grasp)")
-    moved = ContactMotions.of(Matrices.of(response.grasp), response.scale)
+    matrices, scale = Matrices.of(response.grasp), response.scale
+    moved = ContactMotions.of(matrices, scale, scale.scaled_grasp(matrices.G))
     rank, known = int(moved.rigid.ranks), response.accuracy["dlambda_dzr"]
     moving = moved.moving(rank)
     E_s, forces = controllable_forces(response.dlambda_dzr, np.array(known.unknown), moved, response.scale, rank)
@@ -126,9 +127,9 @@ class ContactMotions(Value):
     """(..., n_z, n_z) the synergy motions, orthonormal, behind the singular values of `rigid`."""
 
     @classmethod
-    def of(cls, matrices: Matrices, metric: Metric) -> ContactMotions:
-        """Return those of one grasp or of many."""
-        of_object, J = metric.scaled_grasp(matrices.G), metric.scaled_rows(matrices.J)
+    def of(cls, matrices: Matrices, metric: Metric, of_object: Array) -> ContactMotions:
+        """Return those of one grasp or of many; `of_object` is the G' that `Metric.scaled_grasp` makes."""
+        J = metric.scaled_rows(matrices.J)
         of_synergies = J @ matrices.S
         values = singular_values(of_synergies)
         largest = values.max(axis=-1, initial=0.0)
