@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import as_numbers, described
+from synergrip.documents.judging import as_numbers, described, place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
@@ -50,6 +50,7 @@ class Matrices(Value):
         return Matrices(*(getattr(self, field.name)[places] for field in fields(self)))
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class GraspStack(Value, Sequence[Grasp]):
     """N grasps whose contacts are of the same kinds, with as many joints and synergies each.
@@ -133,7 +134,7 @@ class GraspStack(Value, Sequence[Grasp]):
         """Return the grasp at a place; a stack for a slice."""
         if isinstance(place, slice):
             return self.taken(place)
-        place = range(len(self))[place]
+        place = place_of("place", place, len(self))
         if self.given:
             return self.given[place]
         grasp = self.like

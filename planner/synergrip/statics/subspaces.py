@@ -30,7 +30,7 @@ from synergrip.linalg import (
     singular_values,
 )
 from synergrip.statics.response import Response
-from synergrip.values import Value
+from synergrip.values import ByName, Value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,7 +93,7 @@ def subspaces(response: Response) -> Subspaces:
     Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, response.scale, int(moving.ranks))
     found = {"redundancy": moved.redundancy, "rigid": moved.rigid, "forces": forces}
     decisions = {"restraint": response.restraint, **{name: each.at(()) for name, each in found.items()}}
-    return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, decisions)
+    return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, ByName("decisions", decisions))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
