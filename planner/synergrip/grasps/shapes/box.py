@@ -32,7 +32,7 @@ class Box(Shape):
     size: tuple[float, float, float]  # edge lengths [m]
 
     name: ClassVar[str] = "box"
-    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "length of the three edges", count=3),)
+    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "three edge lengths", count=3),)
 
     @property
     def title(self) -> str:
