@@ -48,7 +48,7 @@ class Steps(Value):
         """
         parts = []
         for at, beta in zip(self.each, self.beta, strict=True):
-            joints = _joints_of(at)
+            joints = joints_of(at)
             damped = np.linalg.solve(np.eye(len(beta)) + damping**2 * joints.T @ joints, beta)
             parts.append((damped, float(np.linalg.norm(joints @ damped))))
         betas, moved = zip(*parts, strict=True)
@@ -84,7 +84,7 @@ def _seen(at: Analysis, seen: Array, way: Array, free: int) -> Array:
     return np.concatenate([np.zeros(free), np.linalg.lstsq(motions, seen @ way, rcond=None)[0]])
 
 
-def _joints_of(at: Analysis) -> Array:
+def joints_of(at: Analysis) -> Array:
     """Return how the joints move with beta (n_q, dim Gamma_ucs) [rad/m]."""
     forces, motions, _ = at.coordinates.dimensions
     return np.asarray(at.response.dq_dzr @ at.coordinates.inverse[:, forces : forces + motions])
