@@ -42,6 +42,8 @@ MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
 SHORTER, SHORTEST, TRIES = 1 / 3, 1e-3, 2
+AIMED, SHORTEST_CUT = 0.5, 0.05
+"""What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
 BETTER = 0.5
 """Share of the last difference between promise and truth that a step must get below."""
 FOLLOWED, NEARER = 1e-5, 0.9
@@ -69,8 +71,12 @@ class Walk(Value):
     @property
     def true(self) -> bool:
         """Whether what was promised is what happens."""
-        largest = float(np.abs(self.executed.states.forces).max(initial=0.0))
-        return self.way is not None and self.gap <= max(TRUE, OF_FORCES * largest)
+        return self.way is not None and self.gap <= self.allowed
+
+    @property
+    def allowed(self) -> float:
+        """[N] difference up to which a promise counts as what happens."""
+        return max(TRUE, OF_FORCES * float(np.abs(self.executed.states.forces).max(initial=0.0)))
 
     @property
     def behind(self) -> float:
@@ -99,7 +105,7 @@ class ShortStep(Limit):
         """Return one second-order cone per knot."""
         assert isinstance(formulation, AlongPath)
         moved = formulation.map_of(lambda at: at.response.dq_dzr) / self.room[:, None, None]
-        return [norm_within(self.key, "joints", formulation.change.after(moved), 1.0)]
+        return [norm_within(self.key, "joints", formulation.change.after(moved).shortened, 1.0)]
 
     def loosened(self, share: float) -> ShortStep:
         """Return it with more room."""
@@ -142,7 +148,7 @@ class Walker:
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
             tried = (*best.tried, answered.decision)
             best = replace(found if good and found is not None else best, passes=count, tried=tried)
-            share, tries = (min(1.0, 2 * share), 0) if good else (SHORTER * share, tries + 1)
+            share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
@@ -152,16 +158,16 @@ class Walker:
         largest = stage.largest_margin
         stage = through(stage, others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        found = self.executed(references, promised, best.executed.guess)
+        found = self.executed(references, promised, best.executed)
         return replace(found, stage=stage, largest_margin=largest)
 
-    def executed(self, references: Array, promised: Array, near: Motion | States) -> Walk:
+    def executed(self, references: Array, promised: Array, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
 
         Args:
             references: at the knots of the task.
             promised: forces.
-            near: states or a motion that are not far from what they do.
+            near: states, a motion or an execution that are not far from what they do.
         """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
@@ -199,6 +205,13 @@ class Walker:
             each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(formulation, path)
+
+
+def _shorter(found: Walk | None) -> float:
+    """Return by how much a step is made shorter that was too long: its gap is as the square of it."""
+    if found is None or found.way is None:
+        return SHORTER
+    return float(np.clip(np.sqrt(AIMED * found.allowed / max(found.gap, 1e-300)), SHORTEST_CUT, SHORTER))
 
 
 def _told(found: Walk | None, good: bool) -> str:
