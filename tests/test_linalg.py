@@ -12,6 +12,7 @@ from synergrip.linalg import (
     decided,
     frozen,
     left_singular,
+    null_spaces,
     right_singular,
     singular_values,
     split,
@@ -136,3 +137,16 @@ def test_decisions_of_a_stack_follow_the_policy_of_one() -> None:
         assert np.array_equal(mine.singular_values, alone.singular_values)
     assert together.ranks.tolist() == [2, 1, 3, 0]
     assert together.ambiguous.tolist() == [True, True, False, False]
+
+
+def test_null_spaces_are_those_of_split() -> None:
+    rng = np.random.default_rng(3)
+    for rows, columns, rank in ((2, 5, 2), (5, 5, 3), (7, 4, 4), (7, 4, 0), (0, 3, 0)):
+        stack = rng.normal(size=(6, rows, rank)) @ rng.normal(size=(6, rank, columns))
+        found = null_spaces(stack)
+        for matrix, directions in zip(stack, found, strict=True):
+            space = split(matrix).null_space
+            assert directions @ directions.T == pytest.approx(space @ space.T, abs=1e-12)
+            assert np.count_nonzero(directions.any(axis=0)) == columns - rank
+    few = null_spaces(np.array([np.diag([1e-3, 1e-14])] * 2), np.array([1.0, 1e-13]))
+    assert [np.count_nonzero(each.any(axis=0)) for each in few] == [1, 0]

@@ -103,6 +103,20 @@ def split(matrix: Array, reference: float | None = None) -> Split:
     return Split(transposed[: decision.rank].T, transposed[decision.rank :].T, decision)
 
 
+def null_spaces(matrices: Array, references: Array | None = None) -> Array:
+    """Return directions (..., n, n) that are those of the null spaces of matrices (..., m, n), and 0 for the others.
+
+    Columns that are not 0 are orthonormal; ranks are decided as `split` does, with the singular values `references`
+    (...) that count as 1 (default: the largest of each matrix).
+    """
+    rows, columns = matrices.shape[-2:]
+    if rows == 0 or columns == 0:
+        return np.broadcast_to(np.eye(columns), (*matrices.shape[:-2], columns, columns))
+    _, values, transposed = np.linalg.svd(matrices, full_matrices=rows < columns)
+    ranks = Decisions.of(_padded(values, columns), values[..., 0] if references is None else references).ranks
+    return np.asarray(transposed * (np.arange(columns) >= ranks[..., None])[..., None]).mT
+
+
 def decided(matrices: Array, references: Array | None = None) -> Decisions:
     """Return what `split` decides of the ranks of matrices (..., m, n), without the spaces.
 
@@ -233,21 +247,3 @@ def cross(v: Array) -> Array:
     """Return the skew matrix (3, 3) of a vector (3,): ``cross(v) @ u`` is v x u."""
     x, y, z = v
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-
-
-def skews(vectors: Array) -> Array:
-    """Return the skew matrices (..., 3, 3) of vectors (..., 3)."""
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    found = np.zeros((*vectors.shape, 3))
-    found[..., 0, 1], found[..., 0, 2], found[..., 1, 2] = -z, y, -x
-    found[..., 1, 0], found[..., 2, 0], found[..., 2, 1] = z, -y, x
-    return found
-
-
-def crossed(left: Array, right: Array) -> Array:
-    """Return the cross products (..., 3) of vectors (..., 3): for small stacks much sooner than `np.cross`."""
-    left, right = np.broadcast_arrays(left, right)
-    found = np.empty(left.shape)
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        found[..., i] = left[..., j] * right[..., k] - left[..., k] * right[..., j]
-    return found

@@ -86,7 +86,7 @@ def test_a_guess_changes_how_long_it_takes_and_nothing_else(name: str, model: An
     alone = execute(grasp, times, references, loads, contact_model=model)
     assert alone.whole, alone.why
     assert alone.residual < 1e-10
-    again = execute(grasp, times, references, loads, contact_model=model, guess=alone.guess)
+    again = execute(grasp, times, references, loads, contact_model=model, guess=alone)
     off = replace(alone.states, q=alone.states.q + 0.005, forces=1.1 * alone.states.forces)
     near = execute(grasp, times, references, loads, contact_model=model, guess=off)
     assert again.iterations < alone.iterations

@@ -152,3 +152,14 @@ def test_a_turn_is_the_rotation_about_its_axis() -> None:
     for axis in np.random.default_rng(5).normal(size=(20, 3)):
         unit, angle = axis / np.linalg.norm(axis), float(axis[0])
         assert turn(unit, angle) == pytest.approx(Rotation.from_rotvec(angle * unit).as_matrix(), abs=1e-14)
+
+
+@pytest.mark.parametrize("shape", [SPHERE, BOX, CYLINDER, Turned(CYLINDER, turn(AXIS, 0.9))], ids=lambda s: s.title)
+def test_many_points_at_once_are_each_as_it_is_alone(shape: Shape) -> None:
+    points = np.random.default_rng(6).uniform(-0.09, 0.09, (40, 5, 3))
+    points[0, 0] = 0.0
+    distances, normals = shape.surface(points)
+    for place in np.ndindex(40, 5):
+        distance, normal = shape.surface(points[place])
+        assert distances[place] == pytest.approx(distance, abs=1e-15)
+        assert normals[place] == pytest.approx(normal, abs=1e-12)

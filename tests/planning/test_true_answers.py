@@ -98,7 +98,7 @@ def test_a_motion_strays_where_it_is_wanted_in_vain() -> None:
     assert answer.executed is not None
     start = answer.analysis
     walker = Walker(answer.task, start, Executor.of(start, answer.task), SOLVERS["clarabel"])
-    walk = walker.executed(answer.dz_r, answer.forces, answer.executed.guess)
+    walk = walker.executed(answer.dz_r, answer.forces, answer.executed)
     assert strayed(walk, walker).max() < 1e-5
     wanted = np.array(walker.wanted)
     beside = np.zeros_like(wanted)

@@ -49,6 +49,14 @@ class Affine(Value):
             raise InputError.at("Affine.plus.known", f"expected {wanted}; got {described(known)}")
         return replace(self, constant=frozen(self.constant + found))
 
+    @property
+    def shortened(self) -> Affine:
+        """As few quantities (n_v + 1 at most) of the same norm at every knot, for one matrix at each."""
+        if self.matrix.shape[-2] <= self.matrix.shape[-1] + 1:
+            return self
+        whole = np.asarray(np.linalg.qr(np.concatenate([self.matrix, self.constant[:, :, None]], axis=-1), mode="r"))
+        return Affine(frozen(whole[:, :, :-1]), frozen(whole[:, :, -1]))
+
     def in_units(self, factor: float) -> Affine:
         """Return the same quantities of unknowns in units that are that many times as large."""
         return replace(self, matrix=frozen(self.matrix * factor))

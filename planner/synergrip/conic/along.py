@@ -11,6 +11,7 @@ whole, since away from the start the motions of Gamma_ucs cost a little force, t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,8 +19,10 @@ import numpy as np
 
 from synergrip.conic.affine import Affine
 from synergrip.conic.beside_knots import fields_of
+from synergrip.conic.each_knot import Statics
 from synergrip.conic.formulation import Formulation
 from synergrip.linalg import Array
+from synergrip.statics.motion import forces_at_start
 from synergrip.values import Value
 
 
@@ -57,15 +60,35 @@ class AlongPath(Formulation):
     @cached_property
     def change(self) -> Affine:
         """What is added to the references (n_z), by (35) at every knot."""
+        return self._whole.after(self.map_of(lambda at: at.coordinates.inverse))
+
+    @cached_property
+    def _whole(self) -> Affine:
+        """What is added to (alpha, beta, gamma)."""
         matrices = [_each(part.matrix, self.knots) for part in self._parts]
-        whole = Affine(np.concatenate(matrices, axis=-2), np.hstack([part.constant for part in self._parts]))
-        return whole.after(self.map_of(lambda at: at.coordinates.inverse))
+        return Affine(np.concatenate(matrices, axis=-2), np.hstack([part.constant for part in self._parts]))
 
     @cached_property
     def force(self) -> Affine:
         """Contact forces lambda (n_l) [N, N m]."""
-        there = self.map_of(lambda at: at.response.grasp.lambda_0)  # type: ignore[arg-type,return-value]
-        return self.change.after(self.map_of(lambda at: at.response.dlambda_dzr)).plus(there)
+        there = self.map_of(lambda at: forces_at_start(at.response))
+        return self._whole.after(self._but_for_gamma(lambda at: at.response.dlambda_dzr)).plus(there)
+
+    @cached_property
+    def torque(self) -> Affine:
+        """Joint torques tau (n_q), which change with the forces and as these act at other places [N m]."""
+        there = self.map_of(lambda at: (forces_at_start(at.response)[..., None, :] @ at.response.grasp.J)[..., 0, :])
+        return self._whole.after(self._but_for_gamma(lambda at: at.response.dtau_dzr)).plus(there)
+
+    def _but_for_gamma(self, of: Callable[[Statics], Array]) -> Array:
+        """Return a map of references as one of (alpha, beta, gamma), without what gamma adds to it.
+
+        The redundancy moves no contact; what it does to forces is of the second order, as levers turn. A goal would go
+        as far for that as a step may, pass after pass.
+        """
+        n_alpha, n_beta, _ = self.coordinates.dimensions
+        moved = self.map_of(lambda at: of(at) @ at.coordinates.inverse)
+        return np.asarray(moved * (np.arange(moved.shape[-1]) < n_alpha + n_beta))
 
     @cached_property
     def reference(self) -> Affine:
@@ -92,7 +115,7 @@ class AlongPath(Formulation):
         """What the references move the object beyond the rigid motion (6) [m, rad]."""
         known = self.known.displacement - self.known.rigid - self.known.sag
         n_alpha = self.coordinates.dimensions[0]
-        of_alpha = self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[:, :n_alpha])
+        of_alpha = self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[..., :n_alpha])
         return self.alpha.after(of_alpha).plus(known)
 
 

@@ -58,13 +58,13 @@ class BesideKnots(Formulation):
     @cached_property
     def torque(self) -> Affine:
         """Joint torques tau = J' lambda (n_q) [N m]."""
-        return self._straight("torque", lambda at: -at.response.grasp.J.T @ at.response.right_inverse)
+        return self._straight("torque", lambda at: -at.response.grasp.J.mT @ at.response.right_inverse)
 
     @cached_property
     def effort(self) -> Affine:
         """Actuator efforts sigma = S' tau (n_z)."""
         return self._straight(
-            "effort", lambda at: -(at.response.grasp.J @ at.response.grasp.S).T @ at.response.right_inverse
+            "effort", lambda at: -(at.response.grasp.J @ at.response.grasp.S).mT @ at.response.right_inverse
         )
 
     @cached_property

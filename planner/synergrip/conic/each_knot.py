@@ -9,17 +9,19 @@ from synergrip.errors import InputError
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each, EachResponse
+from synergrip.statics.subspaces import Bases
 
 
 class Statics(Protocol):
-    """The maps of a grasp: of all knots, or of one."""
+    """The maps of a grasp: the same at all knots, or (T, ...) of each."""
 
     @property
-    def response(self) -> Response:
+    def response(self) -> Response | EachResponse:
         """Response maps."""
 
     @property
-    def spaces(self) -> Subspaces:
+    def spaces(self) -> Bases:
         """Subspaces of internal forces, rigid motions and redundancy."""
 
     @property
@@ -30,15 +32,17 @@ class Statics(Protocol):
 def to_beta(at: Statics) -> Array:
     """Return what makes the rigid motion of references, (dim Gamma_ucs, n_z)."""
     n_alpha, n_beta, _ = at.coordinates.dimensions
-    return at.coordinates.M[n_alpha : n_alpha + n_beta]
+    return at.coordinates.M[..., n_alpha : n_alpha + n_beta, :]
 
 
-def judge_each(each: Sequence[Analysis] | None, response: Response, spaces: Subspaces, knots: int) -> None:
+def judge_each(each: Sequence[Analysis] | Each | None, response: Response, spaces: Subspaces, knots: int) -> None:
     """Refuse grasps at the knots that are no grasp of the same hand on the same contacts."""
     if each is None:
         return
     if len(each) != knots:
         raise InputError.at("each", f"expected the analysis of a grasp at each of {knots} knots, got {len(each)}")
+    if isinstance(each, Each):  # of one hand on the same contacts, with the dimensions of its start
+        return
     for k, at in enumerate(each):
         if at.spaces.dimensions != spaces.dimensions:
             raise InputError.at(

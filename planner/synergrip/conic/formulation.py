@@ -25,6 +25,7 @@ from synergrip.conic.units import Units as Units
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 from synergrip.values import Value
 
@@ -56,9 +57,9 @@ class Formulation(Value):
     """What happens between the knots, when the program is to allow for it."""
     free_basis: sparse.csc_matrix | None = None
     """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
-    each: tuple[Analysis, ...] | None = None
-    """(T,) response, subspaces and coordinates at every knot, as many and of the same sizes; None when those above are
-    the same for all. What is above then tells names, contacts and lengths only."""
+    each: Each | None = None
+    """(T) what the statics are at every knot; None when those above are the same for all. What is above then tells
+    names, contacts and lengths only."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 
@@ -121,7 +122,7 @@ class Formulation(Value):
 
     def map_of(self, of: Callable[[Statics], Array]) -> Array:
         """Return a map of the statics, (...) when it is the same at all knots and (T, ...) when each has its own."""
-        return of(self) if self.each is None else np.stack([of(statics) for statics in self.each])
+        return of(self if self.each is None else self.each)
 
     @cached_property
     def load_change(self) -> Array:
@@ -138,12 +139,12 @@ class Formulation(Value):
     @cached_property
     def torque(self) -> Affine:
         """Joint torques tau = J' lambda (n_q) (6) [N m]."""
-        return self.force.after(self.map_of(lambda at: at.response.grasp.J.T))
+        return self.force.after(self.map_of(lambda at: at.response.grasp.J.mT))
 
     @cached_property
     def effort(self) -> Affine:
         """Actuator efforts sigma = S' tau (n_z)."""
-        return self.torque.after(self.map_of(lambda at: at.response.grasp.S.T))
+        return self.torque.after(self.map_of(lambda at: at.response.grasp.S.mT))
 
     @cached_property
     def reference(self) -> Affine:
@@ -175,7 +176,7 @@ class Formulation(Value):
         By (35) that comes from alpha alone; taken from it, no rounding makes it depend on gamma.
         """
         n_alpha = self.coordinates.dimensions[0]
-        return self.alpha.after(self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[:, :n_alpha]))
+        return self.alpha.after(self.map_of(lambda at: at.response.du_dzr @ at.coordinates.inverse[..., :n_alpha]))
 
     def rigid_motion(self, dz_r: Array) -> Array:
         """Return the rigid motion Gamma_ucs beta (T, 6) [m, rad] of the object under references (T, n_z)."""
@@ -221,7 +222,7 @@ def formulate(
     response: Response, spaces: Subspaces, coords: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array | None = None, target: Array | None = None, stated: Units | None = None,
-    each: Sequence[Analysis] | None = None,
+    each: Sequence[Analysis] | Each | None = None,
 ) -> Formulation:  # fmt: skip
     """Write a task as affine functions of its unknowns.
 
@@ -250,11 +251,12 @@ def formulate(
     whole = block_diagonal(blocks)
     alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
     zeros = np.zeros((len(times), n_alpha + n_gamma))
-    rigid = spaces.Gamma_ucs if each is None else np.stack([at.spaces.Gamma_ucs for at in each])
+    every = None if each is None else Each.of(each)
+    Gamma_ucs = (spaces if every is None else every.spaces).Gamma_ucs
     return Formulation(
         response, spaces, coords, frozen(times), frozen(wrench),
         Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
         Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
-        frozen(product(rigid, beta) if target is None else target), units, stated or units, units.force,
-        each=None if each is None else tuple(each),
+        frozen(product(Gamma_ucs, beta) if target is None else target), units, stated or units, units.force,
+        each=every,
     )  # fmt: skip

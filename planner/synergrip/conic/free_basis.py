@@ -17,7 +17,7 @@ from scipy import sparse
 from scipy.linalg import solve_banded
 
 from synergrip.conic.goals.goal import Squares
-from synergrip.linalg import RANK_TOLERANCE, Array, split
+from synergrip.linalg import RANK_TOLERANCE, Array, null_spaces, split
 
 ROUNDING = 1e-12
 """An entry this small beside the largest of its column is 0."""
@@ -181,6 +181,8 @@ class _Step:
 
 def _from_knot_to_knot(squares: Sequence[Squares], knots: int, n_v: int) -> sparse.csc_matrix:
     """Return orthonormal columns (T n_v, m) that none of the squares see, whatever their matrices."""
+    if not any(lag for part in squares for lag, _, _ in _lags(part)):
+        return _at_each_knot(squares, knots, n_v)
     steps: list[_Step] = []
     equations = _equations(squares, knots)
     memory = max((lag for at in equations for lags in at for lag in lags), default=0)
@@ -203,6 +205,22 @@ def _from_knot_to_knot(squares: Sequence[Squares], knots: int, n_v: int) -> spar
         window = window @ going_on
     columns = [_traced(steps, k, knots, n_v) for k in range(knots)]
     return sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((knots * n_v, 0)), *columns]))
+
+
+def _at_each_knot(squares: Sequence[Squares], knots: int, n_v: int) -> sparse.csc_matrix:
+    """Return the columns where no square looks at more than one knot: those of each knot by itself."""
+    rows = [np.zeros((knots, 0, n_v))]
+    for part in squares:
+        size, count = float(np.linalg.norm(part.matrix, 2, axis=(-2, -1)).max(initial=0.0)), len(part.constant)
+        if size > 0:
+            seen = np.zeros((knots, part.matrix.shape[-2], n_v))
+            seen[knots - count :] = (part.matrix if part.matrix.ndim == 2 else part.matrix[-count:]) / size
+            rows.append(seen)
+    open_ = null_spaces(np.concatenate(rows, axis=1), np.ones(knots)).mT  # directions as rows
+    knot, which = np.nonzero(open_.any(axis=2))
+    indices = knot[:, None] * n_v + np.arange(n_v)
+    shape = (knots * n_v, len(knot))
+    return sparse.csc_matrix((open_[knot, which].ravel(), indices.ravel(), n_v * np.arange(len(knot) + 1)), shape)
 
 
 def _equations(squares: Sequence[Squares], knots: int) -> list[list[dict[int, Array]]]:

@@ -14,7 +14,7 @@ from synergrip.conic.affine import Affine
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
 from synergrip.conic.limits.limit import Limit
-from synergrip.linalg import Array, split
+from synergrip.linalg import Array, null_spaces
 
 LARGEST = 1e6
 """In normalised units. The bound where no limit gives one, and part of the program's meaning."""
@@ -46,16 +46,9 @@ def _implied(value: Affine, limit: Array) -> Array:
     """
     rows = np.isfinite(limit)
     room = limit[rows] + np.abs(value.constant[:, rows]).max(axis=0, initial=0.0)
-    if value.matrix.ndim == 2:
-        return _of_matrix(value.matrix[rows], room)
-    return np.array([_of_matrix(matrix[rows], room) for matrix in value.matrix])
-
-
-def _of_matrix(matrix: Array, room: Array) -> Array:
-    bounds = np.full(matrix.shape[1], np.inf)
-    if not matrix.size:
-        return bounds
-    normed = matrix / np.where(room > 0, room, 1.0)[:, None]
-    fixed = np.linalg.norm(split(normed).null_space, axis=1) < 1e-9  # entries that the matrix determines
-    bounds[fixed] = np.abs(np.linalg.pinv(matrix, rcond=1e-9)[fixed]) @ room
-    return bounds
+    matrices = value.matrix[..., rows, :]
+    if not matrices.size:
+        return np.full(value.matrix.shape[-1], np.inf)
+    normed = matrices / np.where(room > 0, room, 1.0)[:, None]
+    fixed = np.linalg.norm(null_spaces(normed), axis=-1) < 1e-9  # entries that the matrix determines
+    return np.where(fixed, np.abs(np.linalg.pinv(matrices, rcond=1e-9)) @ room, np.inf)

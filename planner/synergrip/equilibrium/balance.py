@@ -20,8 +20,11 @@ import numpy as np
 from synergrip.equilibrium.meeting import Meeting, Placed
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
-from synergrip.linalg import Array, Places, skews
+from synergrip.grasps.contacts.kind import is_moment
+from synergrip.linalg import Array, Places
+from synergrip.statics.response import Maps
 from synergrip.values import Value
+from synergrip.vectors import skews
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -124,14 +127,54 @@ class Balance(Value):
         grasp, C = self.setting.grasp, self.setting.compliance
         n_l, n_q = grasp.n_l, grasp.n_q
         J, G = self.J, self.G
-        of_joints, of_pose, of_arms, of_object = self._geometric()
+        of_joints, of_pose, of_arms, of_object = self._geometric
         whole = np.zeros((len(J), n_l + n_q + 6, n_l + n_q + 6))
         q, u = slice(n_l, n_l + n_q), slice(n_l + n_q, None)
         whole[:, :n_l, :n_l], whole[:, :n_l, q], whole[:, :n_l, u] = grasp.C_s, -J, G.mT
         whole[:, q, :n_l], whole[:, q, q], whole[:, q, u] = C @ J.mT, np.eye(n_q) + C @ of_joints, C @ of_pose
         whole[:, u, :n_l], whole[:, u, q], whole[:, u, u] = G, -of_arms.mT, -of_object
+        turns = [*range(n_l, n_l + n_q), *range(n_l + n_q + 3, n_l + n_q + 6)]
+        of_springs, of_torques, of_wrench = self._rolling
+        whole[:, :n_l, turns] -= of_springs
+        whole[:, q, turns] += C @ of_torques
+        whole[:, u, turns] += of_wrench
         return whole
 
+    @cached_property
+    def inverse(self) -> Array:
+        """(T, n, n) of the tangent: how (lambda, q, u) answer to (r_s, r_q, r_w); least where it is singular."""
+        grasp, length = self.setting.grasp, self.setting.length
+        force = max(float(np.abs(self.states.forces).max(initial=0.0)), 1e-3)
+        moments = [length if is_moment(component) else 1.0 for _, component in grasp.components]
+        scale = np.concatenate([force * np.array(moments), np.ones(grasp.n_q), [length] * 3, np.ones(3)])
+        scaled = self.tangent * scale
+        rows = np.abs(scaled).max(axis=2, initial=0.0)
+        rows = np.where(rows > 0, rows, 1.0)
+        scaled /= rows[:, :, None]
+        try:
+            found = np.linalg.inv(scaled)
+        except np.linalg.LinAlgError:
+            found = np.linalg.pinv(scaled)
+        return np.asarray(scale[:, None] * found / rows[:, None])
+
+    @cached_property
+    def maps(self) -> Maps:
+        """How forces and motions answer to references and load, (T, ...) at each state, geometric stiffness too."""
+        grasp, (of_joints, of_pose, _, _) = self.setting.grasp, self._geometric
+        n_l, n_z = grasp.n_l, grasp.n_z
+        of_references, of_load = self.inverse[:, :, n_l:-6] @ grasp.S, -self.inverse[:, :, -6:]
+        whole = np.concatenate([of_references, of_load], axis=2)
+        forces, joints, pose = whole[:, :n_l], whole[:, n_l:-6], whole[:, -6:]
+        turns = np.concatenate([joints, pose[:, 3:]], axis=1)
+        torques = self.J.mT @ forces + of_joints @ joints + of_pose @ pose + self._rolling[1] @ turns
+        efforts = grasp.S.T @ torques
+        synergies = np.eye(n_z, n_z + 6) - grasp.C_z @ efforts
+        parts = {"lambda": forces, "u": pose, "tau": torques, "sigma": efforts, "z": synergies, "q": joints}
+        own = {f"d{name}_dzr": part[:, :, :n_z] for name, part in parts.items()}
+        loads = {f"d{name}_dw": parts[name][:, :, n_z:] for name in ("lambda", "u", "z", "q")}
+        return Maps(**own, **loads)
+
+    @cached_property
     def _geometric(self) -> tuple[Array, Array, Array, Array]:
         """Return how torques change with q (T, n_q, n_q) and u (T, n_q, 6), and wrenches, less, with q and u.
 
@@ -153,6 +196,27 @@ class Balance(Value):
         of_pose = of_arms.copy()
         of_pose[:, :, 3:] -= turning.mT @ moments.reshape(T, -1, 3)
         return of_joints, of_pose, of_arms, of_object
+
+    @cached_property
+    def _rolling(self) -> tuple[Array, Array, Array]:
+        """How stretch, torques and wrench change as rolling contacts turn and travel: with q and turns of the object.
+
+        (T, n_l, n_q + 3), (T, n_q, n_q + 3), (T, 6, n_q + 3). The way before is taken to turn with its end.
+        """
+        T, n_q = self.states.q.shape
+        frames, arms = self.setting.model.rolled(self.placed, self.meeting)
+        moving, turning = self.jacobians[:, :, 0], self.jacobians[:, :, 1]
+        against = np.concatenate([turning, np.broadcast_to(-np.eye(3), (*turning.shape[:3], 3))], axis=3)
+        forces, moments = skews(self._acting[:, :, 0]), skews(self._acting[:, :, 1])
+        turned = frames @ against
+        force = -forces @ turned
+        moment = forces @ skews(self.meeting.place - self.placed.point) @ arms @ against - moments @ turned
+        apart = skews((self.frames @ self.meeting.stretch[..., :3, None])[..., 0])
+        stretch = np.zeros((T, len(self.setting.points), 2, 3, n_q + 3))
+        stretch[:, :, 0] = self.frames.mT @ apart @ turned
+        of_torques = (moving.mT @ force + turning.mT @ moment).sum(axis=1)
+        of_wrench = np.concatenate([force, skews(self.arms) @ force + moment], axis=2).sum(axis=1)
+        return stretch.reshape(T, -1, n_q + 3)[:, self.setting.components], of_torques, of_wrench
 
     @cached_property
     def _acting(self) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import cached_property
 
@@ -11,16 +11,15 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
 from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, Places, frozen
-from synergrip.statics.response import Response
+from synergrip.statics.response import Maps, Response
 from synergrip.values import Value
 
-SQUEEZE = 10
-"""Steps in which the references of the first instant are reached."""
 SHORTEST = Fraction(1, 640)
 """Share of a step from one instant to the next below which it is given up."""
 
@@ -59,10 +58,10 @@ class Execution(Value):
         """Whether all instants were reached."""
         return len(self.states) == len(self.times)
 
-    @property
-    def guess(self) -> States:
-        """States to begin at when references near these are executed."""
-        return self.path.states if len(self.path.states) == len(self.times) + _lead(self.setting) else self.states
+    @cached_property
+    def maps(self) -> Maps:
+        """(K, ...) how forces and motions answer to references and load at the equilibria."""
+        return Maps(**{each.name: getattr(self.path.maps, each.name)[self.kept] for each in fields(Maps)})
 
     @cached_property
     def joint(self) -> Array:
@@ -117,12 +116,9 @@ class Execution(Value):
     @cached_property
     def stiffness(self) -> Array:
         """(K,) the smallest stiffness with which the object is held [N/m]; not above 0 where it is not stable."""
-        tangent, length = self.balance.tangent, self.setting.length
+        length = self.setting.length
         wrench = np.diag([1.0, 1.0, 1.0, length, length, length])
-        right = np.zeros((len(tangent), tangent.shape[1], 6))
-        right[:, -6:] = -wrench
-        moved = np.linalg.solve(tangent, right)[:, -6:]
-        given = wrench @ moved  # scaled twist for each scaled wrench
+        given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
         return frozen(1.0 / soft)
@@ -139,7 +135,7 @@ class Execution(Value):
 @naming_arguments
 def execute(
     grasp: Grasp | Setting, times: Array, references: Array, loads: Loads, *, contact_model: ContactModel = "rolling",
-    response: Response | None = None, guess: States | None = None,
+    response: Response | None = None, guess: States | Execution | None = None,
 ) -> Execution:  # fmt: skip
     """Return the equilibria of a hand that synergy references lead through.
 
@@ -150,8 +146,8 @@ def execute(
         loads: (T) on the object.
         contact_model: "rolling" or "fixed", see `setting`.
         response: of the grasp, when it is known.
-        guess: (T) states near the equilibria, or `Execution.guess` of as many instants; all of them are then tried at
-            once first. What is found is the same, up to the way that tips roll where shorter steps are needed.
+        guess: (T) states near the equilibria, or an execution of references near these; all are then tried at once
+            first. What is found is the same, up to the way that tips roll where shorter steps are needed.
 
     Returns:
         the equilibria; it ends where there is none to be found, and says why.
@@ -161,17 +157,19 @@ def execute(
     """
     own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
     times, references = _judged(own, times, references, loads, guess)
-    lead = _lead(own)
-    way = _led(own, references, loads, lead)
+    lead = squeezes(own)
+    way = led(own, references, loads, lead)
     if guess is not None:
-        near = guess if len(guess) == lead + len(times) else _led_states(own, guess, lead)
-        balance, count = settled(own, near, way.loads, way.references)
+        near, known = _near(own, guess, lead, len(times))
+        balance, count = settled(own, near, way.loads, way.references, known)
         if np.all(at_rest(balance)) and on_faces(balance) == len(near):
             return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
     return _followed(own, times, references, loads)
 
 
-def _judged(own: Setting, times: Array, references: Array, loads: Loads, guess: States | None) -> tuple[Array, Array]:
+def _judged(
+    own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution | None
+) -> tuple[Array, Array]:
     """Return times (T,) and references (T, n_z) as arrays, when all arguments fit each other."""
     judge = Arguments("")
     instants = judge.numbers("times", times, "times (T,)")
@@ -185,43 +183,26 @@ def _judged(own: Setting, times: Array, references: Array, loads: Loads, guess: 
         judge.numbers("references", references, "references (T, n_z)")
     if judge.one("loads", loads, Loads, "Loads.of(np.zeros((T, 6)))") is not None and count and len(loads) != count:
         judge.refuse("loads", f"expected loads at {count} times, got {len(loads)}")
-    if guess is not None and judge.one("guess", guess, States, "execution.guess") is not None and count:
-        known, start = [(count, own.grasp.n_q), (_lead(own) + count, own.grasp.n_q)], own.start
-        fits = guess.q.shape in known and guess.forces.shape == (len(guess), start.forces.shape[1])
-        if not fits:
-            judge.refuse("guess", f"expected states of this grasp at {count} times, got joints {guess.q.shape}")
+    states = guess.states if isinstance(guess, Execution) else guess
+    if (
+        states is not None
+        and judge.one("guess", states, States, "another execution, or its states") is not None
+        and count
+    ):
+        known, start = [(count, own.grasp.n_q), (squeezes(own) + count, own.grasp.n_q)], own.start
+        if states.q.shape not in known or states.forces.shape != (len(states), start.forces.shape[1]):
+            judge.refuse("guess", f"expected states of this grasp at {count} times, got joints {states.q.shape}")
     judge.finish()
     return np.asarray(instants), references
 
 
-def _lead(own: Setting) -> int:
-    """Return how many steps of the first squeeze are gone through: the way counts only where contacts roll."""
-    return SQUEEZE - 1 if own.contact_model == "rolling" else 0
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class _Way(Value):
-    references: Array
-    loads: Loads
-
-
-def _led(own: Setting, references: Array, loads: Loads, lead: int) -> _Way:
-    """Return references and loads with steps from the start to the first instant before them."""
-    shares = np.arange(1, lead + 1)[:, None] / (lead + 1)
-    first = own.unloaded(loads)
-    before = Loads(
-        (1 - shares) * first.wrench + shares * loads.wrench[:1],
-        loads.points,
-        shares[:, :, None] * loads.at_points[:1],
-    )
-    return _Way(np.concatenate([shares * references[:1], references]), Loads.joined([before, loads]))
-
-
-def _led_states(own: Setting, states: States, lead: int) -> States:
-    """Return states with some before them, on the way from the start: good enough for Newton's method to begin at."""
-    shares = np.arange(1, lead + 1) / (lead + 1)
-    parts = [own.start if share < 0.5 else states.taken([0]) for share in shares]
-    return States.joined([*parts, states])
+def _near(own: Setting, guess: States | Execution, lead: int, count: int) -> tuple[States, Balance | None]:
+    """Return states to begin at, those of the first squeeze, too, and the equations there when they are known."""
+    if isinstance(guess, Execution):
+        if len(guess.path.states) == lead + count:
+            return guess.path.states, guess.path
+        guess = guess.states
+    return guess if len(guess) == lead + count else led_states(own, guess, lead), None
 
 
 def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:

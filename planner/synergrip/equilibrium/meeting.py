@@ -88,6 +88,14 @@ class Model(ABC):
             near: (T, n, 3) centres that are not far from those to be found, which depend on the way; when known.
         """
 
+    def rolled(self, placed: Placed, meeting: Meeting) -> tuple[Array, Array]:
+        """Return what a small turn of a link against the object makes (T, n, 3, 3), beyond what the object turns.
+
+        First how the frame turns; then how the arm from the link's point to the force does, as a part of the link.
+        """
+        none = np.zeros_like(meeting.frame)
+        return none, none
+
     def after(self, placed: Placed, meeting: Meeting) -> Model:
         """Return what the model is after the instants: one that remembers its way has gone it."""
         return self
@@ -109,6 +117,13 @@ class Several(Model):
             for name in ("place", "frame", "stretch", "centre")
         )
         return Meeting(place, frame, stretch, centre, np.concatenate([part.left for part in found])[order])
+
+    def rolled(self, placed: Placed, meeting: Meeting) -> tuple[Array, Array]:
+        """Return it for all contacts, in their order."""
+        frames, arms = np.zeros_like(meeting.frame), np.zeros_like(meeting.frame)
+        for own, model in self.parts:
+            frames[:, own], arms[:, own] = model.rolled(placed.of(own), meeting.of(own))
+        return frames, arms
 
     def after(self, placed: Placed, meeting: Meeting) -> Several:
         """Return the models, each after its instants."""

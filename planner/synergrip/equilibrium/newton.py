@@ -9,8 +9,10 @@ from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array
 
-AT_REST = 1e-10
+AT_REST = 1e-11
 """Error of `Balance.error` that counts as equilibrium."""
+NEAR = 1e-3
+"""An error below which the derivatives of the state before are as good: they leave out as much."""
 MOST = 40
 LOST = 1e3
 """An error that no iteration comes back from."""
@@ -18,7 +20,9 @@ LARGEST_STEP = 0.2
 """How far one iteration may move joints [rad] and the object over the length of the grasp."""
 
 
-def settled(setting: Setting, states: States, loads: Loads, references: Array) -> tuple[Balance, int]:
+def settled(
+    setting: Setting, states: States, loads: Loads, references: Array, known: Balance | None = None
+) -> tuple[Balance, int]:
     """Return the equations at the states that Newton's method ends with, and how many iterations it took.
 
     Rolling contacts remember the way they came: the first state follows the start, each other the one before it.
@@ -28,16 +32,19 @@ def settled(setting: Setting, states: States, loads: Loads, references: Array) -
         states: (T) where to begin.
         loads: (T) on the object.
         references: (T, n_z) synergy references.
+        known: the equations at the same states, under other references, when they are known.
 
     Returns:
         the equations; whose `error` is above `AT_REST` where the method did not converge.
     """
-    balance, last = Balance.of(setting, states, loads, references), False
+    balance = Balance.of(setting, states, loads, references, known)
+    inverse = None if known is None else known.inverse
     for count in range(MOST):
-        if last or not np.all(balance.error < LOST):
+        if np.all(at_rest(balance)) or not np.all(balance.error < LOST):
             return balance, count
-        last = bool(np.all(at_rest(balance)))  # one iteration more makes all digits of that
-        moved = _moved(setting, balance.states, _steps(balance))
+        if inverse is None or (count and np.any(balance.error > NEAR)):
+            inverse = balance.inverse
+        moved = _moved(setting, balance.states, _step(balance, inverse))
         balance = Balance.of(setting, moved, loads, references, balance)
     return balance, MOST
 
@@ -61,30 +68,13 @@ def why_not(balance: Balance) -> str:
     return "no equilibrium is near: the hand does not follow there"
 
 
-def _steps(balance: Balance) -> Array:
-    """Return Newton's step (T, n_l + n_q + 6) at every state, shortened where it is long; 0 where it is singular."""
-    right = -np.concatenate(balance.residuals, axis=1)
-    tangent, scale = balance.tangent, _sizes(balance)
-    scaled = tangent * scale
-    rows = np.abs(scaled).max(axis=2, initial=0.0)
-    rows = np.where(rows > 0, rows, 1.0)
-    try:
-        steps = np.linalg.solve(scaled / rows[:, :, None], (right / rows)[:, :, None])[:, :, 0] * scale
-    except np.linalg.LinAlgError:
-        steps = np.stack([np.linalg.lstsq(a / r[:, None], b / r, rcond=None)[0] * scale
-                          for a, b, r in zip(scaled, right, rows, strict=True)])  # fmt: skip
+def _step(balance: Balance, inverse: Array) -> Array:
+    """Return Newton's step (T, n_l + n_q + 6) at every state, shortened where it is long."""
+    steps = -(inverse @ np.concatenate(balance.residuals, axis=1)[:, :, None])[:, :, 0]
     n_l, length = balance.setting.grasp.n_l, balance.setting.length
-    turned, shifted = np.abs(steps[:, n_l:-6]).max(axis=1, initial=0.0), np.abs(steps[:, -6:-3]).max(axis=1) / length
-    largest = np.maximum(np.maximum(turned, shifted), np.abs(steps[:, -3:]).max(axis=1))
+    turned, shifted = np.abs(steps[:, n_l:-6]).max(axis=1, initial=0.0), np.abs(steps[:, -6:-3]).max(axis=1)
+    largest = np.maximum(np.maximum(turned, shifted / length), np.abs(steps[:, -3:]).max(axis=1))
     return np.asarray(steps * np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None])
-
-
-def _sizes(balance: Balance) -> Array:
-    """Return (n,) sizes of forces, joints and motions that bring the columns of the tangent near each other."""
-    grasp, length = balance.setting.grasp, balance.setting.length
-    force = max(float(np.abs(balance.states.forces).max(initial=0.0)), 1e-3)
-    moments = [length if component.startswith("m") else 1.0 for _, component in grasp.components]
-    return np.concatenate([force * np.array(moments), np.ones(grasp.n_q), [length] * 3, np.ones(3)])
 
 
 def _moved(setting: Setting, states: States, change: Array) -> States:

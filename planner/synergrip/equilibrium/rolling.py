@@ -8,8 +8,11 @@ import numpy as np
 
 from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face, rotation_vectors, times
 from synergrip.grasps.shapes.shape import Shape
-from synergrip.linalg import Array, crossed, skews
+from synergrip.linalg import Array
+from synergrip.vectors import crossed, skews
 
+BENT = 1e-4
+"""Share of a tip's radius over which the bending of the surface is looked at."""
 SAME = 1e-14
 """Share of the distance of a tip from the object's origin by which it may still change when its way is found."""
 
@@ -49,6 +52,15 @@ class Rolling(Model):
         place = placed.point + self.radius[:, None] * turned[..., 0]
         left = on_face(self.shape, centres, np.broadcast_to(self.radius, centres.shape[:2]), outward)
         return Meeting(place, turned, stretch, centres, left)
+
+    def rolled(self, placed: Placed, meeting: Meeting) -> tuple[Array, Array]:
+        """Return how frames turn as tips roll on to where the surface has another normal, and arms with them."""
+        outward = skews(-(placed.rotation.mT[:, None] @ meeting.frame)[..., 0])
+        steps = BENT * self.radius[:, None] * np.eye(3)[:, None]  # (3, n, 3)
+        sides = [self.shape.surface(meeting.centre + sign * steps[:, None])[1] for sign in (1, -1)]
+        bent = np.moveaxis(sides[0] - sides[1], 0, -1) / (2 * BENT)  # of normals, for one radius of motion
+        frames = placed.rotation[:, None] @ -(outward @ bent @ outward) @ placed.rotation.mT[:, None]
+        return frames, frames - np.eye(3)
 
     def after(self, placed: Placed, meeting: Meeting) -> Rolling:
         """Return the model with the way of the instants behind it."""

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from synergrip.hands.point_motion import PointMotions
-from synergrip.linalg import Array, Places, crossed, skews
+from synergrip.linalg import Array, Places
 from synergrip.values import Value
+from synergrip.vectors import skews
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,14 +31,18 @@ class Chains(Value):
         rotations, places = self._poses(q)
         turned = rotations[:, bodies]
         found = places[:, bodies] + (turned @ points[:, :, None])[..., 0]
-        axes = (rotations[:, self.moved] @ self.axes[:, :, None])[..., 0]
-        anchors = places[:, self.moved] + (rotations[:, self.moved] @ self.anchors[:, :, None])[..., 0]
-        carried = self._carries[bodies]  # (m, n)
+        moved = rotations[:, self.moved]
+        axes = (moved @ self.axes[:, :, None])[..., 0].mT.copy()  # (T, 3, n)
+        anchors = (places[:, self.moved] + (moved @ self.anchors[:, :, None])[..., 0]).mT
+        carried = self._carries[bodies][:, None]  # (m, 1, n)
         jacobian = np.empty((len(q), len(points), 2, 3, len(self.moved)))
-        arms = found[:, :, None] - anchors[:, None]
-        linear = (1 - self.slides[:, None]) * crossed(axes[:, None], arms) + (self.slides[:, None] * axes)[:, None]
-        jacobian[:, :, 0] = (carried[..., None] * linear).mT
-        jacobian[:, :, 1] = (carried * (1 - self.slides))[:, None] * axes.mT[:, None]
+        linear, angular = jacobian[:, :, 0], jacobian[:, :, 1]
+        np.multiply(axes[:, None], carried * (1 - self.slides), out=angular)
+        arms = found[..., None] - anchors[:, None]
+        for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            linear[:, :, i] = angular[:, :, j] * arms[:, :, k] - angular[:, :, k] * arms[:, :, j]
+        if self.slides.any():
+            linear += axes[:, None] * (carried * self.slides)
         return PointMotions(found, turned, jacobian)
 
     def _poses(self, q: Array) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +11,7 @@ from synergrip.equilibrium.setting import Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array, frozen
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
 from synergrip.statics.response import Response
@@ -47,29 +47,29 @@ class Executor:
         fixed = replace(self, setting=setting(own.grasp, "fixed", self.response))
         return fixed.run(executed.times, executed.references, wrench, executed.states)
 
-    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States) -> Execution:
+    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States | Execution) -> Execution:
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).
 
         Args:
             times: [s].
             references: from those at the start.
             wrench: on the object, about B where it starts.
-            near: states near the equilibria, or a motion that is not far from them.
+            near: states near the equilibria, a motion not far from them, or an execution of references near these.
         """
-        guess = near if isinstance(near, States) else _states(self.setting, near)
+        guess = _states(self.setting, near) if isinstance(near, Motion) else near
         return execute(self.setting, times, references, loads(self.task, times, wrench), guess=guess)
 
 
-def analyses_of(execution: Execution, start: Analysis) -> tuple[Analysis, ...]:
+def analyses_of(execution: Execution, start: Analysis) -> Each:
     """Return the analysis of the grasp at every state of an execution."""
     at = execution.balance
-    return analyse_along(start, G=at.G, J=at.J, points=at.arms, forces=at.states.forces)
+    return analyse_along(start, execution.maps, G=at.G, J=at.J, points=at.arms, forces=at.states.forces)
 
 
-def sag_of(each: Sequence[Analysis], wrench: Array, start: Analysis) -> Array:
+def sag_of(each: Each, wrench: Array, start: Analysis) -> Array:
     """Return the displacement (T, 6) that the change of the load (T, 6) makes, by the maps of each state [m, rad]."""
     change = wrench - start.grasp.w_0
-    return frozen(np.array([at.response.du_dw @ dw for at, dw in zip(each, change, strict=True)]))
+    return frozen((each.response.du_dw @ change[:, :, None])[:, :, 0])
 
 
 def loads(task: TimedTask, times: Array, wrench: Array) -> Loads:

@@ -124,6 +124,6 @@ def _begun(part: Walker, here: Grown, to: float, way: Way, hold: Array) -> Walk:
     slope = (own[-1] - before) / max(here.gone - here.before, KNOT)
     beyond = np.minimum(way.gone[known - 1 : count], to) - here.gone
     references = hold[:count] + np.concatenate([own[:-1], own[-1] + np.outer(beyond, slope)])
-    guess, last = walk.executed.guess, walk.executed.states.taken([-1])
-    near = States.joined([guess, *[last] * (count - known)])
+    states, last = walk.executed.states, walk.executed.states.taken([-1])
+    near = States.joined([states, *[last] * (count - known)])
     return part.executed(references, None, near)

@@ -27,7 +27,7 @@ class ShortStep(Limit):
         """Return one second-order cone per knot."""
         assert isinstance(formulation, AlongPath)
         moved = formulation.map_of(lambda at: at.response.dq_dzr) / self.room[:, None, None]
-        return [norm_within(self.key, "joints", formulation.change.after(moved), 1.0)]
+        return [norm_within(self.key, "joints", formulation.change.after(moved).shortened, 1.0)]
 
     def loosened(self, share: float) -> ShortStep:
         """Return it with more room."""

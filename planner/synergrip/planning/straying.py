@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.object_error import axis_weights
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.planning.walk import Walk, Walker
-from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 
 OF_ELASTIC = 0.1
@@ -31,18 +32,18 @@ def strayed(walk: Walk, walker: Walker) -> Array:
     seen = axis_weights(task.axes, start.response.scale.length)
     before, found = forces_at_start(start.response), []
     for at, left, forces in zip(way.each, walk.executed.left(walker.wanted), walk.executed.states.forces, strict=True):
-        elastic = _elastic(at, forces - before)
+        elastic = _elastic(start.grasp, at, forces - before)
         whole, of_springs = (_outside(seen @ at.spaces.Gamma_ucs, seen @ each) for each in (left + elastic, elastic))
         found.append(max(whole - OF_ELASTIC * of_springs, 0.0))
     return frozen(found)
 
 
-def _elastic(at: Analysis, change: Array) -> Array:
+def _elastic(start: Grasp, at: Each, change: Array) -> Array:
     """Return a displacement (6,) of the object that goes with a change of the contact forces (n_l,)."""
-    grasp = at.response.grasp
-    strain = (grasp.C_s + grasp.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ grasp.J.T) @ change
-    moved = np.linalg.lstsq(np.hstack([grasp.J @ grasp.S, -grasp.G.T]), strain, rcond=1e-12)[0]
-    return np.asarray(moved[grasp.n_z :])
+    J, G = at.grasp.J, at.grasp.G
+    strain = (start.C_s + J @ (start.C_q + start.S @ start.C_z @ start.S.T) @ J.T) @ change
+    moved = np.linalg.lstsq(np.hstack([J @ start.S, -G.T]), strain, rcond=1e-12)[0]
+    return np.asarray(moved[start.n_z :])
 
 
 def _outside(directions: Array, vector: Array) -> float:

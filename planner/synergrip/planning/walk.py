@@ -44,6 +44,8 @@ MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
 SHORTER, SHORTEST, TRIES = 1 / 3, 1e-3, 2
+AIMED, SHORTEST_CUT = 0.5, 0.05
+"""What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
 BETTER = 0.5
 """Share of the last difference between promise and truth that a step must get below."""
 REACHED = 0.01
@@ -84,8 +86,12 @@ class Walk(Value):
     @property
     def true(self) -> bool:
         """Whether what was promised is what happens."""
-        largest = float(np.abs(self.executed.states.forces).max(initial=0.0))
-        return self.way is not None and self.gap <= max(TRUE, OF_FORCES * largest)
+        return self.way is not None and self.gap <= self.allowed
+
+    @property
+    def allowed(self) -> float:
+        """[N] difference up to which a promise counts as what happens."""
+        return max(TRUE, OF_FORCES * float(np.abs(self.executed.states.forces).max(initial=0.0)))
 
     @property
     def behind(self) -> float:
@@ -171,7 +177,7 @@ class Walker:
             tried = (*best.tried, answered.decision)
             why = None if good else Hindrance.of(answered.decision, None if found is None else found.executed)
             best = replace(found if good and found is not None else best, passes=count, tried=tried, hindered=why)
-            share, tries = (min(1.0, 2 * share), 0) if good else (SHORTER * share, tries + 1)
+            share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
@@ -179,15 +185,15 @@ class Walker:
         first, *others = self.task.goals
         stage = through(begun(answered, limits, first), others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        return replace(self.executed(references, promised, best.executed.guess), stage=stage)
+        return replace(self.executed(references, promised, best.executed), stage=stage)
 
-    def executed(self, references: Array, promised: Array | None, near: Motion | States) -> Walk:
+    def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
 
         Args:
             references: at the knots of the task.
             promised: forces; None when nothing was promised, which any pass then improves on.
-            near: states or a motion that are not far from what they do.
+            near: states, a motion or an execution that are not far from what they do.
         """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
@@ -229,6 +235,13 @@ class Walker:
             each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(formulation, path)
+
+
+def _shorter(found: Walk | None) -> float:
+    """Return by how much a step is made shorter that was too long: its gap is as the square of it."""
+    if found is None or found.way is None:
+        return SHORTER
+    return float(np.clip(np.sqrt(AIMED * found.allowed / max(found.gap, 1e-300)), SHORTEST_CUT, SHORTER))
 
 
 def _told(found: Walk | None, good: bool) -> str:

@@ -13,6 +13,7 @@ from synergrip.linalg import Array, interpolated
 from synergrip.referee.maps import Expression, mapped
 from synergrip.referee.model import Model
 from synergrip.statics import Response
+from synergrip.statics.each import EachResponse
 
 
 def beside(model: Model, looks: Looks) -> Model:
@@ -27,7 +28,9 @@ def beside(model: Model, looks: Looks) -> Model:
     return BesideKnots(**own, knots=model, shares=shares)
 
 
-def _departed(model: Model, shares: Array, departure: Array, of_load: Callable[[Response], Array]) -> Array:
+def _departed(
+    model: Model, shares: Array, departure: Array, of_load: Callable[[Response | EachResponse], Array]
+) -> Array:
     """Return what departures (J, 6) of the load make, by maps between those of the knots."""
     maps = np.tensordot(shares, model.maps.of(lambda at: of_load(at.response)), axes=1)
     return np.asarray(mapped(maps, departure))
@@ -70,7 +73,7 @@ class BesideKnots(Model):
         """Joint displacements (J, n_q) [rad or m]."""
         return self._straight("joints", lambda of: of.dq_dw)
 
-    def _straight(self, name: str, of_load: Callable[[Response], Array] | None = None) -> Expression:
+    def _straight(self, name: str, of_load: Callable[[Response | EachResponse], Array] | None = None) -> Expression:
         assert self.knots is not None
         assert self.shares is not None
         value = self.shares @ getattr(self.knots, name)

@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 
 Expression = Any
 """A CVXPY expression, variable, constraint or problem: CVXPY has no types to speak of."""
@@ -22,9 +23,9 @@ class Maps:
 
     response: Response
     coordinates: Coordinates
-    each: tuple[Analysis, ...] = ()
+    each: tuple[Analysis | Each, ...] = ()
 
-    def of(self, read: Callable[[Maps | Analysis], Array]) -> Array:
+    def of(self, read: Callable[[Maps | Analysis | Each], Array]) -> Array:
         """Return what is read of them: (...) when it is the same at all knots, (T, ...) when each has its own."""
         return np.array([read(at) for at in self.each]) if self.each else np.asarray(read(self))
 

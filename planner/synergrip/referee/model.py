@@ -21,6 +21,7 @@ from synergrip.referee.maps import Expression as Expression
 from synergrip.referee.maps import Maps, mapped
 from synergrip.statics import Coordinates, Response
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 
 
@@ -139,7 +140,7 @@ def write_model(
     response: Response, coordinates: Coordinates, *,
     times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
     beta_basis: Array, target: Array, rigid_basis: Array, references: Expression | None = None,
-    stated: Units | None = None, each: Sequence[Analysis] = (),
+    stated: Units | None = None, each: Sequence[Analysis] | Each = (),
 ) -> Model:  # fmt: skip
     """Write a task down; the arguments are those of `formulate`, and the references when they are not wholly free.
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.statics.response import Response
 from synergrip.values import Value
+
+if TYPE_CHECKING:
+    from synergrip.statics.each import EachResponse
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -28,8 +32,8 @@ class Motion(Value):
     dz: Array  # (T, n_z) synergy displacement
 
 
-def forces_at_start(response: Response) -> Array:
-    """Return lambda_0 (n_l,): as given, or the elastic reaction ``-G+ w_0`` of the grasp to its load."""
+def forces_at_start(response: Response | EachResponse) -> Array:
+    """Return lambda_0 (n_l,), or (T, n_l) at each knot: as given, or the elastic reaction ``-G+ w_0`` to the load."""
     given = response.grasp.lambda_0
     return np.asarray(given) if given is not None else -response.right_inverse @ response.grasp.w_0
 

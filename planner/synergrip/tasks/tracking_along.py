@@ -7,7 +7,6 @@ what is left of the way is told, and is zero wherever the hand can follow.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,8 +15,8 @@ import numpy as np
 from synergrip.conic.limits.object_error import AXES, axis_weights
 from synergrip.linalg import Array, frozen
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import turned
-from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import followed_axes
 from synergrip.values import Value
@@ -27,8 +26,8 @@ from synergrip.values import Value
 class Steps(Value):
     """What the way that is left says about the rigid motion at every knot."""
 
-    each: tuple[Analysis, ...]
-    """(T,) the grasp at every knot; beta of those directions that the program may choose comes first."""
+    each: Each
+    """(T) the grasp at every knot; beta of those directions that the program may choose comes first."""
     beta: Array  # (T, dim Gamma_ucs) that goes all of it [m]
     basis: Array
     """(dim Gamma_ucs, m) orthonormal directions in which beta is the program's choice."""
@@ -46,45 +45,37 @@ class Steps(Value):
         Args:
             damping: [m/rad] joint motions are as dear as this much of the way.
         """
-        parts = []
-        for at, beta in zip(self.each, self.beta, strict=True):
-            joints = joints_of(at)
-            damped = np.linalg.solve(np.eye(len(beta)) + damping**2 * joints.T @ joints, beta)
-            parts.append((damped, float(np.linalg.norm(joints @ damped))))
-        betas, moved = zip(*parts, strict=True)
-        return frozen(np.array(betas).reshape(self.beta.shape)), frozen(moved)
+        joints = joints_of(self.each)
+        stiff = np.eye(self.beta.shape[1]) + damping**2 * joints.mT @ joints
+        damped = np.linalg.solve(stiff, self.beta[:, :, None])
+        return frozen(damped[:, :, 0]), frozen(np.linalg.norm((joints @ damped)[:, :, 0], axis=1))
 
 
-def steps(each: Sequence[Analysis], start: Analysis, task: TimedTask, left: Array) -> Steps:
+def steps(each: Each, start: Analysis, task: TimedTask, left: Array) -> Steps:
     """Return the rigid motion at every knot that goes what is left of the way.
 
     Args:
-        each: (T,) the grasp along the path.
+        each: (T) the grasp along the path.
         start: the grasp at the start.
         task: says what is tracked, and on which axes.
         left: (T, 6) twist from where the object is to where it is wanted [m, rad].
     """
     dimension = start.spaces.Gamma_ucs.shape[1]
-    reached = [motion_coordinates(at.response, at.spaces, way) for at, way in zip(each, left, strict=True)]
-    beside = np.array([outside for _, outside in reached])
-    beta, basis = np.array([own for own, _ in reached]).reshape(len(left), dimension), np.zeros((dimension, 0))
+    beta, beside = each.split(left)
+    basis = np.zeros((dimension, 0))
     if task.tracking == "compliant":
         beta, basis = np.zeros_like(beta), np.eye(dimension)
     elif len(task.axes) < len(AXES):
         seen = axis_weights(task.axes, start.response.scale.length)
         free = followed_axes(start, task)[1].shape[1]
-        each, basis = [turned(at, seen, free) for at in each], np.eye(dimension)[:, :free]
-        beta = np.array([_seen(at, seen, way, free) for at, way in zip(each, left, strict=True)])
-    return Steps(tuple(each), frozen(beta), frozen(basis), frozen(beside))
+        each, basis = turned(each, seen, free), np.eye(dimension)[:, :free]
+        motions = (seen @ each.spaces.Gamma_ucs)[:, :, free:]  # the least beta, along what is not free, that is seen
+        own = (np.linalg.pinv(motions) @ (left @ seen.T)[:, :, None])[:, :, 0]
+        beta = np.hstack([np.zeros((len(left), free)), own])
+    return Steps(each, frozen(beta), frozen(basis), frozen(beside))
 
 
-def _seen(at: Analysis, seen: Array, way: Array, free: int) -> Array:
-    """Return the least beta, along what is not free, that goes a way (6,) as far as it is seen."""
-    motions = (seen @ at.spaces.Gamma_ucs)[:, free:]
-    return np.concatenate([np.zeros(free), np.linalg.lstsq(motions, seen @ way, rcond=None)[0]])
-
-
-def joints_of(at: Analysis) -> Array:
-    """Return how the joints move with beta (n_q, dim Gamma_ucs) [rad/m]."""
-    forces, motions, _ = at.coordinates.dimensions
-    return np.asarray(at.response.dq_dzr @ at.coordinates.inverse[:, forces : forces + motions])
+def joints_of(each: Each | Analysis) -> Array:
+    """Return how the joints move with beta (n_q, dim Gamma_ucs), at every instant of several, [rad/m]."""
+    forces, motions, _ = each.coordinates.dimensions
+    return np.asarray(each.response.dq_dzr @ each.coordinates.inverse[..., forces : forces + motions])
