@@ -8,6 +8,7 @@ import numpy as np
 
 from synergrip.linalg import frozen
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Reached
 from synergrip.planning.walk import FOLLOWED, Walk, Walker
 from synergrip.statics.twists import describe_displacement
@@ -75,7 +76,8 @@ def _dear(walk: Walk, walker: Walker) -> float:
 
 
 def notes(walk: Walk, walker: Walker) -> Iterator[str]:
-    """Yield how far the plan is from what was wanted, where that is more than elastic motion."""
+    """Yield how far the plan is from what was wanted, where that is more than elastic motion, and ranges let go."""
+    yield from ranges_left(walker.task, walker.start.grasp, walk.executed.joint)
     if walk.behind > FOLLOWED:
         yield (
             f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
