@@ -179,12 +179,36 @@ def test_a_tip_that_rolls_stays_on_the_surface_and_acts_where_it_touches() -> No
     for shape in (Box(size=(0.04, 0.04, 0.04)), Sphere(radius=0.02)):
         own = setting(jaws(shape, 0.02, 0.005, C_s=[1e-4] * 3 + [1.0], C_q=[0.0] * 6, kind=SOFT), "rolling")
         balance = anywhere(own, turn=0.05)
-        for placed, meeting in zip(balance.placed, balance.meetings, strict=True):
-            assert meeting.left is None
-            frame, R = meeting.frame[0], placed.rotation[0]
+        placed, meeting = balance.placed, balance.meeting
+        assert meeting.left.tolist() == [1] * own.grasp.n_c
+        for i, frame in enumerate(meeting.frame[0]):
+            point, R = placed.point[0, i], placed.rotation[0]
             assert frame.T @ frame == pytest.approx(np.eye(3), abs=1e-12)
-            assert meeting.place[0] - placed.point[0] == pytest.approx(0.005 * frame[:, 0], abs=1e-12)
-            centre = R.T @ (placed.point[0] - placed.position[0] - frame @ meeting.stretch[0, :3])
+            assert meeting.place[0, i] - point == pytest.approx(0.005 * frame[:, 0], abs=1e-12)
+            centre = R.T @ (point - placed.position[0] - frame @ meeting.stretch[0, i, :3])
+            assert meeting.centre[0, i] == pytest.approx(centre, abs=1e-12)
             distance, outward = shape.surface(centre)
             assert distance == pytest.approx(0.005, abs=1e-12)
             assert R @ outward == pytest.approx(-frame[:, 0], abs=1e-12)
+
+
+@pytest.mark.parametrize("shape", [Sphere(radius=0.02), Box(size=(0.04, 0.04, 0.04))])
+def test_a_way_looked_at_in_one_go_is_that_gone_step_by_step(shape: Sphere | Box) -> None:
+    """A long one, of 1.5 rad: a ball's normals turn as far, so that where a step begins matters at every one."""
+    own = setting(jaws(shape, 0.02, 0.005, C_s=[1e-4] * 3 + [1.0], C_q=[0.0] * 6, kind=SOFT), "rolling")
+    T, rng = 30, np.random.default_rng(8)
+    turns = np.cumsum(rng.normal([0.04, 0.02, -0.02], 0.01, (T, 3)), axis=0) if isinstance(shape, Sphere) else (
+        np.outer(np.linspace(0, 0.05, T), [1.0, 1.0, 1.0]))  # fmt: skip
+    states = States(
+        own.held.q + rng.normal(size=(T, own.grasp.n_q)) * 1e-4, own.held.body.position + np.zeros((T, 3)),
+        Rotation.from_rotvec(turns).as_matrix(), np.tile(own.forces, (T, 1)),
+    )  # fmt: skip
+    loads, references = Loads.of(np.zeros((T, 6))), np.zeros((T, own.grasp.n_z))
+    at_once, here = Balance.of(own, states, loads, references), own
+    for k in range(T):
+        one = Balance.of(here, states.taken([k]), loads.taken([k]), references[[k]])
+        here = one.moved_on()
+        for name in ("place", "frame", "stretch", "centre"):
+            assert getattr(at_once.meeting, name)[k] == pytest.approx(getattr(one.meeting, name)[0], abs=1e-13)
+    near = Balance.of(own, states, loads, references, near=at_once)
+    assert near.meeting.stretch == pytest.approx(at_once.meeting.stretch, abs=1e-14)

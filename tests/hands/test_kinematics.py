@@ -169,3 +169,26 @@ def test_the_order_of_q_names_every_moving_joint_once():
         kinematics(urdf, urdf.moving[1:])
     with pytest.raises(InputError, match="once"):
         kinematics(urdf, [*urdf.moving, "finger1_inner"])
+
+
+def test_many_postures_at_once_are_each_as_it_is_alone(tmp_path):
+    rng = np.random.default_rng(4)
+    for hand, points in (
+        (barrett(), [*TIPS, ("finger1_tip", np.zeros(3))]),
+        (slider(tmp_path), [("tip", POINT), ("rail", POINT)]),
+    ):
+        q = rng.uniform(-2, 2, (7, len(hand.joints)))
+        found = hand.along(q, points)
+        for k, posture in enumerate(q):
+            for i, alone in enumerate(hand.at(posture, points)):
+                assert found.position[k, i] == pytest.approx(alone.position, abs=1e-14)
+                assert found.rotation[k, i] == pytest.approx(alone.rotation, abs=1e-14)
+                assert found.jacobian[k, i].reshape(6, -1) == pytest.approx(alone.jacobian, abs=1e-14)
+
+
+def test_postures_that_are_none_and_links_that_are_not_there_are_refused():
+    hand = barrett()
+    with pytest.raises(InputError, match="expected postures"):
+        hand.along(np.zeros(len(hand.joints)), TIPS)
+    with pytest.raises(InputError, match="is not one of"):
+        hand.along(np.zeros((2, len(hand.joints))), [("nowhere", POINT)])

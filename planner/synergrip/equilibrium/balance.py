@@ -20,7 +20,7 @@ import numpy as np
 from synergrip.equilibrium.meeting import Meeting, Placed
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
-from synergrip.linalg import Array, Places
+from synergrip.linalg import Array, Places, skews
 from synergrip.values import Value
 
 
@@ -32,75 +32,67 @@ class Balance(Value):
     states: States
     loads: Loads
     references: Array  # (T, n_z)
-    placed: tuple[Placed, ...]
-    """Links and object, for each contact."""
-    meetings: tuple[Meeting, ...]
+    placed: Placed
+    """Links and object."""
+    meeting: Meeting
+    """The contacts."""
     jacobians: Array
-    """(T, n_c, 6, n_q) of the points where the forces act: velocity, and turning of the link; palm axes."""
+    """(T, n_c, 2, 3, n_q) of the points where the forces act: velocity, and turning of the link; palm axes."""
 
     @classmethod
-    def of(cls, setting: Setting, states: States, loads: Loads, references: Array) -> Balance:
-        """Work out where the contacts are."""
-        found = [setting.held.hand.kinematics.at(q, setting.points) for q in states.q]
-        placed = tuple(
-            Placed(np.array([motions[i].position for motions in found]),
-                   np.array([motions[i].rotation for motions in found]) @ links.T, states.position, states.rotation)
-            for i, links in enumerate(setting.links)
-        )  # fmt: skip
-        meetings = tuple(model.at(each) for model, each in zip(setting.models, placed, strict=True))
-        jacobians = np.array([[each.jacobian for each in motions] for motions in found])
-        arms = np.stack([meeting.place - each.point for meeting, each in zip(meetings, placed, strict=True)], axis=1)
-        jacobians[:, :, :3] += np.cross(jacobians[:, :, 3:], arms[..., None], axis=2)
-        return cls(setting, states, loads, references, placed, meetings, jacobians)
+    def of(
+        cls, setting: Setting, states: States, loads: Loads, references: Array, near: Balance | None = None
+    ) -> Balance:
+        """Work out where the contacts are; sooner when the equations at states near these are known."""
+        links = setting.held.hand.kinematics.along(states.q, setting.points)
+        placed = Placed(links.position, links.rotation @ setting.links.mT, states.position, states.rotation)
+        meeting = setting.model.at(placed, None if near is None else near.meeting.centre)
+        moving, turning = links.jacobian[:, :, 0], links.jacobian[:, :, 1]
+        jacobians = np.stack([moving - skews(meeting.place - placed.point) @ turning, turning], axis=2)
+        return cls(setting, states, loads, references, placed, meeting, jacobians)
 
     def taken(self, places: Places) -> Balance:
         """Return the equations at some of the states."""
-        placed = tuple(each.taken(places) for each in self.placed)
-        meetings = tuple(each.taken(places) for each in self.meetings)
+        at = self.placed
+        placed = Placed(at.point[places], at.link[places], at.position[places], at.rotation[places])
         return Balance(self.setting, self.states.taken(places), self.loads.taken(places), self.references[places],
-                       placed, meetings, self.jacobians[places])  # fmt: skip
+                       placed, self.meeting.taken(places), self.jacobians[places])  # fmt: skip
 
     def moved_on(self) -> Setting:
         """Return the setting with the way of these states behind it, for those that follow."""
-        pairs = zip(self.setting.models, self.placed, strict=True)
-        return replace(self.setting, models=tuple(model.after(placed) for model, placed in pairs))
+        return replace(self.setting, model=self.setting.model.after(self.placed, self.meeting))
 
-    @cached_property
+    @property
     def frames(self) -> Array:
         """(T, n_c, 3, 3) of the contacts, columns n, t, o."""
-        return np.stack([meeting.frame for meeting in self.meetings], axis=1)
+        return self.meeting.frame
 
     @cached_property
     def arms(self) -> Array:
         """(T, n_c, 3) from the object's origin to where the forces act [m]."""
-        return np.stack([meeting.place for meeting in self.meetings], axis=1) - self.states.position[:, None]
+        return np.asarray(self.meeting.place - self.states.position[:, None])
 
     @cached_property
     def G(self) -> Array:
         """(T, 6, n_l) grasp matrix about the origin of B where it is."""
-        parts = []
-        for i, contact in enumerate(self.setting.grasp.contacts):
-            frame, arm = self.frames[:, i], self.arms[:, i]
-            forces = np.concatenate([frame, np.cross(arm[:, :, None], frame, axis=1)], axis=1)
-            moments = np.concatenate([np.zeros_like(frame), frame], axis=1)
-            parts.append(np.concatenate([forces, moments], axis=2) @ contact.kind.selection.T)
-        return np.concatenate(parts, axis=2)
+        T, n_c = self.arms.shape[:2]
+        whole = np.zeros((T, 2, 3, n_c, 2, 3))  # force and moment of each contact's force, and of its moment
+        frames = self.frames.transpose(0, 2, 1, 3)
+        whole[:, 0, :, :, 0] = whole[:, 1, :, :, 1] = frames
+        whole[:, 1, :, :, 0] = (skews(self.arms) @ self.frames).transpose(0, 2, 1, 3)
+        return whole.reshape(T, 6, 6 * n_c)[:, :, self.setting.components]
 
     @cached_property
     def J(self) -> Array:
         """(T, n_l, n_q) hand Jacobian in the contact frames."""
-        parts = []
-        for i, contact in enumerate(self.setting.grasp.contacts):
-            inverse = self.frames[:, i].mT
-            both = [inverse @ self.jacobians[:, i, :3], inverse @ self.jacobians[:, i, 3:]]
-            parts.append(contact.kind.selection @ np.concatenate(both, axis=1))
-        return np.concatenate(parts, axis=1)
+        T, n_c = self.arms.shape[:2]
+        whole = self.frames.mT[:, :, None] @ self.jacobians
+        return np.asarray(whole.reshape(T, 6 * n_c, -1)[:, self.setting.components])
 
     @cached_property
     def stretch(self) -> Array:
         """(T, n_l) of the contacts' springs since the start."""
-        pairs = zip(self.meetings, self.setting.grasp.contacts, strict=True)
-        return np.concatenate([meeting.stretch @ contact.kind.selection.T for meeting, contact in pairs], axis=1)
+        return np.asarray(self.meeting.stretch.reshape(len(self.arms), -1)[:, self.setting.components])
 
     @cached_property
     def torques(self) -> Array:
@@ -147,35 +139,25 @@ class Balance(Value):
         moment on the object does not change with q. Left out: how moments turn with the joints that carry them.
         """
         T, n_q = self.states.q.shape
-        of_joints, of_arms, of_object = np.zeros((T, n_q, n_q)), np.zeros((T, n_q, 6)), np.zeros((T, 6, 6))
-        turned = np.zeros((T, n_q, 3))
-        for i, rows in enumerate(self.setting.grasp.rows):
-            count = min(3, rows.stop - rows.start)
-            force = np.einsum("tij,tj->ti", self.frames[:, i, :, :count], self.states.forces[:, rows][:, :count])
-            moving, turning, skew = self.jacobians[:, i, :3], self.jacobians[:, i, 3:], skews(force)
-            whole = np.cross(force[:, :, None], turning, axis=1).mT @ moving  # f . (w_a x v_b)
-            below = self.setting.above * whole
-            of_joints += below + (below - below * np.eye(n_q)).mT
-            moment = self._moment(i)
-            of_arms[:, :, 3:] -= moving.mT @ skew
-            turned -= turning.mT @ moment
-            of_object[:, :3, 3:] += skew
-            of_object[:, 3:, :3] -= skew
-            of_object[:, 3:, 3:] += skews(self.arms[:, i]) @ skew + moment
+        forces, moments = skews(self._acting[:, :, 0]), skews(self._acting[:, :, 1])
+        moving, turning = (self.jacobians[:, :, part].reshape(T, -1, n_q) for part in (0, 1))  # contacts as rows
+        turned = (forces @ self.jacobians[:, :, 1]).reshape(T, -1, n_q)
+        below = self.setting.above * (turned.mT @ moving)  # f . (w_a x v_b)
+        of_joints = below + (below - below * np.eye(n_q)).mT
+        of_arms, of_object = np.zeros((T, n_q, 6)), np.zeros((T, 6, 6))
+        of_arms[:, :, 3:] = -moving.mT @ forces.reshape(T, -1, 3)
+        of_object[:, :3, 3:] = forces.sum(axis=1)
+        of_object[:, 3:, :3] = -of_object[:, :3, 3:]
+        of_object[:, 3:, 3:] = (skews(self.arms) @ forces + moments).sum(axis=1)
         of_object[:, 3:, 3:] -= self.loads.turning(self.states.rotation)
         of_pose = of_arms.copy()
-        of_pose[:, :, 3:] += turned
+        of_pose[:, :, 3:] -= turning.mT @ moments.reshape(T, -1, 3)
         return of_joints, of_pose, of_arms, of_object
 
-    def _moment(self, i: int) -> Array:
-        """Return the skew matrices (T, 3, 3) of the moments that a contact transmits, palm axes."""
-        rows, selection = self.setting.grasp.rows[i], self.setting.grasp.contacts[i].kind.selection
-        moments = self.states.forces[:, rows] @ selection[:, 3:]
-        return skews(np.einsum("tij,tj->ti", self.frames[:, i], moments))
-
-
-def skews(vectors: Array) -> Array:
-    """Return the matrices (T, 3, 3) of the cross products with vectors (T, 3)."""
-    x, y, z = vectors.T
-    zero = np.zeros_like(x)
-    return np.asarray(np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1))
+    @cached_property
+    def _acting(self) -> Array:
+        """(T, n_c, 2, 3) forces and moments of the contacts, palm axes."""
+        T, n_c = self.arms.shape[:2]
+        whole = np.zeros((T, 6 * n_c))
+        whole[:, self.setting.components] = self.states.forces
+        return np.asarray(whole.reshape(T, n_c, 2, 3) @ self.frames.mT)

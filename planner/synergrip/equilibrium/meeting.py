@@ -1,4 +1,4 @@
-"""How a pad and the object meet: three models of a contact, each a function of where link and object are.
+"""How pads and the object meet: models of contacts, each a function of where links and object are.
 
 All return where the force acts, its frame, and the stretch of the contact's springs since the start, such that the
 Jacobians of hand and object at that point are the derivatives of the stretch. So hand and object feel equal and
@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.shapes.shape import Shape
-from synergrip.linalg import Array, cross
+from synergrip.linalg import Array, Places
 from synergrip.values import Value
 
 EDGE = 1e-6
@@ -26,166 +27,153 @@ INSIDE = 1e-3
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Placed(Value):
-    """A link and the object at T instants, palm frame."""
+    """n links and the object at T instants, palm frame."""
 
     point: Array
-    """(T, 3) the point of the link that the model speaks of [m]."""
-    link: Array  # (T, 3, 3) rotation of the link from the start
+    """(T, n, 3) the point of each link that the model speaks of [m]."""
+    link: Array  # (T, n, 3, 3) rotations of the links from the start
     position: Array  # (T, 3) of the object frame B
     rotation: Array  # (T, 3, 3) of the object from the start
 
-    def taken(self, places: Any) -> Placed:
-        """Return them at some of the instants."""
-        return Placed(self.point[places], self.link[places], self.position[places], self.rotation[places])
+    @cached_property
+    def seen(self) -> Array:
+        """(T, n, 3) the points from B, axes of B."""
+        return np.asarray((self.point - self.position[:, None]) @ self.rotation)
+
+    @cached_property
+    def relative(self) -> Array:
+        """(T, n, 3, 3) rotations of the links from the start, axes of B."""
+        return np.asarray(self.rotation.mT[:, None] @ self.link)
+
+    def of(self, places: Places) -> Placed:
+        """Return them for some of the links."""
+        return Placed(self.point[:, places], self.link[:, places], self.position, self.rotation)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Meeting(Value):
-    """A contact at T instants."""
+    """n contacts at T instants."""
 
-    place: Array  # (T, 3) where the force acts, palm frame
-    frame: Array  # (T, 3, 3) columns n, t, o
+    place: Array  # (T, n, 3) where the forces act, palm frame
+    frame: Array  # (T, n, 3, 3) columns n, t, o
     stretch: Array
-    """(T, 6) of its springs since the start, along and about n, t, o [m, rad]: positive where the hand pushes more."""
-    left: int | None = None
-    """The first instant at which the contact is no longer on its face; None when it stays there."""
+    """(T, n, 6) of the springs since the start, along and about n, t, o [m, rad]: above 0 where hands push more."""
+    centre: Array
+    """(T, n, 3) where the object's end of the springs is, from B, axes of B [m]: of a rolling tip its centre."""
+    left: Places
+    """(n,) how many instants pass before each contact is no longer on its face; T when it stays there."""
 
     def taken(self, places: Any) -> Meeting:
-        """Return it at some of the instants."""
-        return Meeting(self.place[places], self.frame[places], self.stretch[places], self.left)
+        """Return them at some of the instants; when they left is told of all."""
+        return Meeting(self.place[places], self.frame[places], self.stretch[places], self.centre[places], self.left)
+
+    def of(self, places: Places) -> Meeting:
+        """Return some of the contacts."""
+        return self.taken((slice(None), places))
 
 
 class Model(ABC):
-    """How a contact moves."""
+    """How n contacts move."""
+
+    def __repr__(self) -> str:
+        """Return its kind."""
+        return f"{type(self).__name__}()"
 
     @abstractmethod
-    def at(self, placed: Placed) -> Meeting:
-        """Return the contact at the instants, in the order in which they happen."""
+    def at(self, placed: Placed, near: Array | None) -> Meeting:
+        """Return the contacts at the instants, in the order in which they happen.
 
-    def after(self, placed: Placed) -> Model:
+        Args:
+            placed: links and object.
+            near: (T, n, 3) centres that are not far from those to be found, which depend on the way; when known.
+        """
+
+    def after(self, placed: Placed, meeting: Meeting) -> Model:
         """Return what the model is after the instants: one that remembers its way has gone it."""
         return self
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
+class Several(Model):
+    """Contacts of different models."""
+
+    parts: tuple[tuple[Places, Model], ...]
+    """Which contacts, and how they move."""
+
+    def at(self, placed: Placed, near: Array | None) -> Meeting:
+        """Return all contacts, in their order."""
+        found = [model.at(placed.of(own), None if near is None else near[:, own]) for own, model in self.parts]
+        order = np.argsort(np.concatenate([own for own, _ in self.parts]))
+        place, frame, stretch, centre = (
+            np.concatenate([getattr(part, name) for part in found], axis=1)[:, order]
+            for name in ("place", "frame", "stretch", "centre")
+        )
+        return Meeting(place, frame, stretch, centre, np.concatenate([part.left for part in found])[order])
+
+    def after(self, placed: Placed, meeting: Meeting) -> Several:
+        """Return the models, each after its instants."""
+        return Several(tuple((own, model.after(placed.of(own), meeting.of(own))) for own, model in self.parts))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Stuck(Model):
-    """A point of the link and a point of the object that springs hold together; its frame turns with the object."""
+    """Points of the links and points of the object that springs hold together; their frames turn with the object."""
 
-    point: Array  # (3,) of the object, from B
-    frame: Array  # (3, 3)
+    points: Array  # (n, 3) of the object, from B
+    frames: Array  # (n, 3, 3)
     turns: bool
-    """Whether any of its springs is about an axis."""
+    """Whether any of the springs is about an axis."""
 
-    def at(self, placed: Placed) -> Meeting:
+    def at(self, placed: Placed, near: Array | None) -> Meeting:
         """Return the stretch between the two points; the force acts at the link's."""
-        frame = placed.rotation @ self.frame
-        apart = placed.point - placed.position - placed.rotation @ self.point
-        stretch = np.zeros((len(apart), 6))
-        stretch[:, :3] = np.einsum("tji,tj->ti", frame, apart)
+        stretch = np.zeros((*placed.point.shape[:2], 6))
+        stretch[..., :3] = times(self.frames.mT, placed.seen - self.points)
         if self.turns:
-            stretch[:, 3:] = rotation_vectors(placed.rotation.mT @ placed.link) @ self.frame
-        return Meeting(placed.point, frame, stretch)
+            stretch[..., 3:] = times(self.frames.mT, rotation_vectors(placed.relative))
+        centre = np.broadcast_to(self.points, placed.point.shape)
+        return Meeting(placed.point, placed.rotation[:, None] @ self.frames, stretch, centre, whole(placed))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sliding(Model):
-    """A pad that slides over the surface without friction: its distance counts, and nothing else."""
+    """Pads that slide over the surface without friction: their distance counts, and nothing else."""
 
     shape: Shape
-    radius: float
-    """Distance of its point from the surface at the start [m]."""
+    radius: Array
+    """(n,) distances of their points from the surface at the start [m]."""
 
-    def at(self, placed: Placed) -> Meeting:
-        """Return how much nearer the pad is; the force acts where the surface is nearest."""
-        inside = np.einsum("tji,tj->ti", placed.rotation, placed.point - placed.position)
-        distance, outward = surface_at(self.shape, inside)
-        frame = placed.rotation @ np.array([contact_frame(normal) for normal in -outward])
-        stretch = np.zeros((len(inside), 6))
-        stretch[:, 0] = self.radius - distance
-        place = placed.point + distance[:, None] * frame[:, :, 0]
-        return Meeting(place, frame, stretch, first_off(self.shape, inside, distance, outward))
-
-
-@dataclass(frozen=True, eq=False)
-class Rolling(Model):
-    """A rigid round tip that rolls on the surface, held to its link by springs at its centre."""
-
-    shape: Shape
-    radius: float
-    """Distance of the tip's centre from the surface [m]."""
-    centre: Array  # (3,) of the tip so far, from B, axes of B
-    frame: Array  # (3, 3) of the contact so far, axes of B
-    link: Array  # (3, 3) rotation of the link so far, from the start, axes of B
-    about: Array
-    """(3,) how far the link has turned against the object about n, t, o [rad]."""
-
-    @classmethod
-    def at_start(cls, shape: Shape, centre: Array, frame: Array) -> Rolling:
-        """Return the model of a tip that touches the surface with a frame (3, 3)."""
-        return cls(shape, shape.surface(centre)[0], centre, frame, np.eye(3), np.zeros(3))
-
-    def at(self, placed: Placed) -> Meeting:
-        """Return the contact: what the link turns relative to the object, the tip rolls."""
-        centres, frames, angles = self._way(placed)
-        turned = placed.rotation @ frames
-        apart = placed.point - placed.position - np.einsum("tij,tj->ti", placed.rotation, centres)
-        stretch = np.hstack([np.einsum("tji,tj->ti", turned, apart), angles])
-        left = first_off(self.shape, centres, np.full(len(centres), self.radius), -frames[:, :, 0])
-        return Meeting(placed.point + self.radius * turned[:, :, 0], turned, stretch, left)
-
-    def after(self, placed: Placed) -> Rolling:
-        """Return the model with the way of the instants behind it."""
-        centres, frames, angles = self._way(placed)
-        link = placed.rotation[-1].T @ placed.link[-1]
-        return Rolling(self.shape, self.radius, centres[-1], frames[-1], link, angles[-1])
-
-    def _way(self, placed: Placed) -> tuple[Array, Array, Array]:
-        """Return centres (T, 3), frames (T, 3, 3) and turned angles (T, 3).
-
-        From one instant to the next the centre moves by ``theta x radius nu``, with the normal nu half-way, and is put
-        back to its distance from the surface; the tangents are carried along.
-        """
-        relative = placed.rotation.mT @ placed.link
-        before = np.concatenate([self.link[None], relative[:-1]])
-        turns = rotation_vectors(relative @ before.mT)  # axes of B
-        centre, frame, about = self.centre, self.frame, self.about
-        found = []
-        for turn in turns:
-            outward = -frame[:, 0]
-            middle = self.shape.surface(centre + np.cross(turn, self.radius * outward) / 2)[1]
-            moved = centre + np.cross(turn, self.radius * middle)
-            distance, new = self.shape.surface(moved)
-            centre = moved + (self.radius - distance) * new
-            carried = carried_along(outward, new) @ frame
-            about, frame = about + (frame + carried).T @ turn / 2, carried
-            found.append((centre, frame, about))
-        centres, frames, angles = zip(*found, strict=True)
-        return np.array(centres), np.array(frames), np.array(angles)
+    def at(self, placed: Placed, near: Array | None) -> Meeting:
+        """Return how much nearer the pads are; the force acts where the surface is nearest."""
+        distance, outward = self.shape.surface(placed.seen)
+        normals = -outward.reshape(-1, 3)
+        frame = placed.rotation[:, None] @ np.array([contact_frame(n) for n in normals]).reshape(*outward.shape, 3)
+        stretch = np.zeros((*outward.shape[:2], 6))
+        stretch[..., 0] = self.radius - distance
+        place = placed.point + distance[..., None] * frame[..., 0]
+        return Meeting(place, frame, stretch, placed.seen, on_face(self.shape, placed.seen, distance, outward))
 
 
-def surface_at(shape: Shape, points: Array) -> tuple[Array, Array]:
-    """Return distances (T,) and outward normals (T, 3) of points (T, 3)."""
-    found = [shape.surface(point) for point in points]
-    return np.array([distance for distance, _ in found]), np.array([normal for _, normal in found]).reshape(-1, 3)
+def on_face(shape: Shape, points: Array, distances: Array, outward: Array) -> Places:
+    """Return (n,) how many instants pass before the point of the surface nearest to each point is on an edge."""
+    depth = distances + INSIDE * np.maximum(np.abs(distances), INSIDE)
+    inner = shape.surface(points - depth[..., None] * outward)[1]
+    off = (outward * inner).sum(axis=-1) < 1 - EDGE
+    return np.where(off.any(axis=0), off.argmax(axis=0), len(off))
 
 
-def first_off(shape: Shape, points: Array, distances: Array, outward: Array) -> int | None:
-    """Return the first of the instants at which the nearest point of the surface is on an edge."""
-    for k, (point, distance, normal) in enumerate(zip(points, distances, outward, strict=True)):
-        inner = shape.surface(point - (distance + INSIDE * max(abs(distance), INSIDE)) * normal)[1]
-        if normal @ inner < 1 - EDGE:
-            return k
-    return None
+def whole(placed: Placed) -> Places:
+    """Return (n,) that contacts stay on their faces at all instants."""
+    return np.full(placed.point.shape[1], len(placed.point))
+
+
+def times(matrices: Array, vectors: Array) -> Array:
+    """Return matrices (..., 3, 3) times vectors (..., 3)."""
+    return np.asarray((matrices @ vectors[..., None])[..., 0])
 
 
 def rotation_vectors(rotations: Array) -> Array:
-    """Return rotation vectors (T, 3) of rotation matrices (T, 3, 3)."""
+    """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3)."""
     from scipy.spatial.transform import Rotation
 
-    return np.asarray(Rotation.from_matrix(np.array(rotations)).as_rotvec())
-
-
-def carried_along(old: Array, new: Array) -> Array:
-    """Return the smallest rotation (3, 3) that turns one unit vector into another that is not its opposite."""
-    skew = cross(np.cross(old, new))
-    return np.asarray(np.eye(3) + skew + skew @ skew / (1.0 + old @ new))
+    flat = np.ascontiguousarray(rotations.reshape(-1, 3, 3))
+    return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(rotations.shape[:-1]))

@@ -38,7 +38,7 @@ def settled(setting: Setting, states: States, loads: Loads, references: Array) -
             return balance, count
         last = bool(np.all(at_rest(balance)))  # one iteration more makes all digits of that
         moved = _moved(setting, balance.states, _steps(balance))
-        balance = Balance.of(setting, moved, loads, references)
+        balance = Balance.of(setting, moved, loads, references, balance)
     return balance, MOST
 
 
@@ -49,13 +49,13 @@ def at_rest(balance: Balance) -> Array:
 
 def on_faces(balance: Balance) -> int:
     """Return how many instants pass before a contact leaves its face."""
-    return min((meeting.left for meeting in balance.meetings if meeting.left is not None), default=len(balance.states))
+    return int(balance.meeting.left.min(initial=len(balance.states)))
 
 
 def why_not(balance: Balance) -> str:
     """Return why there is no equilibrium to go on to."""
     names = [contact.name for contact in balance.setting.grasp.contacts]
-    off = [name for name, meeting in zip(names, balance.meetings, strict=True) if meeting.left is not None]
+    off = [name for name, left in zip(names, balance.meeting.left, strict=True) if left < len(balance.states)]
     if off and at_rest(balance)[0]:
         return f"contact '{off[0]}' runs over the edge of its face there"
     return "no equilibrium is near: the hand does not follow there"

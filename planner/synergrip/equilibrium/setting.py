@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -10,21 +11,24 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments, is_word
 from synergrip.documents.naming import naming_arguments
-from synergrip.equilibrium.meeting import Model, Rolling, Sliding, Stuck
+from synergrip.equilibrium.meeting import Model, Several, Sliding, Stuck
+from synergrip.equilibrium.rolling import Rolling
 from synergrip.equilibrium.states import Loads, States
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.contacts.kind import COMPONENTS
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.grasps.placing import Touch
 from synergrip.grasps.scale import scale_of
-from synergrip.linalg import Array
+from synergrip.linalg import Array, Places
 from synergrip.statics.motion import forces_at_start
 from synergrip.statics.response import Response, respond
 from synergrip.values import Value
 
 ContactModel = Literal["rolling", "fixed"]
 MODELS = ("rolling", "fixed")
+Kind = Literal["rolling", "sliding", "stuck"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,7 +38,8 @@ class Setting(Value):
     grasp: Grasp
     held: Held
     forces: Array  # (n_l,) lambda_0 [N, N m]
-    models: tuple[Model, ...]
+    model: Model
+    """How the contacts move."""
     points: tuple[tuple[str, Array], ...]
     """The point of a link that each contact is about: link, and (3,) in its coordinates [m]."""
     links: Array  # (n_c, 3, 3) rotations of the links at the start
@@ -58,6 +63,12 @@ class Setting(Value):
         """(n_q, n_q) of the joints with the synergies behind them: C_q + S C_z S'."""
         grasp = self.grasp
         return np.asarray(grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T)
+
+    @cached_property
+    def components(self) -> Places:
+        """(n_l,) the place of each force component among n, t, o and the moments about them of all contacts (6 n_c)."""
+        pairs = enumerate(contact.kind.components for contact in self.grasp.contacts)
+        return np.array([6 * i + COMPONENTS.index(name) for i, names in pairs for name in names])
 
     @cached_property
     def torques(self) -> Array:
@@ -103,22 +114,42 @@ def setting(grasp: Grasp, contact_model: ContactModel = "rolling", response: Res
         raise InputError.at("grasp", "a grasp given as matrices has no kinematics; make_grasp makes one on a hand")
     start = forces_at_start(respond(grasp) if response is None else response)
     motions = held.hand.kinematics.at(held.q, [(touch.pad.link, touch.pad.point) for touch in held.touches])
-    models, points = list[Model](), list[tuple[str, Array]]()
-    for contact, touch, motion in zip(grasp.contacts, held.touches, motions, strict=True):
-        model, point = _model(contact, touch, held, motion.position - held.body.position, contact_model)
-        local = motion.rotation.T @ (point + held.body.position - motion.position) + touch.pad.point
-        models.append(model)
-        points.append((touch.pad.link, local))
-    rolls = any(isinstance(model, Rolling) for model in models)
+    pads = np.array([motion.position for motion in motions]) - held.body.position
+    kinds = [
+        _kind(contact, touch, held, contact_model) for contact, touch in zip(grasp.contacts, held.touches, strict=True)
+    ]
+    stuck = np.array([kind == "stuck" for kind in kinds])
+    about = np.where(stuck[:, None], np.array([contact.point for contact in grasp.contacts]), pads)
+    points = tuple(
+        (touch.pad.link, motion.rotation.T @ (point - pad) + touch.pad.point)
+        for touch, motion, point, pad in zip(held.touches, motions, about, pads, strict=True)
+    )
     links = np.array([motion.rotation for motion in motions])
-    return Setting(grasp, held, start, tuple(models), tuple(points), links, "rolling" if rolls else "fixed")
+    found = "rolling" if "rolling" in kinds else "fixed"
+    return Setting(grasp, held, start, _model(grasp, held, kinds, about), points, links, found)
 
 
-def _model(contact: Contact, touch: Touch, held: Held, pad: Array, contact_model: ContactModel) -> tuple[Model, Array]:
-    """Return the model of a contact, and the point that it is about, from B; `pad` (3,) is where the pad is."""
-    shape, kind = held.body.shape, contact.kind
-    if shape is not None and kind.components == ("n",):
-        return Sliding(shape, shape.surface(pad)[0]), pad
-    if shape is not None and touch.pad.radius and contact_model == "rolling" and touch.normals == "object":
-        return Rolling.at_start(shape, pad, contact.frame), pad
-    return Stuck(contact.point, contact.frame, len(kind.components) > 3), contact.point
+def _kind(contact: Contact, touch: Touch, held: Held, contact_model: ContactModel) -> Kind:
+    """Return how a contact moves."""
+    shape = held.body.shape
+    if shape is not None and contact.kind.components == ("n",):
+        return "sliding"
+    rolls = shape is not None and touch.pad.radius and contact_model == "rolling" and touch.normals == "object"
+    return "rolling" if rolls else "stuck"
+
+
+def _model(grasp: Grasp, held: Held, kinds: Sequence[Kind], points: Array) -> Model:
+    """Return the model of contacts of some kinds about points (n_c, 3), from B."""
+    shape, parts = held.body.shape, list[tuple[Places, Model]]()
+    frames = np.array([contact.frame for contact in grasp.contacts])
+    for kind in dict.fromkeys(kinds):
+        own = np.array([i for i, each in enumerate(kinds) if each == kind])
+        if shape is None or kind == "stuck":
+            turns = any(len(grasp.contacts[i].kind.components) > 3 for i in own)
+            model: Model = Stuck(points[own], frames[own], turns)
+        elif kind == "rolling":
+            model = Rolling.at_start(shape, points[own], frames[own])
+        else:
+            model = Sliding(shape, shape.surface(points[own])[0])
+        parts.append((own, model))
+    return parts[0][1] if len(parts) == 1 else Several(tuple(parts))

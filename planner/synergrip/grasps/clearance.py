@@ -69,7 +69,7 @@ def depth(shape: Shape, start: Array, end: Array) -> float:
 
     The signed distance to a convex body is convex along a line, so that its smallest value is found exactly.
     """
-    return -lowest(lambda share: shape.surface(start + share * (end - start))[0], 0.0, 1.0)[1]
+    return -lowest(lambda share: float(shape.surface(start + share * (end - start))[0]), 0.0, 1.0)[1]
 
 
 def _skeleton(hand: Hand, touches: Sequence[Touch]) -> Iterator[tuple[_End, _End]]:

@@ -60,10 +60,10 @@ class Turned(Shape, ByContent):
         """Short text."""
         return f"{self.shape.title} (turned)"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and outward normal."""
-        distance, normal = self.shape.surface(self.rotation.T @ point)
-        return distance, self.rotation @ normal
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and outward normals."""
+        distances, normals = self.shape.surface(points @ self.rotation)
+        return distances, normals @ self.rotation.T
 
     @property
     def inertia(self) -> Array:

@@ -152,7 +152,7 @@ def _contact(body: Object, touch: Touch, motion: PointMotion) -> tuple[Contact, 
     gap, inward = None, pushing
     if body.shape is not None:
         distance, outward = body.shape.surface(point)
-        gap, inward = _reached(body.shape.title, touch, distance - touch.pad.radius), -outward
+        gap, inward = _reached(body.shape.title, touch, float(distance) - touch.pad.radius), -outward
     elif np.any(point):
         inward = -point / np.linalg.norm(point)
     elif not touch.aimed:

@@ -5,15 +5,20 @@ from __future__ import annotations
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from synergrip.errors import InputError, one_of
+from synergrip.hands.chains import Chains
 from synergrip.hands.models.tree import LinkTree
-from synergrip.hands.point_motion import PointMotion
+from synergrip.hands.point_motion import PointMotion, PointMotions
 from synergrip.linalg import Array, frozen
+
+SLIDE = 2
+"""MuJoCo's number of a joint that slides (`mujoco.mjtJoint.mjJNT_SLIDE`)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +43,7 @@ class MujocoKinematics:
         import mujoco
 
         values = _finite(q, len(self.joints), "q")
-        for link, _ in points:
-            if link not in self.bodies:
-                raise InputError.at("link", one_of(link, self.bodies))
+        self._judge(points)
         data = _SCRATCH.of.get(self)
         if data is None:
             data = _SCRATCH.of[self] = mujoco.MjData(self.model)
@@ -48,6 +51,39 @@ class MujocoKinematics:
         mujoco.mj_kinematics(self.model, data)
         mujoco.mj_comPos(self.model, data)
         return tuple(self._motion(data, self.bodies[link], _finite(point, 3, "point")) for link, point in points)
+
+    def along(self, q: Array, points: Sequence[tuple[str, Array]]) -> PointMotions:
+        """Return the motion of the same points at joint values `q` (T, n_q), all postures at once.
+
+        Raises:
+            InputError: a link that the hand does not have, `q` not (T, n_q) or a point not 3.
+        """
+        if np.ndim(q) != 2 or np.shape(q)[1] != len(self.joints):
+            raise InputError.at("q", f"expected postures (T, {len(self.joints)}), got shape {np.shape(q)}")
+        self._judge(points)
+        places = np.array([_finite(point, 3, "point") for _, point in points]).reshape(-1, 3)
+        return self.chains.motions(np.asarray(q), [self.bodies[link] for link, _ in points], places)
+
+    @cached_property
+    def chains(self) -> Chains:
+        """The links as MuJoCo has them, with the joints in the order of q."""
+        model = self.model
+        joints = [int(np.flatnonzero(model.jnt_qposadr == place)[0]) for place in self.places]
+        w, x, y, z = model.body_quat.T
+        turned = 2 * np.array([
+            [0.5 - y * y - z * z, x * y - w * z, x * z + w * y],
+            [x * y + w * z, 0.5 - x * x - z * z, y * z - w * x],
+            [x * z - w * y, y * z + w * x, 0.5 - x * x - y * y],
+        ]).transpose(2, 0, 1)  # fmt: skip
+        slides = (model.jnt_type[joints] == SLIDE).astype(float)
+        return Chains(np.array(model.body_parentid, dtype=int), np.array(model.body_pos), turned,
+                      np.array(model.jnt_bodyid[joints], dtype=int), np.array(model.jnt_axis[joints]),
+                      np.array(model.jnt_pos[joints]), slides)  # fmt: skip
+
+    def _judge(self, points: Sequence[tuple[str, Array]]) -> None:
+        for link, _ in points:
+            if link not in self.bodies:
+                raise InputError.at("link", one_of(link, self.bodies))
 
     def _motion(self, data: Any, body: int, point: Array) -> PointMotion:
         import mujoco

@@ -92,6 +92,8 @@ def grown(walker: Walker, hold: Array) -> Walk:
         good = good and (rough or _arrived(found, part))
         LOG.info("%s to %.4g of %.4g m in %d passes", "grown" if good else "not grown", to, way.end, found.passes)
         passes, tried = passes + found.passes, (*tried, *found.tried)
+        if found.interrupted:
+            break
         if good:
             here, piece = Grown(found, to, here.gone), min((1 + (found.passes <= QUICK)) * piece, LONGEST)
             sure = here if _arrived(found, part) else sure

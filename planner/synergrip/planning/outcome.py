@@ -13,6 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
+from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
@@ -45,6 +46,7 @@ LONG = 200
 """Characters of a reason that are shown."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan(Tabled):
     """A verified answer: references to send, and all that follows from them.
@@ -153,6 +155,7 @@ class Reasoned(Answer):
         return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Infeasible(Reasoned):
     """A proof that no plan exists.
@@ -201,6 +204,7 @@ class Reached(Value):
     because: str
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Unknown(Reasoned):
     """Nothing could be verified either way.

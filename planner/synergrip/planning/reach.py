@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Reached
+from synergrip.planning.straying import strayed
 from synergrip.planning.walk import FOLLOWED, Walk, Walker
 from synergrip.statics.twists import describe_displacement
 from synergrip.tasks.tracking_along import joints_of
@@ -26,15 +27,26 @@ def allowed(walker: Walker) -> float:
     return walker.allowed
 
 
+def off(walk: Walk, walker: Walker) -> Array:
+    """Return how far (T,) the object is from where it is wanted [m], but for elastic motion and sag."""
+    if walk.way is None or walk.until is not None:
+        return np.full(len(walker.task.times), np.inf)
+    return np.maximum(walk.way.behind, strayed(walk, walker))
+
+
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
-    pose, until = np.zeros(6) if not len(executed.states) else executed.du[-1], walk.until
-    if until is None:  # a walk of all knots that were reached, some of which are behind
-        k = len(executed.states) if walk.way is None else int(np.argmax(walk.way.behind > allowed(walker)))
+    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= allowed(walker)
+    pose, until = executed.du[-1] if arrived else np.zeros(6), walk.until
+    astray = False
+    if until is None:  # a walk of all knots that were reached, some of which are off
+        k = len(executed.states) if walk.way is None else int(np.argmax(off(walk, walker) > allowed(walker)))
         pose, until = executed.du[k - 1] if k else np.zeros(6), float(times[max(k - 1, 0)])
+        astray = walk.way is not None and walk.way.behind[k] <= allowed(walker)
     told = describe_displacement(pose, walker.start.response.scale.length)
-    why = "; ".join(_hindrances(walk, walker))
+    beyond = f"the motion goes on, by {1e3 * float(off(walk, walker).max()):.3g} mm at most, where no rigid motion does"
+    why = f"{beyond} (Gamma_ucs there)" if astray else "; ".join(_hindrances(walk, walker))
     return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
 
 

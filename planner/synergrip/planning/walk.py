@@ -7,7 +7,6 @@ step it took; a step that was too long is taken back and tried again shorter.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,17 +14,17 @@ import numpy as np
 
 from synergrip.conic.along import AlongPath, Path
 from synergrip.conic.decide import Decision
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
-from synergrip.conic.rows import Rows, norm_within
 from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
 from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
 from synergrip.statics.analysis import Analysis
@@ -67,8 +66,6 @@ class Walk(Value):
     stage: Stage | None = None
     """What the goals of the last pass came to; None before the first."""
     passes: int = 0
-    largest_margin: float | None = None
-    """The largest margin [N] in the program of the last pass, when it was asked for."""
     tried: tuple[Decision, ...] = ()
     """On the first goal, of every pass; of those taken back, too."""
     hindered: Hindrance | None = None
@@ -76,6 +73,13 @@ class Walk(Value):
     until: float | None = None
     """[s] until when the object is brought where it is wanted, by a walk of the first knots that does not go on from
     there; None for a walk of all knots."""
+    stopped: bool = False
+    """Whether somebody interrupted it."""
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether somebody interrupted it, or the goals of its last pass."""
+        return self.stopped or (self.stage is not None and self.stage.interrupted)
 
     @property
     def true(self) -> bool:
@@ -98,30 +102,6 @@ class Walk(Value):
 
 
 @dataclass(frozen=True, eq=False)
-class ShortStep(Limit):
-    """Joints move little in one pass, beyond what the way that is left takes: the maps hold near the path only."""
-
-    room: Array
-    """(T,) [rad, or m over the length]."""
-    key = "step"
-    watches = "references"
-
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return one second-order cone per knot."""
-        assert isinstance(formulation, AlongPath)
-        moved = formulation.map_of(lambda at: at.response.dq_dzr) / self.room[:, None, None]
-        return [norm_within(self.key, "joints", formulation.change.after(moved), 1.0)]
-
-    def loosened(self, share: float) -> ShortStep:
-        """Return it with more room."""
-        return replace(self, room=frozen(self.room * (1 + share)))
-
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Raise: it is a limit of a step, not of a plan."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True, eq=False)
 class Walker:
     """Who walks: a task on a hand, how its references are executed, and who answers."""
 
@@ -141,7 +121,7 @@ class Walker:
             linear: the motion that the plan promises.
         """
         whole = self.on(self.executed(linear.dz_r, linear.forces, linear))
-        if whole.true and whole.behind <= self.allowed:
+        if whole.interrupted or (whole.true and whole.behind <= self.allowed):
             return whole
         alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
         held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
@@ -169,7 +149,7 @@ class Walker:
         return self.task.tolerance or REACHED * self.start.response.scale.length
 
     def on(self, best: Walk, *, roughly: bool = False) -> Walk:
-        """Return the walk that the passes end with, from another one.
+        """Return the walk that the passes end with, from another one; an interrupt keeps the best so far.
 
         Args:
             best: where they begin.
@@ -178,10 +158,14 @@ class Walker:
         share, tries = 1.0, 0
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
-            if best.way is None or done or share < SHORTEST or (roughly and (tries or self.near(best))):
+            done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
+            if best.way is None or done or share < SHORTEST:
                 break
-            answered, limits = self._first(best.way, best, share)
-            found = self._after(answered, limits, best) if answered.decision.acceptable else None
+            try:
+                answered, limits = self._first(best.way, best, share)
+                found = self._after(answered, limits, best) if answered.decision.acceptable else None
+            except KeyboardInterrupt:
+                return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
             tried = (*best.tried, answered.decision)
@@ -193,12 +177,9 @@ class Walker:
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
         """Return what the goals after the first come to, executed."""
         first, *others = self.task.goals
-        stage = begun(answered, limits, first)
-        largest = stage.largest_margin
-        stage = through(stage, others, unasked_goals(self.task), self.solver)
+        stage = through(begun(answered, limits, first), others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        found = self.executed(references, promised, best.executed.guess)
-        return replace(found, stage=stage, largest_margin=largest)
+        return replace(self.executed(references, promised, best.executed.guess), stage=stage)
 
     def executed(self, references: Array, promised: Array | None, near: Motion | States) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.

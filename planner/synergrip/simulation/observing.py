@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.equilibrium.meeting import carried_along
+from synergrip.equilibrium.rolling import carried_along
 from synergrip.linalg import Array, frozen
 from synergrip.simulation.model import Model, PadModel
 from synergrip.values import Value

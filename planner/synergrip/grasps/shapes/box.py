@@ -8,7 +8,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size
 from synergrip.linalg import Array
@@ -33,33 +32,22 @@ class Box(Shape):
     size: tuple[float, float, float]  # edge lengths [m]
 
     name: ClassVar[str] = "box"
-    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "length of the three edges", count=3),)
-
-    def __post_init__(self) -> None:
-        """Judge the size."""
-        judge = Arguments("Box")
-        edges = judge.array("size", self.size, (3,), ": three edge lengths").tolist()
-        if not judge.issues and not min(edges) > 0:
-            judge.refuse("size", f"each edge must be greater than 0, got {min(edges):g}")
-        judge.finish()
-        object.__setattr__(self, "size", tuple(edges))
+    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "three edge lengths", count=3),)
 
     @property
     def title(self) -> str:
         """Short text."""
         return "box " + " x ".join(f"{edge * 1e3:.3g}" for edge in self.size) + " mm"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and the normal of the nearest face (of the corner direction outside an edge)."""
-        over = np.abs(point) - np.array(self.size) / 2
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and the normals of the nearest faces (of the corner direction outside an edge)."""
+        over = np.abs(points) - np.array(self.size) / 2
         outside = np.maximum(over, 0.0)
-        distance = float(np.linalg.norm(outside))
-        if distance > 0:
-            return distance, np.sign(point) * outside / distance
-        face = int(np.argmax(over))
-        normal = np.zeros(3)
-        normal[face] = 1.0 if point[face] >= 0 else -1.0
-        return float(over[face]), normal
+        distance = np.linalg.norm(outside, axis=-1, keepdims=True)
+        nearest = np.eye(3)[np.argmax(over, axis=-1)]
+        outward = np.where(distance > 0, outside / np.where(distance > 0, distance, 1.0), nearest)
+        normals = np.where(np.asarray(points) >= 0, outward, -outward)
+        return np.where(distance > 0, distance, over.max(axis=-1, keepdims=True))[..., 0], normals
 
     @property
     def inertia(self) -> Array:

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
@@ -36,29 +35,23 @@ class Cylinder(Shape):
     name: ClassVar[str] = "cylinder"
     sizes: ClassVar[tuple[Size, ...]] = (Size("radius", "radius"), Size("height", "height"))
 
-    def __post_init__(self) -> None:
-        """Judge the sizes."""
-        judge = Arguments("Cylinder")
-        for name in ("radius", "height"):
-            object.__setattr__(self, name, judge.number(name, getattr(self, name), above=0, unit="m"))
-        judge.finish()
-
     @property
     def title(self) -> str:
         """Short text."""
         return f"cylinder r {self.radius * 1e3:.3g} x {self.height * 1e3:.3g} mm"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and the normal of the nearest of side and caps."""
-        across = float(np.hypot(point[0], point[1]))
-        side = np.array([point[0] / across, point[1] / across, 0.0]) if across > 0 else np.array([1.0, 0.0, 0.0])
-        cap = np.array([0.0, 0.0, 1.0 if point[2] >= 0 else -1.0])
-        over = np.array([across - self.radius, abs(point[2]) - self.height / 2])
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and the normals of the nearest of side and caps."""
+        plane, height = points[..., :2], points[..., 2:]
+        across = np.hypot(plane[..., :1], plane[..., 1:])
+        side = np.where(across > 0, plane / np.where(across > 0, across, 1.0), (1.0, 0.0))
+        over = np.concatenate([across - self.radius, np.abs(height) - self.height / 2], axis=-1)
         outside = np.maximum(over, 0.0)
-        distance = float(np.linalg.norm(outside))
-        if distance > 0:
-            return distance, (outside[0] * side + outside[1] * cap) / distance
-        return (float(over[0]), side) if over[0] >= over[1] else (float(over[1]), cap)
+        distance = np.linalg.norm(outside, axis=-1, keepdims=True)
+        nearest = np.eye(2)[np.argmax(over, axis=-1)]
+        shares = np.where(distance > 0, outside / np.where(distance > 0, distance, 1.0), nearest)  # of side and cap
+        normals = np.concatenate([shares[..., :1] * side, shares[..., 1:] * np.where(height >= 0, 1.0, -1.0)], axis=-1)
+        return np.where(distance > 0, distance, over.max(axis=-1, keepdims=True))[..., 0], normals
 
     @property
     def inertia(self) -> Array:

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments
 from synergrip.linalg import Array
 
 ROUND = 72
@@ -32,14 +33,28 @@ class Shape(ABC):
     sizes: ClassVar[tuple[Size, ...]]
     """One for each argument."""
 
+    def __post_init__(self) -> None:
+        """Judge the sizes, each of which is a length or lengths greater than 0."""
+        judge = Arguments(type(self).__name__)
+        for size in self.sizes:
+            value = getattr(self, size.name)
+            if size.count == 1:
+                kept: float | tuple[float, ...] = judge.number(size.name, value, above=0, unit="m")
+            else:
+                kept = tuple(judge.array(size.name, value, (size.count,), f": {size.meaning}").tolist())
+                if not judge.issues and not min(kept) > 0:
+                    judge.refuse(size.name, f"each must be greater than 0, got {min(kept):g}")
+            object.__setattr__(self, size.name, kept)
+        judge.finish()
+
     @property
     @abstractmethod
     def title(self) -> str:
         """Short text, for example ``ball r 45.8 mm``."""
 
     @abstractmethod
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return the signed distance of `point` (3,) [m] to the surface (> 0 outside) and the unit outward normal."""
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return distances (...) of points (..., 3) to the surface [m] (> 0 outside) and outward unit normals."""
 
     @property
     @abstractmethod

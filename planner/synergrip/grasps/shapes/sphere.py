@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
@@ -34,22 +33,16 @@ class Sphere(Shape):
     name: ClassVar[str] = "sphere"
     sizes: ClassVar[tuple[Size, ...]] = (Size("radius", "radius"),)
 
-    def __post_init__(self) -> None:
-        """Judge the radius."""
-        judge = Arguments("Sphere")
-        object.__setattr__(self, "radius", judge.number("radius", self.radius, above=0, unit="m"))
-        judge.finish()
-
     @property
     def title(self) -> str:
         """Short text."""
         return f"ball r {self.radius * 1e3:.3g} mm"
 
-    def surface(self, point: Array) -> tuple[float, Array]:
-        """Return signed distance and outward normal; at the centre itself the normal is z."""
-        length = float(np.linalg.norm(point))
-        normal = point / length if length > 0 else np.array([0.0, 0.0, 1.0])
-        return length - self.radius, normal
+    def surface(self, points: Array) -> tuple[Array, Array]:
+        """Return signed distances and outward normals; at the centre itself the normal is z."""
+        lengths = np.linalg.norm(points, axis=-1, keepdims=True)
+        normals = np.where(lengths > 0, points / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
+        return lengths[..., 0] - self.radius, normals
 
     @property
     def inertia(self) -> Array:
