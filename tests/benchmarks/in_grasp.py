@@ -13,11 +13,11 @@ planner (`second/reach.py`); what is reached is given to it, too: where it does 
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 import time
 from collections import Counter
 from dataclasses import dataclass
+from importlib.metadata import files
 from pathlib import Path
 
 import numpy as np
@@ -34,15 +34,19 @@ from synergrip.problems.problem import Problem  # noqa: E402
 from synergrip.reports.data.execution import execution_document  # noqa: E402
 
 KNOTS, DURATION = 21, 2.0
+FINGER, THUMB = (0.0, 0.6, 1.0, 0.6), (1.35, 0.3, 0.9, 0.8)
+"""[rad] Joint values of the Allegro hand: of each finger, of its thumb."""
 ALLEGRO = {
     "schema": 1,
-    "hand": {"posture": {"1.0": "35 deg", "2.0": "55 deg", "3.0": "40 deg"}, "synergies": "all",
-             "compliance": {"joint": "0.02 rad/(N m)"}},
-    "object": {"shape": {"sphere": {"radius": "35 mm"}}, "mass": "100 g"},
+    "object": {"shape": {"sphere": {"radius": "36 mm"}}, "mass": "100 g"},
     "contacts": {"friction": 0.8, "stiffness": "6 N/mm"},
+    "contact": [
+        {"link": f"link_{joint}.0_tip", "point": ["0 mm", "0 mm", "0 mm"], "radius": "12 mm"} for joint in (15, 3, 11)
+    ],
     "task": {"gravity": [0, 0, -9.81]},
     "limits": {"margin": "0.2 N", "normal_force": "20 N"},
-}  # fmt: skip
+}
+"""A ball between thumb, first and third finger."""
 
 
 @dataclass(frozen=True)
@@ -84,10 +88,14 @@ def problems(names: list[str]) -> dict[str, Problem]:
 
 
 def _allegro() -> Problem:
-    """Return a ball between thumb and fingers of the Allegro hand."""
-    folder = Path(importlib.import_module("example_robot_data").__file__).parent  # type: ignore[arg-type]
-    (model,) = folder.glob("**/allegro_right_hand.urdf")
-    return sg.load_problem({**ALLEGRO, "hand": {**ALLEGRO["hand"], "model": str(model)}})
+    """Return a ball in the Allegro hand of example-robot-data."""
+    (model,) = (file for file in files("example-robot-data") or () if file.name == "allegro_right_hand.urdf")
+    values = [*FINGER, *FINGER, *FINGER, *THUMB]
+    hand = {
+        "model": str(model.locate()), "synergies": "all", "compliance": {"joint": "0.02 rad/(N m)"},
+        "posture": {f"joint_{joint}.0": f"{value} rad" for joint, value in enumerate(values)},
+    }  # fmt: skip
+    return sg.load_problem({**ALLEGRO, "hand": hand})
 
 
 def planned(problem: Problem, motion: Motion, knots: int) -> Outcome:

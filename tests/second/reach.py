@@ -93,7 +93,7 @@ class Search:
         q = hand.q_0 + z @ hand.S.T
         links = hand.tree.poses(q).links
         p = np.tile(hand.p_0 + pose[:3], (len(z), 1))
-        R = np.tile(Rotation.from_rotvec(pose[3:]).as_matrix(), (len(z), 1, 1))
+        R = np.tile(Rotation.from_rotvec(np.array(pose[3:])).as_matrix(), (len(z), 1, 1))
         each = zip(hand.touching, hand.contacts, hand.start.settled, strict=True)
         seen = [touch.stretched(links[contact["link"]], p, R, settled) for touch, contact, settled in each]
         apart = np.stack([contact.stretch[:, :3] for contact in seen], axis=1)
