@@ -56,7 +56,8 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield what keeps a walk from going on where it ends: what its last pass met, or how its joints are."""
     met, ends = walk.hindered or Hindrance(), dict(_ends(walk, walker))
     near = [told for told, (joint, off) in ends.items() if off < AT_END[SI_UNITS[joint.kind]]]
-    if met.key == RANGES:
+    straight = _dear(walk, walker) > DEAR
+    if met.key == RANGES and not near and not straight:
         near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in met.items]
     if met.key and met.key != RANGES:
         what = f"{met.key} ({', '.join(met.items)})"
@@ -65,7 +66,7 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
         yield met.execution or walk.executed.why
     elif near:
         yield " and ".join(near)
-    elif _dear(walk, walker) > DEAR:
+    elif straight:
         yield "the fingers are near a straight posture"
     elif not met.key:
         yield "no step however short comes nearer"
