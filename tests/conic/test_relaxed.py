@@ -69,7 +69,7 @@ def test_a_sag_that_nothing_counters_is_proven_without_any_limit() -> None:
     """A push across two fingers, which no synergy moves sideways: only the tolerance forbids it."""
     push = "task.push=[{force='3 N', direction='y', start='0.4 s', end='0.8 s', profile='half-sine'}]"
     for tolerance, verdict in (("0.1 mm", "infeasible"), ("0.3 mm", "feasible")):
-        overrides = [push, "limits={}", "goal={minimise='effort'}", f"task.tolerance='{tolerance}'"]
+        overrides = [push, "limits={joint_range='none'}", "goal={minimise='effort'}", f"task.tolerance='{tolerance}'"]
         problem = load_problem("gripper-peg", overrides)
         outcome = plan(problem.grasp, problem.task)
         assert outcome.verdict == verdict

@@ -61,19 +61,22 @@ def test_a_limit_turns_the_answer_and_is_named(limit: str) -> None:
     assert isinstance(outcome_of(name, *overrides, text.format(loose * turns)), Plan)
 
 
-def test_joint_ranges_turn_the_answer_and_the_joint_is_named() -> None:
+def test_joint_ranges_turn_the_answer_unless_they_are_let_go_and_the_joint_is_named() -> None:
     """A roll of 12 degrees takes a joint of the DLR hand out of its range, and 12 actuators have no redundancy."""
     move = 'task.move=[{axis="y", roll="12 deg"}]'
-    ranges = "limits.joint_range=hand"
-    outcome = outcome_of("dlr-ball-move", "task.knots=11", move, ranges)
+    outcome = outcome_of("dlr-ball-move", "task.knots=11", move, "task.linearise=once")
     refused(outcome, "limits.joint_range")
-    left = outcome_of("dlr-ball-move", "task.knots=11", move)
+    left = outcome_of("dlr-ball-move", "task.knots=11", move, "limits.joint_range=none")
     assert isinstance(left, Plan)
     (note,) = (note for note in left.notes if "range" in note)
     assert isinstance(outcome, Infeasible)
     items = next(conflict.items for conflict in outcome.conflicts if conflict.key == "limits.joint_range")
     assert f"'{items[0]}'" in note
-    assert isinstance(outcome_of("dlr-ball-move", "task.knots=11", move.replace("12", "2"), ranges), Plan)
+    near = [move.replace("12", "2"), "task.knots=11"]
+    for ranges in ([], ["limits.joint_range=hand"]):
+        kept = outcome_of("dlr-ball-move", *near, *ranges)
+        assert isinstance(kept, Plan)
+        assert not [note for note in kept.notes if "range" in note]
 
 
 @pytest.mark.parametrize("limit", [name for name, (problem, *_) in BITES.items() if problem == "pinch-soft"])

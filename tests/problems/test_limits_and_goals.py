@@ -53,6 +53,7 @@ def test_nothing_of_it_is_asked_unless_stated() -> None:
         ("limits.synergy_acceleration=0.5", "limits.synergy_acceleration", 0.5),
         ("limits.synergy_acceleration=[1, 2.5]", "limits.synergy_acceleration", (1.0, 2.5)),
         ("limits.joint_range=hand", "limits.joint_range", "hand"),
+        ("limits.joint_range=none", "limits.joint_range", "none"),
         ("limits.elastic_motion=0.5 mm", "limits.elastic_motion", 0.0005),
         ("limits.drift=2 mm", "limits.drift", 0.002),
         ("goal={maximise='margin'}", "goal.names", ("margin",)),
@@ -161,6 +162,22 @@ def test_limits_on_motion_reach_the_task_with_the_ranges_of_the_hand() -> None:
     assert found["limits.elastic_motion"] == ElasticMotion(1e-3)
     assert found["limits.drift"] == ObjectError(2e-3)
     assert names_of(task.goals) == ("effort", "centred")
+
+
+def test_the_ranges_of_a_hand_bind_unless_they_are_let_go() -> None:
+    """Of a hand whether or not they are asked for; of matrices never; as a limit in code, too."""
+    for overrides, bound in (([], True), (["limits.joint_range=hand"], True), (["limits.joint_range=none"], False)):
+        task = load_problem("barrett-ball-hold", overrides).timed
+        (ranges,) = (limit for limit in task.limits if isinstance(limit, JointRange))
+        assert ranges.lets_go is not bound
+        assert (ranges in task.kept) is bound
+        assert task.watches_references is bound
+    problem = load_problem("barrett-ball-hold")
+    own = problem.task.replace(limits=[JointRange(lower=-np.inf, upper=np.inf)]).timed(problem.grasp)
+    assert not [limit for limit in own.kept if isinstance(limit, JointRange)]
+    again = problem.timed.on(problem.grasp)
+    assert sum(isinstance(limit, JointRange) for limit in again.limits) == 1
+    assert not [limit for limit in load_problem("tripod").timed.limits if isinstance(limit, JointRange)]
 
 
 def test_tracking_reaches_the_task_and_adds_its_own_limits() -> None:

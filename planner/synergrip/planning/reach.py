@@ -6,16 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.hands.hand import Joint
+from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Reached
 from synergrip.planning.straying import strayed
 from synergrip.planning.walk import FOLLOWED, Walk, Walker
 from synergrip.statics.twists import describe_displacement
 from synergrip.tasks.tracking_along import joints_of
 
-AT_END = 1e-3
-"""[rad], [m] from the end of its range within which a joint is at its limit."""
+AT_END = {"rad": 5e-3, "m": 2e-4}
+"""How near the end of its range a joint is at its limit: as far as the shortest piece of a motion takes it."""
 RANGES = "limits.joint_range"
 DEAR = 3.0
 """Near a straight posture some rigid motion takes joint motions larger than at the start by this factor."""
@@ -52,9 +55,10 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
 def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield what keeps a walk from going on where it ends: what its last pass met, or how its joints are."""
     met, ends = walk.hindered or Hindrance(), dict(_ends(walk, walker))
-    near = [told for told, (_, off) in ends.items() if off < AT_END]
-    if met.key == RANGES:
-        near = [min((off, told) for told, (joint, off) in ends.items() if joint == name)[1] for name in met.items]
+    near = [told for told, (joint, off) in ends.items() if off < AT_END[SI_UNITS[joint.kind]]]
+    straight = _dear(walk, walker) > DEAR
+    if met.key == RANGES and not near and not straight:
+        near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in met.items]
     if met.key and met.key != RANGES:
         what = f"{met.key} ({', '.join(met.items)})"
         yield f"{what} cannot be kept there" if met.friction else f"{what} binds"
@@ -62,20 +66,20 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
         yield met.execution or walk.executed.why
     elif near:
         yield " and ".join(near)
-    elif _dear(walk, walker) > DEAR:
+    elif straight:
         yield "the fingers are near a straight posture"
     elif not met.key:
         yield "no step however short comes nearer"
 
 
-def _ends(walk: Walk, walker: Walker) -> Iterator[tuple[str, tuple[str, float]]]:
+def _ends(walk: Walk, walker: Walker) -> Iterator[tuple[str, tuple[Joint, float]]]:
     """Yield for both ends of each joint's range what it would be to be there, the joint, and how far it is from it."""
     held = walker.start.grasp.held
     if held is None or not len(walk.executed.states):
         return
     for joint, value in zip(held.hand.joints, held.q + walk.executed.joint[-1], strict=True):
         for end, off in (("lower", value - joint.lower), ("upper", joint.upper - value)):
-            yield f"joint '{joint.name}' is at its {end} limit", (joint.name, float(off))
+            yield f"joint '{joint.name}' is at its {end} limit", (joint, float(off))
 
 
 def _dear(walk: Walk, walker: Walker) -> float:
@@ -87,7 +91,8 @@ def _dear(walk: Walk, walker: Walker) -> float:
 
 
 def notes(walk: Walk, walker: Walker) -> Iterator[str]:
-    """Yield how far the plan is from what was wanted, where that is more than elastic motion."""
+    """Yield how far the plan is from what was wanted, where that is more than elastic motion, and ranges let go."""
+    yield from ranges_left(walker.task, walker.start.grasp, walk.executed.joint)
     if walk.behind > FOLLOWED:
         yield (
             f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "

@@ -8,15 +8,14 @@ import numpy as np
 
 from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.well_formed import usage_of
-from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError, Issue, SelfCheckError
 from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import Between, between
+from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Check, Plan
 from synergrip.planning.stages import Stage
 from synergrip.statics.analysis import Analysis
@@ -63,9 +62,9 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     return Plan(
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, formulation, motion),
+        (*accuracy_notes(analysis.response), *stage.notes, *ranges_left(task, analysis.grasp, motion.dq),
          *_far(analysis, motion), *passed_over(found), *frame_notes(analysis.grasp)), found,
-        interrupted=stage.interrupted,
+         interrupted=stage.interrupted,
     )  # fmt: skip
 
 
@@ -106,20 +105,6 @@ def _contradiction(limit: Limit, usage: Usage) -> Issue:
         "the same signs and units, the same bounds, and rows for every item"
     )
     return Issue(message, key=f"{name}.usage")
-
-
-def _ranges_left(task: TimedTask, formulation: Formulation, motion: Motion) -> Iterator[str]:
-    """Yield a note when a joint leaves the range that the hand states and no limit says that it may not."""
-    if formulation.response.grasp.held is None or any(isinstance(limit, JointRange) for limit in task.limits):
-        return
-    usage = JointRange().usage(formulation, motion)
-    if usage.excess.max(initial=-np.inf) > LIMIT:
-        k, i = usage.worst()
-        factor, unit = SHOWN_IN.get(usage.unit, (1.0, "(rad or m)"))
-        yield (
-            f"joint '{usage.items[i]}' would leave its range by {factor * usage.excess[k, i]:.3g} {unit} at t = "
-            f'{motion.times[k]:.3g} s; a limit JointRange() (limits.joint_range = "hand" in a file) forbids it'
-        )
 
 
 def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:

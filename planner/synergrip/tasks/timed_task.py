@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName, ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
@@ -126,16 +127,25 @@ class TimedTask(Value):
     def on(self, grasp: Grasp) -> TimedTask:
         """Return the task for one grasp: limits and goals with one number for each joint, synergy or contact.
 
+        On a hand its joint ranges are a limit, unless a `JointRange` says otherwise.
+
         Raises:
             InputError: a limit or goal does not fit the grasp, or needs what its hand does not state.
         """
-        limits, goals = tuple(limit.on(grasp) for limit in self.limits), tuple(goal.on(grasp) for goal in self.goals)
-        return replace(self, limits=limits, goals=goals)
+        each = tuple(limit.on(grasp) for limit in self.limits)
+        if grasp.held is not None and not any(isinstance(limit, JointRange) for limit in each):
+            each = (*each, JointRange().on(grasp))
+        return replace(self, limits=each, goals=tuple(goal.on(grasp) for goal in self.goals))
+
+    @property
+    def binding(self) -> tuple[Limit, ...]:
+        """The limits that are stated, without joint ranges where all of them are let go."""
+        return tuple(limit for limit in self.limits if not (isinstance(limit, JointRange) and limit.lets_go))
 
     @property
     def watches_references(self) -> bool:
         """True when some limit looks at more than the forces, so that redundancy matters."""
-        return "references" in {*(limit.watches for limit in self.limits), *(goal.watches for goal in self.goals)}
+        return "references" in {*(limit.watches for limit in self.binding), *(goal.watches for goal in self.goals)}
 
     @property
     def all_limits(self) -> tuple[Limit, ...]:
@@ -147,7 +157,7 @@ class TimedTask(Value):
         """All limits but the friction cones: those stated, and those that tracking adds."""
         part: Literal["rigid", "whole"] = "rigid" if self.tracking == "rigid" else "whole"
         rest = tuple(axis for axis in AXES if axis not in self.axes)
-        limits = list(self.limits)
+        limits = [*self.binding]
         if self.tracking == "compliant":
             limits.append(ObjectError(self.tolerance, self.axes, part, "task.tolerance", "tracking error"))
         if rest and self.drift is not None:

@@ -1,4 +1,7 @@
-"""Every joint within its range along the plan, not only at the start."""
+"""Every joint within its range along the plan, not only at the start.
+
+On a hand the ranges that it states bind unless a task lets them go, with ``JointRange(lower=-inf, upper=inf)``.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +43,9 @@ class JointRange(Limit):
         InputError: no numbers, or a lower end above an upper one.
 
     Example:
-        ``JointRange()`` on a hand; ``JointRange(start=0.2, lower=-1.0, upper=1.0)`` on matrices
+        ``JointRange()`` on a hand, where it is kept without being asked for, and
+        ``JointRange(lower=-np.inf, upper=np.inf)`` lets it go; ``JointRange(start=0.2, lower=-1.0, upper=1.0)`` on
+        matrices
     """
 
     start: OneOrEach = None
@@ -83,6 +88,12 @@ class JointRange(Limit):
             for end in ENDS
         }  # fmt: skip
         return replace(self, **each)
+
+    @property
+    def lets_go(self) -> bool:
+        """Whether it bounds no joint at all, whatever the hand states."""
+        given = [end for end in (self.lower, self.upper) if end is not None]
+        return len(given) == 2 and not any(np.any(np.isfinite(end)) for end in given)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range."""
@@ -131,9 +142,12 @@ def _stated(held: Held) -> dict[str, Array]:
 def _made(value: Any, grasp: Grasp) -> JointRange:
     if grasp.held is None:
         raise InputError.at("", "needs a [hand]; a grasp file states no joint ranges")
-    return JointRange()
+    return JointRange() if value == "hand" else JointRange(lower=-np.inf, upper=np.inf)
 
 
 IN_FILE = FileKey(
-    "joint_range", JointRange, Literal["hand"], '"hand": every joint stays within the range that the hand states', _made
-)
+    "joint_range", JointRange, Literal["hand", "none"],
+    '"hand": every joint stays within the range that the hand states, as it does when nothing is said; "none": they '
+    "are let go",
+    _made,
+)  # fmt: skip
