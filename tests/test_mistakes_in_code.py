@@ -231,6 +231,12 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "a place beyond a group": (lambda: sg.analyse_many([grasp]).groups[0].at(1), "index"),
     "a place beyond subspaces": (lambda: sg.analyse_many([grasp]).groups[0].spaces.at(1), "index"),
     "coordinates of other sizes": (lambda: PLAN.analysis.coordinates.references([1], [1], []), "alpha"),  # type: ignore[arg-type]
+    "coordinates of other lengths": (
+        lambda: PLAN.analysis.coordinates.references(np.zeros((5, 3)), np.zeros((4, 1)), np.zeros((5, 0))),
+        "beta",
+    ),
+    "points that moved without G": (lambda: sg.GraspStack.varied(grasp, points=np.zeros((2, 3, 3))), "G"),
+    "a simulation of nothing": (lambda: any_call.Simulation(), "Simulation.title"),
     "references of other synergies": (lambda: PLAN.analysis.coordinates.coordinates(np.zeros(3)), "dz_r"),
     "references of other grasps": (
         lambda: sg.analyse_many([grasp] * 2).groups[0].coordinates.coordinates(np.zeros((3, 5, 4))),

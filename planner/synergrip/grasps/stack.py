@@ -105,7 +105,7 @@ class GraspStack(Value, Sequence[Grasp]):
                 and not the hand.
             **arrays: by the names in `VARIED`, with a leading axis of N: points (N, n_c, 3) of the contacts [m],
                 G (N, 6, n_l), J (N, n_l, n_q), S (N, n_q, n_z), C_s (N, n_l, n_l), C_q, C_z, w_0 (N, 6).
-                G does not follow from `points`: give both where the contacts move.
+                G does not follow from `points`: with these it must be given, too.
 
         Raises:
             InputError: naming the array that is unknown, whose shape does not fit, or that is not finite.
@@ -113,6 +113,8 @@ class GraspStack(Value, Sequence[Grasp]):
         one = cls.of([grasp])
         own = {**vars(one.matrices), "points": one.points, "w_0": one.w_0}
         found = {name: _judged(name, value, own) for name, value in arrays.items()}
+        if "points" in found and "G" not in found:
+            raise InputError.at("G", "missing: it does not follow from points; give both where the contacts move")
         counts = {name: len(value) for name, value in found.items()}
         if len(set(counts.values())) != 1:
             told = ", ".join(f"{name} {count}" for name, count in counts.items()) or "no array at all"

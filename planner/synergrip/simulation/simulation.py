@@ -28,6 +28,7 @@ SPUN = 0.01
 """[rad] about its normal from which on a contact has slipped."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Simulation(Value):
     """A plan that was played in MuJoCo, beside what it promised. N instants, on the clock of the plan."""

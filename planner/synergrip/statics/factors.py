@@ -61,8 +61,8 @@ def inverses_of_lower(L: Array) -> Array:
 
 def _entry_by_entry(L: Array) -> Array:
     lanes = np.ascontiguousarray(np.moveaxis(L, 0, -1))  # the stack last: long rows, which NumPy is quick with
-    inverse = np.zeros_like(lanes)
-    for k in range(len(lanes)):
-        inverse[k, k] = 1 / lanes[k, k]
-        inverse[k, :k] = -inverse[k, k] * np.einsum("jN,jiN->iN", lanes[k, :k], inverse[:k, :k])
+    inverse, diagonal = np.zeros_like(lanes), 1 / np.einsum("iiN->iN", lanes)
+    np.einsum("iiN->iN", inverse)[...] = diagonal
+    for k in range(1, len(lanes)):
+        inverse[k, :k] = -diagonal[k] * np.einsum("jN,jiN->iN", lanes[k, :k], inverse[:k, :k])
     return np.ascontiguousarray(np.moveaxis(inverse, -1, 0))

@@ -41,6 +41,10 @@ class Coordinates(Value):
         """Return dz_r (..., n_z) for alpha (..., dim E_s), beta (..., dim Gamma_ucs), gamma (..., dim Gamma_zr)."""
         given = {"alpha": alpha, "beta": beta, "gamma": gamma}
         parts = [_judged(name, given[name], self.M, size) for name, size in zip(given, self.dimensions, strict=True)]
+        for name, part in zip(given, parts, strict=True):
+            if part.shape[:-1] != parts[0].shape[:-1]:
+                what = f"as many rows as alpha, {parts[0].shape[:-1]} before the last axis; got {part.shape[:-1]}"
+                raise InputError.at(name, f"expected {what}")
         return np.asarray(np.concatenate(parts, axis=-1) @ self.inverse.mT)
 
     def coordinates(self, dz_r: Array) -> tuple[Array, Array, Array]:
