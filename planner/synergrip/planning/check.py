@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
-from synergrip.errors import InputError
+from synergrip.errors import InputError, MotionDirectionError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
@@ -70,17 +70,27 @@ def judge_references(grasp: Grasp, task: TimedTask, references: References) -> J
 
     Raises:
         InputError: the references do not cover the task.
-        Refusal: the grasp does not restrain the object; of given matrices: the task is impossible by count or
-            direction.
+        Refusal: the grasp does not restrain the object, or the task is impossible by count or direction; on a hand, the
+            very first step of its motion.
     """
     task = task.on(grasp)
     times = _common_times(task, references)
     analysis = analyse(grasp, task.wrench)
-    if grasp.held is None:
-        formulated(analysis, task, redundancy=True)  # refuses a task that no references can do
+    _refuse(analysis, task)
     judged = _judged(analysis, task, references, times)
     claims = _claims(judged, task, references)
     return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
+
+
+def _refuse(analysis: Analysis, task: TimedTask) -> None:
+    """Raise for a task that no references can do."""
+    from synergrip.planning.going_on import refused_at_once
+
+    try:
+        formulated(analysis, task, redundancy=True)
+    except MotionDirectionError:
+        if analysis.grasp.held is None or refused_at_once(analysis, task):
+            raise
 
 
 def _claims(judged: Judgement, task: TimedTask, references: References) -> Claims:

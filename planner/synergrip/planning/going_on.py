@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from synergrip.linalg import Array
+from synergrip.errors import Refusal
+from synergrip.linalg import Array, Places
 from synergrip.planning.executing import Executor
+from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.walk import Walker
@@ -35,10 +37,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
     task, start = no.task, no.analysis
     if task.linearise == "once" or start is None or no.stage not in ("direction", "magnitude"):
         return no
-    moving = np.flatnonzero(np.any(target_displacement(start, task, task.target.values) != 0, axis=1))
-    if not len(moving):
-        return no
-    if no.stage == "direction" and isinstance(planned(start, _until(task, task.times[: moving[0] + 1])), Infeasible):
+    if not len(_moving(start, task)) or (no.stage == "direction" and refused_at_once(start, task)):
         return no
     hold = planned(start, _without_motion(task))
     if not isinstance(hold, Plan):
@@ -49,6 +48,21 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
     if isinstance(answer, Plan):
         return replace(answer, notes=(*answer.notes, told))
     return replace(answer, why=f"{answer.why}; {told}")
+
+
+def refused_at_once(start: Analysis, task: TimedTask) -> bool:
+    """Return whether the very first step of a motion leaves what the rigid motions of the start posture can follow."""
+    moving = _moving(start, task)
+    try:
+        formulated(start, _until(task, task.times[: moving[0] + 1]), redundancy=True)
+    except Refusal:
+        return True
+    return False
+
+
+def _moving(start: Analysis, task: TimedTask) -> Places:
+    """Return the knots at which the object is wanted elsewhere than at the start."""
+    return np.flatnonzero(np.any(target_displacement(start, task, task.target.values) != 0, axis=1))
 
 
 def _until(task: TimedTask, times: Array) -> TimedTask:

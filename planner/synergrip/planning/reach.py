@@ -36,7 +36,8 @@ def off(walk: Walk, walker: Walker) -> Array:
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
-    pose, until = np.zeros(6) if not len(executed.states) else executed.du[-1], walk.until
+    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= allowed(walker)
+    pose, until = executed.du[-1] if arrived else np.zeros(6), walk.until
     astray = False
     if until is None:  # a walk of all knots that were reached, some of which are off
         k = len(executed.states) if walk.way is None else int(np.argmax(off(walk, walker) > allowed(walker)))

@@ -7,13 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
-from synergrip.planning.figures import BETWEEN, Figures, figures
-from synergrip.planning.outcome import Check, Plan, Unknown
+from synergrip.planning.figures import Figures, figures
+from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.reach import allowed, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
+from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walk, Walker
 
 MORE, MOST_RESERVE = 1.2, 1.0
@@ -24,6 +26,9 @@ margin."""
 def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
     """Return the answer at the true equilibria of the hand; a grasp given as matrices has none to speak of.
 
+    Raises:
+        KeyboardInterrupt: what was found when somebody interrupted does not hold.
+
     Args:
         plan: for the start posture.
         answers: the solver.
@@ -33,7 +38,10 @@ def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
     if plan.task.linearise == "along" and not plan.interrupted:
         return answer_of(walker.walk(plan.motion), walker, plan)
-    return _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
+    answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
+    if plan.interrupted and not isinstance(answer, Plan):
+        raise KeyboardInterrupt
+    return answer
 
 
 def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
@@ -85,7 +93,10 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
     stage = walk.stage
-    told = (*accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *notes(walk, walker))
+    told = (
+        *accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *passed_over(found.between),
+        *frame_notes(walker.start.grasp), *notes(walk, walker),
+    )  # fmt: skip
     plan = linear if stage is None else replace(
         linear, decisions=(*linear.decisions, *stage.decisions), interrupted=stage.interrupted,
     )  # fmt: skip

@@ -153,12 +153,12 @@ def _part(place: int, response: Response) -> Part:
 
 def _joined(parts: Sequence[Part], answered: Places) -> tuple[dict[str, Array], Array]:
     """Return maps and figures of all parts in the order of the places that are answered."""
-    slots = [np.searchsorted(answered, places) for places, _, _ in parts]
+    places = np.concatenate([each for each, _, _ in parts])
+    order = None if np.array_equal(places, answered) else np.argsort(places)
 
     def joined(pieces: Sequence[Array]) -> Array:
-        whole = np.empty((len(answered), *pieces[0].shape[1:]))
-        for slot, piece in zip(slots, pieces, strict=True):
-            whole[slot] = piece
+        whole = np.concatenate(pieces)
+        whole = whole if order is None else whole[order]
         whole.setflags(write=False)
         return whole
 
