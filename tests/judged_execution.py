@@ -131,6 +131,11 @@ def _squeezed(limit: Limit, factor: float) -> Limit:
     return replace(limit, upper=factor * limit.upper) if isinstance(limit, NormalForce) else limit
 
 
+def on_hands() -> list[Problem]:
+    """Return the bundled problems on hands."""
+    return [problem for problem in map(load_problem, bundled_problems()) if problem.held is not None]
+
+
 def judged(problem: Problem, seed: int, model: str) -> Judged:
     """Plan a variation of a problem, and execute the plan."""
     task, told = varied(problem, np.random.default_rng([11, seed]))
@@ -160,8 +165,8 @@ def told(results: Iterable[Judged]) -> int:
     results = list(results)
     for verdict, count in Counter(result.verdict for result in results).most_common():
         seconds = [result.seconds for result in results if result.verdict == verdict]
-        print(f"{100 * count / len(results):5.1f} %  {verdict}: {count}, in {np.median(seconds):.1f} s of processor time "
-              f"(median), {max(seconds):.1f} s at most")  # fmt: skip
+        print(f"{100 * count / len(results):5.1f} %  {verdict}: {count}, in {np.median(seconds):.1f} s of processor "
+              f"time (median), {max(seconds):.1f} s at most")  # fmt: skip
     pairs = [(result, result.found) for result in results if result.found is not None]
     wrong = [result for result, found in pairs if not (found.same and found.keeps(result.asked))]
     print(f"{len(pairs)} plans: {sum(found.ended is not None for _, found in pairs)} end before their last knot, "
@@ -179,8 +184,7 @@ def told(results: Iterable[Judged]) -> int:
 
 def main(count: int = 100, model: str = "rolling", first: int = 0) -> int:
     """Judge variations of seeds first to first + count - 1, and return how many plans are wrong."""
-    problems = [problem for problem in map(load_problem, bundled_problems()) if problem.held is not None]
-    results = []
+    problems, results = on_hands(), []
     for seed in range(first, first + count):
         results.append(result := judged(problems[seed % len(problems)], seed, model))
         found = result.found

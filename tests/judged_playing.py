@@ -3,10 +3,10 @@
     python tests/judged_playing.py [FIRST [LAST [half]]]
 
 plans bundled problems and variations of them (`CASES`, from FIRST to LAST) along the motion, plays each plan in MuJoCo
-by `synergrip simulate`, and prints promised and played margin, how far the object is from where the plan has it, and how
-far contacts slipped; beside it the same of the plan of the start posture, whatever that is worth. "half" plays the plan
-along the motion with half the step, too. A plan is wrong where the smallest margin is off by more than 0.05 N and 2 % of
-the largest force, the motion by more than 0.15 mm, or where a contact slips.
+by `synergrip simulate`, and prints promised and played margin, how far the object is from where the plan has it, and
+how far contacts slipped; beside it the same of the plan of the start posture, whatever that is worth. "half" plays the
+plan along the motion with half the step, too. A plan is wrong where the smallest margin is off by more than 0.05 N and
+2 % of the largest force, the motion by more than 0.15 mm, or where a contact slips.
 """
 
 from __future__ import annotations

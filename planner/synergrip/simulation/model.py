@@ -198,9 +198,8 @@ def _add_pad(
     linear = len(values)
     mass = (1 / values).max() * (step / SWING) ** 2
     body = spec.body(f"link:{pad.link}").add_body(
-        name=f"pad:{number}", pos=(link.T @ (middle - link_at)).tolist(), mass=mass,
-        ipos=[0.0] * 3, inertia=[0.4 * mass * radius**2] * 3,
-        explicitinertial=True,
+        name=f"pad:{number}", pos=(link.T @ (middle - link_at)).tolist(), mass=mass, ipos=[0.0] * 3,
+        inertia=[0.4 * mass * radius**2] * 3, explicitinertial=True,
     )  # fmt: skip
     stiffness = list(1 / values)
     for i, k in enumerate(stiffness):
