@@ -21,7 +21,7 @@ from synergrip.files import bundled
 from synergrip.linalg import Array
 from synergrip.planning.check import judge_references
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.references import read_references
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document

@@ -4,15 +4,17 @@
 
 plans COUNT (100) random variations of the bundled problems on hands: motions of 0.5 to 40 mm and 1 to 30 degrees
 along what the synergies can move, or those of the problem; loads and squeezes times 0.3 to 3. Each plan is executed
-with round pads that are "rolling" (MODEL) or "fixed", or as the plan says that it was made (when it does). Prints how
-far the true margins are below the promised ones. A plan is wrong where they differ by more than 0.01 N and 1 % of the
-largest force, or where its true state misses the asked margin.
+with round pads that are "rolling" (MODEL) or "fixed", or as the plan says that it was made (when it does). Prints what
+became of each: the answer, how long it took, why there is no plan, promised and true margins; and at the end the shares
+of the answers and how far the true margins are below the promised ones. A plan is wrong where they differ by more than
+0.01 N and 1 % of the largest force, or where its true state misses the asked margin.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -29,7 +31,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.errors import SynergripError
-from synergrip.planning.outcome import Plan
+from synergrip.planning.outcome import Outcome, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.reports.data.json_plan import outcome_document
@@ -87,6 +89,11 @@ class Judged:
 
     title: str
     verdict: str
+    """And what could not be shown, when it is "unknown"."""
+    seconds: float
+    """Processor time of the plan."""
+    why: str = ""
+    """Why there is no plan."""
     asked: float = 0.0
     """Slip margin that every contact was to keep [N]."""
     moved: float = 0.0
@@ -127,23 +134,34 @@ def _squeezed(limit: Limit, factor: float) -> Limit:
 def judged(problem: Problem, seed: int, model: str) -> Judged:
     """Plan a variation of a problem, and execute the plan."""
     task, told = varied(problem, np.random.default_rng([11, seed]))
+    title, start = f"seed {seed}: {told}", time.process_time()
     try:
         answer = plan(problem.grasp, task)
     except SynergripError as error:
-        return Judged(f"seed {seed}: {told}", f"refused: {str(error)[:80]}")
+        return Judged(title, "refused", time.process_time() - start, str(error))
+    seconds = time.process_time() - start
     if not isinstance(answer, Plan):
-        return Judged(f"seed {seed}: {told}", answer.verdict)
+        return Judged(title, verdict_of(answer), seconds, answer.why)
     document: dict[str, Any] = json.loads(json.dumps(outcome_document(problem.title, problem.grasp, answer)))
     execution = executed(document, REPOSITORY, document.get("true", {}).get("contact_model", model))
     length = document["structure"]["characteristic_length_m"]
     size = float(np.linalg.norm(answer.motion.du * [1, 1, 1, length, length, length], axis=1).max())
-    return Judged(f"seed {seed}: {told}", "feasible", answer.task.margin, size, compared(answer.margins, execution))
+    return Judged(title, "feasible", seconds, "", answer.task.margin, size, compared(answer.margins, execution))
+
+
+def verdict_of(answer: Outcome) -> str:
+    """Return the verdict of an answer, with the stage of an unknown one."""
+    stage = answer.stage if isinstance(answer, Unknown) else ""
+    return f"{answer.verdict}, {stage}" if stage else answer.verdict
 
 
 def told(results: Iterable[Judged]) -> int:
     """Print the distribution of what was promised and is not true, and return how many plans are wrong."""
     results = list(results)
-    print(f"{len(results)} variations:", dict(Counter(result.verdict for result in results)))
+    for verdict, count in Counter(result.verdict for result in results).most_common():
+        seconds = [result.seconds for result in results if result.verdict == verdict]
+        print(f"{100 * count / len(results):5.1f} %  {verdict}: {count}, in {np.median(seconds):.1f} s of processor time "
+              f"(median), {max(seconds):.1f} s at most")  # fmt: skip
     pairs = [(result, result.found) for result in results if result.found is not None]
     wrong = [result for result, found in pairs if not (found.same and found.keeps(result.asked))]
     print(f"{len(pairs)} plans: {sum(found.ended is not None for _, found in pairs)} end before their last knot, "
@@ -166,9 +184,12 @@ def main(count: int = 100, model: str = "rolling", first: int = 0) -> int:
     for seed in range(first, first + count):
         results.append(result := judged(problems[seed % len(problems)], seed, model))
         found = result.found
-        figures = "" if found is None else (f"promised {found.promised:.4f}, true {found.true:.4f} N, of "
-                                            f"{found.largest_force:.1f} N; {found.ended or ''}")  # fmt: skip
-        print(f"{result.title}: {result.verdict} {figures}", flush=True)
+        figures = result.why if found is None else (
+            f"promised {found.promised:.4f}, true {found.true:.4f} N, of {found.largest_force:.1f} N; off by "
+            f"{found.difference:.4f} N at most; {found.ended or ''}"
+        )  # fmt: skip
+        judge = "" if found is None or (found.same and found.keeps(result.asked)) else " WRONG"
+        print(f"{result.title}: {result.verdict}{judge} in {result.seconds:.1f} s: {figures}", flush=True)
     return told(results)
 
 

@@ -5,48 +5,38 @@ from __future__ import annotations
 import numpy as np
 from random_grasps import random_grasp
 
+import synergrip as sg
 from synergrip.conic.formulation import Formulation, Units, formulate
-from synergrip.conic.limits.actuator_effort import ActuatorEffort
-from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_reserve import FrictionReserve
-from synergrip.conic.limits.joint_range import JointRange
-from synergrip.conic.limits.joint_torque import JointTorque
-from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.conic.limits.object_error import ObjectError
-from synergrip.conic.limits.slip_margin import SlipMargin
-from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
-from synergrip.conic.limits.synergy_rate import SynergyRate
-from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import frozen
 from synergrip.statics.analysis import analyse
 
 KNOTS = 4
 LIMITS = {
-    "friction": lambda g: SlipMargin(0.7),
-    "friction reserve": lambda g: FrictionReserve(ratios=frozen(np.linspace(0.5, 0.9, g.n_c))),
-    "friction angle": lambda g: FrictionReserve(angle=0.05),
-    "friction factor": lambda g: FrictionReserve(factor=1.3),
-    "friction factor, less a share": lambda g: FrictionReserve(factor=1.3).loosened(0.1),
-    "normal": lambda g: NormalForce(0.5, 3.0),
-    "normal, no upper": lambda g: NormalForce(0.5, np.inf),
-    "torque": lambda g: JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),
-    "torque, some free": lambda g: JointTorque(frozen([np.inf, np.inf, 0.1, *[np.inf] * (g.n_q - 3)])),
-    "effort": lambda g: ActuatorEffort(frozen(np.linspace(0.1, 0.6, g.n_z))),
-    "reference": lambda g: SynergyReference(frozen(np.linspace(0.01, 0.05, g.n_z))),
-    "rate": lambda g: SynergyRate(frozen(np.linspace(0.02, 0.1, g.n_z))),
-    "rate, some free": lambda g: SynergyRate(frozen([0.05, *[np.inf] * (g.n_z - 1)])),
-    "acceleration": lambda g: SynergyAcceleration(frozen(np.linspace(0.02, 0.1, g.n_z))),
-    "acceleration, some free": lambda g: SynergyAcceleration(frozen([0.05, *[np.inf] * (g.n_z - 1)])),
+    "friction": lambda g: sg.SlipMargin(0.7),
+    "friction reserve": lambda g: sg.FrictionReserve(ratios=frozen(np.linspace(0.5, 0.9, g.n_c))),
+    "friction angle": lambda g: sg.FrictionReserve(angle=0.05),
+    "friction factor": lambda g: sg.FrictionReserve(factor=1.3),
+    "friction factor, less a share": lambda g: sg.FrictionReserve(factor=1.3).loosened(0.1),
+    "normal": lambda g: sg.NormalForce(0.5, 3.0),
+    "normal, no upper": lambda g: sg.NormalForce(0.5, np.inf),
+    "torque": lambda g: sg.JointTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),
+    "torque, some free": lambda g: sg.JointTorque(frozen([np.inf, np.inf, 0.1, *[np.inf] * (g.n_q - 3)])),
+    "effort": lambda g: sg.ActuatorEffort(frozen(np.linspace(0.1, 0.6, g.n_z))),
+    "reference": lambda g: sg.SynergyReference(frozen(np.linspace(0.01, 0.05, g.n_z))),
+    "rate": lambda g: sg.SynergyRate(frozen(np.linspace(0.02, 0.1, g.n_z))),
+    "rate, some free": lambda g: sg.SynergyRate(frozen([0.05, *[np.inf] * (g.n_z - 1)])),
+    "acceleration": lambda g: sg.SynergyAcceleration(frozen(np.linspace(0.02, 0.1, g.n_z))),
+    "acceleration, some free": lambda g: sg.SynergyAcceleration(frozen([0.05, *[np.inf] * (g.n_z - 1)])),
     "joint range": lambda g: _range(g.n_q, np.linspace(0.02, 0.1, g.n_q)),
     "joint range, some free": lambda g: _range(g.n_q, np.r_[0.02, np.full(g.n_q - 1, np.inf)]),
-    "elastic motion": lambda g: ElasticMotion(1e-3),
-    "drift": lambda g: ObjectError(2e-3),
-    "drift of the rigid part on some axes": lambda g: ObjectError(2e-3, ("x", "rz"), "rigid"),
+    "elastic motion": lambda g: sg.ElasticMotion(1e-3),
+    "drift": lambda g: sg.ObjectError(2e-3),
+    "drift of the rigid part on some axes": lambda g: sg.ObjectError(2e-3, ("x", "rz"), "rigid"),
 }
 
 
-def _range(n: int, half: np.ndarray) -> JointRange:
-    return JointRange(frozen(np.full(n, 0.4)), frozen(0.4 - half), frozen(0.4 + half))
+def _range(n: int, half: np.ndarray) -> sg.JointRange:
+    return sg.JointRange(frozen(np.full(n, 0.4)), frozen(0.4 - half), frozen(0.4 + half))
 
 
 def random_formulation(seed: int, redundancy: bool = True) -> tuple[np.random.Generator, Formulation]:

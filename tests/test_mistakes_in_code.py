@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -207,6 +209,36 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "gravity of no object": (lambda: any_call.Gravity((0, 0, -9.81)).at([0.0]), "Gravity.at"),
     "formats misspelt": (lambda: any_call.Plan.save(PLAN, "out", formats="jsn"), "formats"),
     "formats as one text of letters": (lambda: any_call.Plan.save(PLAN, "out", formats=("j", "s")), "formats"),
+    "a force without a name": (lambda: any_call.NormalForce(20.0), "NormalForce"),
+    "no force at all": (lambda: any_call.NormalForce(upper=0), "NormalForce.upper"),
+    "a reserve in degrees": (lambda: any_call.FrictionReserve(angle=5), "FrictionReserve.angle"),
+    "a turn in degrees": (lambda: any_call.Palm(axis="x", turn=90), "Palm.turn"),
+    "a roll in degrees": (lambda: any_call.Move(axis="x", roll=45), "Move.roll"),
+    "a move and a hold": (lambda: any_call.Hold() + sg.Move(axis="z", lift=0.01), "Moves.parts"),
+    "a limit without a list": (lambda: any_call.Task(limits=sg.SlipMargin(0.5)), "Task.limits"),
+    "a goal without a list": (lambda: any_call.Task(goals=sg.LeastEffort()), "Task.goals"),
+    "an axis without a list": (lambda: any_call.Task(axes="z"), "Task.axes"),
+    "a push in no time": (lambda: any_call.Push(force=1.0, direction="x").at([0.5]), "Push.at.start"),
+    "a pad of the hand misspelt": (lambda: hand.pads["finger1/tp"], "Hand.pads"),
+    "a posture of the hand misspelt": (lambda: hand.postures["bal"], "Hand.postures"),
+    "synergies of the hand misspelt": (lambda: hand.synergy_sets["motor"], "Hand.synergy_sets"),
+    "a map misspelt": (lambda: PLAN.analysis.response.accuracy["dlambda"], "accuracy"),
+    "a decision misspelt": (lambda: PLAN.analysis.spaces.decisions["force"], "decisions"),
+    "a place beyond a stack": (lambda: sg.GraspStack.of([grasp] * 2)[2], "place"),
+    "a place before a stack": (lambda: sg.GraspStack.of([grasp] * 2)[-3], "place"),
+    "a place by name": (lambda: any_call.GraspStack.of([grasp] * 2)["a"], "place"),
+    "a place beyond responses": (lambda: sg.respond_many([grasp]).at(1), "index"),
+    "a place beyond a group": (lambda: sg.analyse_many([grasp]).groups[0].at(1), "index"),
+    "a place beyond subspaces": (lambda: sg.analyse_many([grasp]).groups[0].spaces.at(1), "index"),
+    "coordinates of other sizes": (lambda: PLAN.analysis.coordinates.references([1], [1], []), "alpha"),  # type: ignore[arg-type]
+    "references of other synergies": (lambda: PLAN.analysis.coordinates.coordinates(np.zeros(3)), "dz_r"),
+    "references of other grasps": (
+        lambda: sg.analyse_many([grasp] * 2).groups[0].coordinates.coordinates(np.zeros((3, 5, 4))),
+        "dz_r",
+    ),
+    "an analysis of nothing": (lambda: any_call.Analysis(), "Analysis.grasp"),
+    "a plan of nothing": (lambda: any_call.Plan(), "Plan.task"),
+    "a stack of nothing": (lambda: any_call.GraspStack(), "GraspStack.matrices"),
     "argument of save misspelt": (lambda: any_call.Plan.save(PLAN, "out", format="json"), "format"),
 }
 
@@ -244,6 +276,12 @@ SAID = {
     "J transposed": ("expected shape (6, n_q)", "transposed"),
     "J transposed, and S right": ("fits when transposed",),
     "masked acceleration": ("masked entries",),
+    "a force without a name": ("write upper=20.0 or lower=20.0",),
+    "a turn in degrees": ("in radians: np.radians(90) = 1.57",),
+    "a goal without a list": ("write goals=[...] around it",),
+    "an axis without a list": ("write axes=[...] around it",),
+    "a pad of the hand misspelt": ("did you mean 'finger1/tip'?",),
+    "a place beyond a stack": ("from 0 to 1, got 2",),
 }
 """What the refusal of some of them says, in one line: nothing is told twice."""
 
@@ -251,3 +289,29 @@ SAID = {
 def test_a_single_text_is_one_format(tmp_path: Path) -> None:
     written = PLAN.save(tmp_path, formats="json")
     assert [path.name for path in written] == [path.name for path in tmp_path.iterdir()] == ["plan.json"]
+
+
+def test_tables_by_name_and_sequences_stay_what_python_knows() -> None:
+    """The errors are those that Python expects of them, and copies and pickles are tables of the same kind."""
+    with pytest.raises(KeyError) as refused:
+        hand.pads["thumb"]
+    assert str(refused.value).startswith("Hand.pads: 'thumb' is not one of 'finger1/tip'")
+    assert (hand.pads.get("thumb"), "thumb" in hand.pads) == (None, False)
+    for pads in (copy.deepcopy(hand.pads), pickle.loads(pickle.dumps(hand.pads))):
+        assert pads == hand.pads
+        with pytest.raises(sg.InputError, match=r"Hand\.pads"):
+            pads["thumb"]
+    with pytest.raises(IndexError):
+        sg.GraspStack.of([grasp])[1]
+    assert [each is grasp for each in sg.GraspStack.of([grasp] * 2)] == [True, True]
+
+
+def test_moves_add_up_by_sum_and_one_lower_force_is_enough() -> None:
+    moves = [sg.Move(axis="z", lift=0.01), sg.Move(axis="x", roll=0.1)]
+    assert sum(moves) == moves[0] + moves[1]
+    assert sg.NormalForce(lower=1.0) == sg.NormalForce(1.0, math.inf) == copy.copy(sg.NormalForce(lower=1.0))
+
+
+def test_a_push_has_its_values_at_times() -> None:
+    push = sg.Push(force=2.0, direction="x", point=(0.0, 0.01, 0.0))
+    assert push.at([0.0, 1.0]).tolist() == [[2.0, 0.0, 0.0, 0.0, 0.0, -0.02]] * 2

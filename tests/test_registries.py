@@ -62,7 +62,7 @@ def test_a_limit_is_whole(key: FileKey) -> None:
         "its formula, in LIMITS of referee/formulas.py": key.kind in formulas.LIMITS,
         "a line in tests/planning/test_limits_bite.py": key.name in {*BITES, *BITTEN_ELSEWHERE},
         "a row in docs/problem-file.md": f"| `{key.name}` |" in section("limits"),
-        "its name in synergrip/__init__.py": getattr(synergrip, key.kind.__name__, None) is key.kind,
+        "its name in synergrip/__init__.pyi": getattr(synergrip, key.kind.__name__, None) is key.kind,
         "a line in tests/random_formulations.py": key.kind in kinds or key.kind.__mro__[1] in kinds,
         "an Example: in its docstring": "Example:" in (key.kind.__doc__ or ""),
     }
@@ -76,7 +76,7 @@ def test_a_goal_is_whole(name: str) -> None:
         "its formula, in GOALS of referee/formulas.py": type(goal) in formulas.GOALS,
         "an order in tests/planning/test_goal_order.py": name in {x for order in ORDERS for x in (*order, *WEIGHTS)},
         "a word in docs/problem-file.md": bool(re.search(rf'[`"]{name}[`"]', section("goal"))),
-        "its name in synergrip/__init__.py": getattr(synergrip, type(goal).__name__, None) is type(goal),
+        "its name in synergrip/__init__.pyi": getattr(synergrip, type(goal).__name__, None) is type(goal),
     }
     assert not [what for what, is_there in there.items() if not is_there]
 
@@ -84,7 +84,7 @@ def test_a_goal_is_whole(name: str) -> None:
 @pytest.mark.parametrize("part", [*KINDS.values(), *SHAPES.values()], ids=lambda part: part.name)
 def test_a_kind_of_contact_and_a_shape_have_their_names(part: type) -> None:
     """Their other parts are asked for in tests/grasps."""
-    assert getattr(synergrip, part.__name__, None) is part, "its name is not in synergrip/__init__.py"
+    assert getattr(synergrip, part.__name__, None) is part, "its name is not in synergrip/__init__.pyi"
     assert "Example:" in (part.__doc__ or ""), "an Example: is not in its docstring"
 
 

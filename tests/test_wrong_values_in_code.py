@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ import pytest
 from held_ball import at, ball, grasp, hand, hard, task
 
 import synergrip as sg
+from synergrip.conic.limits.registry import LIMITS
+from synergrip.grasps.shapes.shapes import SHAPES
 
 
 class Odd:
@@ -47,12 +50,12 @@ response = sg.respond(grasp)
 responses = sg.respond_many([grasp])
 still = np.zeros((2, 6))
 RIGHT: dict[str, dict[str, Any]] = {
+    **{key.kind.__name__: {"limit": 1.0} for key in LIMITS if fields(key.kind)[0].name == "limit"},
     "load_hand": {"name_or_path": "barrett"},
     "Object": {"mass": 0.2, "shape": sg.Sphere(radius=0.05), "position": (0, 0, 0), "title": "ball"},
     "Turned": {"shape": sg.Box(size=(0.1, 0.1, 0.1)), "rotation": np.eye(3)},
-    "Sphere": {"radius": 0.1},
-    "Box": {"size": (0.1, 0.1, 0.1)},
-    "Cylinder": {"radius": 0.1, "height": 0.1},
+    **{shape.__name__: {size.name: 0.1 if size.count == 1 else (0.1,) * size.count for size in shape.sizes}
+       for shape in SHAPES.values()},
     "HardFinger": {"friction": 0.5},
     "SoftFinger": {"friction": 0.5, "spin_friction": 0.01},
     "EllipticSoftFinger": {"friction": 0.5, "cross_friction": 0.4, "spin_friction": 0.01},
@@ -101,7 +104,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "Gravity": {"acceleration": (0, 0, -9.81)},
     "Wrench": {"values": np.zeros(6)},
     "WrenchTable": {"times": [0, 1], "values": still},
-    "Push": {"force": 1.0, "direction": "x", "at": (0, 0, 0), "start": 0.1, "end": 0.5, "profile": "trapezoid",
+    "Push": {"force": 1.0, "direction": "x", "point": (0, 0, 0), "start": 0.1, "end": 0.5, "profile": "trapezoid",
              "ramp": 0.1},
     "Palm": {"axis": "x", "turn": 1.0, "shift": (0, 0, 0.1), "profile": "cubic", "inertia": True},
     "PalmPath": {"times": [0, 1], "poses": still},
@@ -110,8 +113,6 @@ RIGHT: dict[str, dict[str, Any]] = {
              "load_factor": 1.0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
-    **{name: {"limit": 1.0} for name in ("JointTorque", "ActuatorEffort", "SynergyReference", "SynergyRate",
-                                         "SynergyAcceleration", "ElasticMotion")},
 }  # fmt: skip
 OTHERS = {
     "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses", "Execution",

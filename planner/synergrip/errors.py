@@ -119,6 +119,16 @@ class VerdictError(InputError, AttributeError):
     """An attribute of an answer that only an answer with another verdict has; `hasattr` says no, as of any other."""
 
 
+class UnknownNameError(InputError, KeyError):
+    """A name that a table does not have, which `in` and `get` may ask for."""
+
+    __str__ = Exception.__str__  # that of KeyError puts quotes around the message
+
+
+class UnknownPlaceError(InputError, IndexError):
+    """A place that a sequence does not have."""
+
+
 class Refusal(SynergripError):
     """A well-posed question whose answer is no, proven before any program is solved."""
 

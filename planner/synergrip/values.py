@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
-from synergrip.errors import shortened
+from synergrip.errors import Issue, UnknownNameError, one_of, shortened
 
 FEW = 6
 """Numbers of an array, or entries of a collection of words, that are shown; of more only how many there are."""
@@ -27,6 +27,26 @@ class Kept:
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
         self.__dict__.update(state)
+
+
+V = TypeVar("V")
+
+
+class ByName(dict[str, V]):
+    """Values by name, which tell what names there are when they are asked for another."""
+
+    def __init__(self, key: str, values: Mapping[str, V]) -> None:
+        """Keep values; `key` says in errors of what they are."""
+        super().__init__(values)
+        self.key = key
+
+    def __missing__(self, name: object) -> V:
+        """Raise the error that lists the names."""
+        raise UnknownNameError([Issue(one_of(name, self), key=self.key)])
+
+    def __reduce__(self) -> tuple[type[ByName[V]], tuple[str, dict[str, V]]]:
+        """Pickle and copy what it is made of."""
+        return type(self), (self.key, dict(self))
 
 
 class Value(Kept):

@@ -44,7 +44,7 @@ def child(what: str, knots: int) -> None:
     from synergrip.conic.solution import Settings
     from synergrip.conic.solvers import clarabel_
     from synergrip.planning.outcome import Plan
-    from synergrip.planning.planning import plan
+    from synergrip.planning.planning import plan_of_start_posture as plan
     from synergrip.problems.problem import load_problem
     from synergrip.referee import judge as referee
 
@@ -73,7 +73,7 @@ class Asked(Exception):
 
 def first_question(problem: Problem) -> Question:
     """Return the one question that planning asks of this problem, unanswered: an answer would leave memory behind."""
-    from synergrip.planning.planning import plan
+    from synergrip.planning.planning import plan_of_start_posture as plan
 
     def stop(question: Question, program: Program, settings: Settings) -> Solution:
         raise Asked(question)

@@ -7,7 +7,7 @@ import pytest
 
 from synergrip.documents.quantities import apart
 from synergrip.planning.outcome import Infeasible
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import load_problem
 
 

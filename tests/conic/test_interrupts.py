@@ -10,7 +10,7 @@ import pytest
 from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.solvers.interrupts import interruptible
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import Answerer
 from synergrip.problems.problem import load_problem
 

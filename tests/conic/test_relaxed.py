@@ -16,7 +16,7 @@ from synergrip.conic.solution import Claim, Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import load_problem
 
 

@@ -13,7 +13,7 @@ from second_execution import executed
 from synergrip.equilibrium.execution import Execution, execute
 from synergrip.planning.executing import loads
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.json_plan import outcome_document
 

@@ -17,14 +17,14 @@ SPHERE, BOX, CYLINDER = Sphere(0.03), Box((0.04, 0.06, 0.1)), Cylinder(0.02, 0.0
 AXIS = np.array([2, -3, 6]) / 7
 
 
-def _any(kind: type[Shape]) -> Shape:
+def any_shape(kind: type[Shape]) -> Shape:
     """A shape of a kind with some sizes."""
     lengths = iter(0.04 * 1.4 ** np.arange(3))
     return kind(*(next(lengths) if size.count == 1 else tuple(itertools.islice(lengths, size.count))
                   for size in kind.sizes))  # fmt: skip
 
 
-EVERY = [_any(kind) for kind in REGISTRY.values()]
+EVERY = [any_shape(kind) for kind in REGISTRY.values()]
 SHAPES: list[Shape] = [*EVERY, *(Turned(shape, turn(AXIS, 0.9)) for shape in EVERY)]
 STEP = 1e-6
 

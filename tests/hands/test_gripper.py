@@ -10,7 +10,7 @@ from published_hands import check_frames
 
 from synergrip.hands.folder import load_hand
 from synergrip.hands.synergies.select import select
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import load_problem
 
 DEG = math.pi / 180

@@ -15,7 +15,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.check import judge_references
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.references import References
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import Problem, load_problem

@@ -16,7 +16,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 

@@ -11,12 +11,13 @@ from named_goals import goals
 from typer.testing import CliRunner
 
 from synergrip.cli.app import app
+from synergrip.conic.along import AlongPath
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
 from synergrip.planning.front import ROOM, front, largest
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 
@@ -30,18 +31,20 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert len(points) == 5
     margins, peaks = (np.array([getattr(point, key) for point in points]) for key in ("margin", "peak"))
     assert np.all(np.diff(margins) > 0)
-    assert np.all(np.diff(peaks) > -1e-6 * peaks.max())
-    assert np.all(np.diff(peaks, 2) > -1e-5 * peaks.max())  # the trade is convex
-    assert margins[-1] == pytest.approx(best.largest_margin, abs=1.1 * ROOM * best.formulation.force_unit)
+    assert np.all(np.diff(peaks) > -1e-3 * peaks.max())  # the forces of the hand that moves are promised to 1e-3
+    assert np.all(np.diff(peaks, 2) > -4e-3 * peaks.max())  # the trade is convex
+    begun = plan_of_start_posture(problem.grasp, best.task)
+    assert isinstance(begun, Plan)
+    most = min(best.largest_margin, begun.largest_margin)
+    assert margins[-1] == pytest.approx(most, abs=1.1 * ROOM * best.formulation.force_unit)
     least = plan(problem.grasp, replace(problem.timed, goals=goals("peak_force", "effort")))
     assert isinstance(least, Plan)
     assert peaks[0] == pytest.approx(least.motion.forces[:, problem.grasp.normal_rows].max(), rel=1e-6)
     middle = points[2]
-    assert middle.plan.margins.min() >= middle.margin - 1e-6
-    capped = f"limits.normal_force={middle.peak * (1 - 1e-4)} N"
+    assert middle.plan.margins.min() >= middle.margin - 1e-3
+    capped = f"limits.normal_force={0.99 * middle.peak} N"
     short = load_problem(name, [capped, f"limits.margin={middle.margin} N"])
-    # no less force gives that margin; where curved loads take a reserve, which asks for more, that is not proven
-    assert plan(short.grasp, short.task).verdict == ("unknown" if short.timed.between == "hold" else "infeasible")
+    assert plan(short.grasp, short.task).verdict != "feasible"  # no less force gives that margin
 
 
 def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:
@@ -73,11 +76,13 @@ def test_an_interrupt_ends_the_front_and_keeps_whole_points_only(goal: str, monk
     """Whether it comes in the first goal of the third point or in its second goal, after which there is a plan."""
     arguments = ["front", "utah-mit-ball", "-n", "5", "--format", "json"]
     whole = json.loads(CliRunner().invoke(app, arguments).stdout)["front"]
-    asked: list[str] = []
+    asked, begun = list[str](), list[str]()
 
     def interrupted(question: Question, program: Program, settings: Settings) -> Solution:
         asked.append(question.goal.name)
-        if asked.count("least peak normal force") == 3 and question.goal.name == goal:
+        starts = not isinstance(question.formulation, AlongPath)
+        begun.extend([question.goal.name] * (starts and question.goal.name == "least peak normal force"))
+        if len(begun) == 3 and starts and question.goal.name == goal:
             raise KeyboardInterrupt
         return clarabel(question, program, settings)
 

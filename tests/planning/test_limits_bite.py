@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 

@@ -20,7 +20,7 @@ from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.pyramids import Comparison, Request, compare, requested
 from synergrip.problems.problem import load_problem
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import load_problem
 
 STEEP = (

@@ -17,7 +17,7 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.linalg import Array
 from synergrip.planning import stages
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.planning.stages import LOOSE
 from synergrip.problems.problem import load_problem

@@ -30,7 +30,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.referee.judge import referee

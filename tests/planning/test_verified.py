@@ -11,7 +11,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.errors import SelfCheckError
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.stages import Stage
 from synergrip.planning.verified import identities, verified_plan
 from synergrip.problems.problem import load_problem

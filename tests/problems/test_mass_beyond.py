@@ -7,7 +7,7 @@ import pytest
 
 from synergrip.errors import InputError
 from synergrip.planning.outcome import Infeasible, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import Problem, load_problem
 
 SOFT = "model='soft', friction=0.6, spin_friction='8 mm', stiffness='8 N/mm', spin_stiffness='2 N m/rad'"

@@ -16,7 +16,7 @@ from executing_program import Tree, executed
 
 from synergrip.planning.digest import unchanged
 from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 

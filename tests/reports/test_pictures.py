@@ -15,6 +15,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
+from grasps.test_objects import EVERY
 from random_grasps import random_grasp
 from scipy.spatial.transform import Rotation
 
@@ -219,9 +220,9 @@ def test_outlines_have_the_area_of_the_shadow(name: str) -> None:
     assert area == pytest.approx(shadow(SHAPES[name]), rel=5e-3)
 
 
-@pytest.mark.parametrize("name", SHAPES)
-def test_lines_run_on_the_surface_within_the_outline(name: str) -> None:
-    shape, drawn = SHAPES[name], SHAPES[name].lines()
+@pytest.mark.parametrize("shape", [*EVERY, TURNED], ids=lambda shape: shape.title)
+def test_lines_run_on_the_surface_within_the_outline(shape: Shape) -> None:
+    drawn = shape.lines()
     assert drawn
     edge = outline(shape, VIEW)
     for angle in np.linspace(0, 2 * np.pi, 73):  # no point is farther out than the outline, in any direction

@@ -24,6 +24,7 @@ from synergrip.statics.analyses import Analyses, analyse_many
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import Maps
 from synergrip.statics.subspaces import Bases
+from synergrip.statics.theorem1 import Coordinates
 
 FORMS = {
     "3 hard": {"kinds": ["hard"] * 3, "n_q": 9, "n_z": 4},
@@ -49,36 +50,56 @@ def stiff_ones(count: int = 40) -> list[Grasp]:
     ]
 
 
+GREEDY = 10.0
+"""How many times a difference of subspaces a greedy basis of them may differ by."""
+
+
 def same(ours: np.ndarray, theirs: np.ndarray, stated: float = 0.0) -> bool:
     """Equal to 1e-12, or to the error that both state, each of which may be lost the other way."""
     size = float(np.abs(theirs).max(initial=0.0))
     return ours.shape == theirs.shape and bool(np.all(np.abs(ours - theirs) <= max(1e-12, 2 * stated) * size))
 
 
-def doubt_of_bases(analysis: Analysis) -> tuple[float, float]:
-    """What errors of the maps leave open of E_s, more where a force is weaker than the largest, and of M (35)."""
-    forces, accuracy = analysis.spaces.decisions["forces"], analysis.response.accuracy
-    least = float(forces.singular_values[: analysis.spaces.dimensions[0]].min(initial=1.0))
-    of_forces = accuracy["dlambda_dzr"].error / max(least, 1e-300)
-    return of_forces, max(of_forces, accuracy["du_dzr"].error)
+def turned(ours: Analysis, theirs: Analysis) -> float:
+    """By how much bases differ at most (first order), given by how much the force maps they are of really do differ.
+
+    More where a force is weaker than the largest; 0 where the maps are equal to the last digit.
+    """
+    forces = theirs.spaces.decisions["forces"].singular_values[: theirs.spaces.dimensions[0]]
+    weight = theirs.response.scale.force[:, None]
+    one, other = (weight * each.response.dlambda_dzr for each in (ours, theirs))
+    apart = float(np.linalg.norm(one - other) / (np.linalg.norm(other) or 1.0))
+    return GREEDY * apart / max(float(forces.min(initial=1.0)), 1e-300)
 
 
 def assert_same(ours: Analysis, theirs: Analysis) -> None:
     for field in fields(Maps):
         stated = theirs.response.accuracy[field.name].error
         assert same(getattr(ours.response, field.name), getattr(theirs.response, field.name), stated), field.name
-    of_forces, of_M = doubt_of_bases(theirs)
+    turn = turned(ours, theirs)
     for field in fields(Bases):
-        stated = of_forces if field.name == "E_s" else 0.0
-        assert same(getattr(ours.spaces, field.name), getattr(theirs.spaces, field.name), stated), field.name
+        doubt = turn if field.name == "E_s" else 0.0
+        assert same(getattr(ours.spaces, field.name), getattr(theirs.spaces, field.name), doubt), field.name
     for name, decision in theirs.spaces.decisions.items():
         mine = ours.spaces.decisions[name]
         assert (mine.rank, mine.ambiguous) == (decision.rank, decision.ambiguous), name
         assert np.allclose(mine.singular_values, decision.singular_values, rtol=0, atol=1e-12), name
-    assert same(ours.coordinates.M, theirs.coordinates.M, of_M)
-    assert same(ours.coordinates.inverse, theirs.coordinates.inverse, of_M * theirs.coordinates.condition)
+    motion = theirs.response.du_dzr
+    apart = float(np.abs(ours.response.du_dzr - motion).max(initial=0.0)) / (
+        float(np.abs(motion).max(initial=0)) or 1.0
+    )
+    assert same(ours.coordinates.M, theirs.coordinates.M, turn + apart)
+    assert_inverse(ours.coordinates)
     assert ours.spaces.ambiguous == theirs.spaces.ambiguous
     assert ours.response.accuracy.keys() == theirs.response.accuracy.keys()
+
+
+def assert_inverse(found: Coordinates) -> None:
+    """As rounding leaves it in units of the rows, which are N, m and 1."""
+    rows = np.linalg.norm(found.M, axis=-1, keepdims=True)
+    M, inverse = found.M / rows, found.inverse * rows.T
+    lost = np.abs(M @ inverse - np.eye(len(M))).max(initial=0.0)
+    assert lost <= 1e-14 * len(M) * (np.linalg.norm(M) * np.linalg.norm(inverse) if M.size else 1.0)
 
 
 def assert_all_same(grasps: Sequence[Grasp], together: Analyses) -> None:

@@ -16,6 +16,7 @@ from synergrip.statics.factors import inverse_by_factors
 from synergrip.statics.response import Maps
 from synergrip.statics.responses import respond_many
 from synergrip.statics.saddle import FLOAT64, STACKED, Arithmetic
+from synergrip.statics.yielding import smallest_of_unit_diagonal
 
 
 @pytest.mark.parametrize("size", [1, 5, 8, 9, 16, 27])
@@ -75,3 +76,22 @@ def test_chunks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
         for field in fields(Maps):
             ours, theirs = getattr(pieces, field.name), getattr(whole, field.name)
             assert np.allclose(ours, theirs, rtol=0, atol=1e-12 * np.abs(theirs).max()), field.name
+
+
+@pytest.mark.parametrize("size", [1, 2, 6, 16])
+def test_the_bound_that_spares_singular_values_is_one(size: int) -> None:
+    """Never above the smallest eigenvalue; close to it where that is small and alone; 0 where there is no factor."""
+    rng = np.random.default_rng(size)
+    vectors = np.linalg.qr(rng.normal(size=(200, size, size)))[0]
+    values = np.concatenate([10.0 ** rng.uniform(-12, 0, size=(200, 1)), np.ones((200, size - 1))], axis=1)
+    stack = (vectors * values[:, None]) @ vectors.mT
+    units = 10.0 ** rng.uniform(-5, 5, size=(200, size, 1))
+    root = 1 / np.sqrt(np.diagonal(stack, axis1=1, axis2=2))[:, :, None]
+    least = np.linalg.eigvalsh(stack * root * root.mT)[:, 0]
+    found = smallest_of_unit_diagonal(stack * units * units.mT)
+    assert np.all(found <= least * (1 + 1e-9) + 1e-14)
+    assert np.all(found >= least / (3 * np.e) - 1e-14)
+    stack[7] *= -1
+    broken = smallest_of_unit_diagonal(stack)
+    assert broken[7] == 0.0
+    assert np.allclose(np.delete(broken, 7), np.delete(found, 7), rtol=1e-3, atol=1e-14)

@@ -106,7 +106,7 @@ STATED: list[tuple[list[str], dict[str, Any]]] = [
      {"loads": [WEIGHT, Palm(shift=(0.1, 0, 0.2), inertia=True, profile="cubic")]}),
     (["task.gravity=[0, 0, -9.81]", 'task.push=[{force="3 N", direction=[1, 2, 3], at=["1 m", "0 m", "0 m"], '
       'start="0.2 s", end="0.7 s", profile="trapezoid", ramp="0.1 s"}, {force="1 N", direction="y"}]'],
-     {"loads": [WEIGHT, Push(force=3, direction=(1, 2, 3), at=(1, 0, 0), start=0.2, end=0.7, profile="trapezoid",
+     {"loads": [WEIGHT, Push(force=3, direction=(1, 2, 3), point=(1, 0, 0), start=0.2, end=0.7, profile="trapezoid",
                              ramp=0.1), Push(force=1, direction="y")]}),
     (["task.gravity=[0, 0, -9.81]", 'task.move=[{axis="z", lift="0.01 m"}, {axis=[0, 3, 4], roll="0.1 rad"}]'],
      {"loads": [WEIGHT], "target": Move(axis="z", lift=0.01) + Move(axis=(0, 3, 4), roll=0.1)}),

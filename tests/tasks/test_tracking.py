@@ -13,7 +13,7 @@ from synergrip.errors import InputError, MotionCountError, MotionDirectionError
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import Analysis, analyse

@@ -19,7 +19,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.check import judge_references
 from synergrip.planning.outcome import Infeasible, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.references import References
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.json_plan import outcome_document

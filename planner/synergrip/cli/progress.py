@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -13,16 +14,22 @@ if TYPE_CHECKING:
 
 LONG = 50_000
 """Rows of a program from which on it takes seconds."""
+PATIENCE = 2.0
+"""[s] after which every program is told, however small."""
 
 
 def telling(answer: Answerer) -> Answerer:
-    """Return the same solver, which says what it is about to solve when that takes long."""
+    """Return the same solver, which says what it is about to solve when that, or what came before, takes long."""
+    from synergrip.conic.along import AlongPath
     from synergrip.conic.decide import ATTEMPTS
+
+    begun = time.monotonic()
 
     def told(question: Question, program: Program, settings: Settings) -> Solution:
         rows, unknowns = program.A.shape
-        if rows >= LONG:
-            what = f"{question.goal.name}, {program.knots} knots: {unknowns} variables, {rows} rows"
+        if rows >= LONG or time.monotonic() - begun > PATIENCE:
+            where = " along the motion" if isinstance(question.formulation, AlongPath) else ""
+            what = f"{question.goal.name}{where}, {program.knots} knots: {unknowns} variables, {rows} rows"
             attempt = ATTEMPTS.index(settings) + 1 if settings in ATTEMPTS else 1
             again = f", attempt {attempt} of {len(ATTEMPTS)}" if attempt > 1 else ""
             print(f"solving  {what}{again} ...", file=sys.stderr, flush=True)

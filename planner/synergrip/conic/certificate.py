@@ -15,6 +15,7 @@ import numpy as np
 
 from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
+from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
@@ -34,6 +35,7 @@ ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Value):
     """A claim about a program with the numbers that bear it out, or do not."""

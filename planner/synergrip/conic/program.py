@@ -14,6 +14,7 @@ from scipy import sparse
 from synergrip.archives import NoArchiveError, read_arrays
 from synergrip.conic.basis import inverse
 from synergrip.conic.rows import Item, Kind
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array, frozen
@@ -47,6 +48,7 @@ class Block:
         return self.cones * self.dim
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Program(Value):
     """A second-order cone program with a quadratic objective, and what its rows mean.

@@ -10,7 +10,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from synergrip.documents.validation import LARGEST_NUMBER, shown
-from synergrip.errors import Issue, raise_issues
+from synergrip.errors import Issue, UnknownPlaceError, raise_issues
 from synergrip.linalg import Array, frozen
 
 REAL = "iuf"
@@ -130,6 +130,18 @@ class Arguments:
             return ()
         found = [self.one(f"{name}[{index}]", each, of, example) for index, each in enumerate(value)]
         return tuple(each for each in found if each is not None)
+
+
+def place_of(key: str, value: Any, count: int) -> int:
+    """Return a place among `count`, counted from 0; from the end when it is negative, as Python does.
+
+    Raises:
+        UnknownPlaceError: there is no such place.
+    """
+    if not is_whole(value) or not -count <= value < count:
+        there = f"expected a place from 0 to {count - 1}" if count else "there is none"
+        raise UnknownPlaceError([Issue(f"{there}, got {described(value)}", key=key)])
+    return int(value) % count
 
 
 def described(value: object) -> str:

@@ -75,6 +75,10 @@ class Meeting(Value):
 class Model(ABC):
     """How n contacts move."""
 
+    def __repr__(self) -> str:
+        """Return its kind."""
+        return f"{type(self).__name__}()"
+
     @abstractmethod
     def at(self, placed: Placed, near: Array | None) -> Meeting:
         """Return the contacts at the instants, in the order in which they happen.
@@ -97,7 +101,7 @@ class Model(ABC):
         return self
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Several(Model):
     """Contacts of different models."""
 
@@ -126,7 +130,7 @@ class Several(Model):
         return Several(tuple((own, model.after(placed.of(own), meeting.of(own))) for own, model in self.parts))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Stuck(Model):
     """Points of the links and points of the object that springs hold together; their frames turn with the object."""
 
@@ -145,7 +149,7 @@ class Stuck(Model):
         return Meeting(placed.point, placed.rotation[:, None] @ self.frames, stretch, centre, whole(placed))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sliding(Model):
     """Pads that slide over the surface without friction: their distance counts, and nothing else."""
 

@@ -17,7 +17,7 @@ SAME = 1e-14
 """Share of the distance of a tip from the object's origin by which it may still change when its way is found."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Rolling(Model):
     """Rigid round tips that roll on the surface, held to their links by springs at their centres."""
 

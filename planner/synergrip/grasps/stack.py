@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import as_numbers, described
+from synergrip.documents.judging import as_numbers, described, place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
@@ -50,6 +50,7 @@ class Matrices(Value):
         return Matrices(*(getattr(self, field.name)[places] for field in fields(self)))
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class GraspStack(Value, Sequence[Grasp]):
     """N grasps whose contacts are of the same kinds, with as many joints and synergies each.
@@ -88,14 +89,7 @@ class GraspStack(Value, Sequence[Grasp]):
         given = tuple(grasps)
         if not given:
             raise InputError.at("grasps", "expected at least one grasp, got none")
-        for place, grasp in enumerate(given):
-            if not isinstance(grasp, Grasp):
-                raise InputError.at(f"grasps[{place}]", f"expected a Grasp, got {type(grasp).__name__}")
-        first = _form(given[0])
-        for place, grasp in enumerate(given):
-            if (form := _form(grasp)) != first:
-                message = f"{_told(form)}, but grasps[0] has {_told(first)}; put grasps of one form in one batch"
-                raise InputError.at(f"grasps[{place}]", f"has {message}")
+        _judge_forms(given)
         names = [field.name for field in fields(Matrices)]
         stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in (*names, "w_0")]
         points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given), given[0].n_c)
@@ -140,7 +134,7 @@ class GraspStack(Value, Sequence[Grasp]):
         """Return the grasp at a place; a stack for a slice."""
         if isinstance(place, slice):
             return self.taken(place)
-        place = range(len(self))[place]
+        place = place_of("place", place, len(self))
         if self.given:
             return self.given[place]
         grasp = self.like
@@ -155,8 +149,16 @@ class GraspStack(Value, Sequence[Grasp]):
         if self.given:
             given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
         stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
-        stack.__dict__["metric"] = self.metric.taken(places)  # as the cached property would work it out again
+        for name in ("metric", "of_object"):  # as cached properties would work them out again
+            if name in self.__dict__:
+                own = self.__dict__[name]
+                stack.__dict__[name] = own.taken(places) if isinstance(own, Metric) else own[places]
         return stack
+
+    @cached_property
+    def of_object(self) -> Array:
+        """(N, n_l, 6) = G', from object motions to contact motions, in scaled coordinates."""
+        return self.metric.scaled_grasp(self.matrices.G)
 
     @cached_property
     def metric(self) -> Metric:
@@ -169,6 +171,20 @@ def _stacked(arrays: Sequence[Array], *leading: int) -> Array:
     whole = np.concatenate(arrays).reshape(*leading, *arrays[0].shape)
     whole.setflags(write=False)
     return whole
+
+
+def _judge_forms(given: Sequence[Grasp]) -> None:
+    """Refuse what is no grasp, or not of the form of the first."""
+    for place, grasp in enumerate(given):
+        if not isinstance(grasp, Grasp):
+            raise InputError.at(f"grasps[{place}]", f"expected a Grasp, got {type(grasp).__name__}")
+    first, kinds = _form(given[0]), [type(contact.kind) for contact in given[0].contacts]
+    for place, grasp in enumerate(given):
+        if [type(contact.kind) for contact in grasp.contacts] == kinds and grasp.S.shape == first[1]:
+            continue  # a class has one tuple of components
+        if (form := _form(grasp)) != first:
+            message = f"{_told(form)}, but grasps[0] has {_told(first)}; put grasps of one form in one batch"
+            raise InputError.at(f"grasps[{place}]", f"has {message}")
 
 
 def _form(grasp: Grasp) -> Form:

@@ -14,7 +14,7 @@ from synergrip.errors import InputError, one_of
 from synergrip.hands.drives import Drives
 from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array
-from synergrip.values import ByContent, same
+from synergrip.values import ByContent, ByName, same
 
 UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
@@ -195,7 +195,9 @@ class Hand(ByContent):
             judge.one(f"pads[{name!r}]", pad, Pad, "Pad(...)")
         postures = {name: judge.array(f"postures[{name!r}]", q, (n_q,)) for name, q in self.postures.items()}
         judge.finish()
-        for each, value in (("joints", joints), ("C_q", C_q), ("postures", postures)):
+        named = {"pads": self.pads, "synergy_sets": self.synergy_sets, "postures": postures}
+        tables = {each: ByName(f"Hand.{each}", values) for each, values in named.items()}
+        for each, value in {"joints": joints, "C_q": C_q, **tables}.items():
             object.__setattr__(self, each, value)
 
     def __eq__(self, other: object) -> bool:

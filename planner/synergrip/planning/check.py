@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
-from synergrip.errors import InputError
+from synergrip.errors import InputError, MotionDirectionError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
@@ -47,6 +47,8 @@ class Judgement(Value):
     """The references between the knots of both."""
     executed: Execution | None = None
     """Their true states on the hand that moves; None for a grasp given as matrices."""
+    fixed: Execution | None = None
+    """The same if pads stayed where they are on link and object; None where nothing rolls."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -68,15 +70,27 @@ def judge_references(grasp: Grasp, task: TimedTask, references: References) -> J
 
     Raises:
         InputError: the references do not cover the task.
-        Refusal: the grasp does not restrain the object, or the task is impossible by count or direction.
+        Refusal: the grasp does not restrain the object, or the task is impossible by count or direction; on a hand, the
+            very first step of its motion.
     """
     task = task.on(grasp)
     times = _common_times(task, references)
     analysis = analyse(grasp, task.wrench)
-    formulated(analysis, task, redundancy=True)  # refuses a task that no references can do
+    _refuse(analysis, task)
     judged = _judged(analysis, task, references, times)
     claims = _claims(judged, task, references)
     return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
+
+
+def _refuse(analysis: Analysis, task: TimedTask) -> None:
+    """Raise for a task that no references can do."""
+    from synergrip.planning.going_on import refused_at_once
+
+    try:
+        formulated(analysis, task, redundancy=True)
+    except MotionDirectionError:
+        if analysis.grasp.held is None or refused_at_once(analysis, task):
+            raise
 
 
 def _claims(judged: Judgement, task: TimedTask, references: References) -> Claims:
@@ -96,11 +110,14 @@ def _claims(judged: Judgement, task: TimedTask, references: References) -> Claim
 
 def _judged(analysis: Analysis, task: TimedTask, references: References, times: Array) -> Judgement:
     """Judge references at some knots and between them; what the file claims is another matter."""
-    there = _at(task, times)
-    formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
-    motion = forward(analysis.response, times, interpolated(times, references.times, references.values), there.wrench)
     if analysis.grasp.held is not None:
-        return _judged_along(analysis, there, formulation, motion)
+        return _judged_along(analysis, *_linear(analysis, task, references, times))
+    return judged_at_start(analysis, task, references, times)
+
+
+def judged_at_start(analysis: Analysis, task: TimedTask, references: References, times: Array) -> Judgement:
+    """Judge what references do in the linear model of the start posture, at some knots and between them."""
+    there, formulation, motion = _linear(analysis, task, references, times)
     usages = limit_usages(there, formulation, motion)
     reached = analysis.coordinates.coordinates(motion.dz_r)
     tracking = _tracking(task, times, reached[1], formulation)
@@ -110,11 +127,21 @@ def _judged(analysis: Analysis, task: TimedTask, references: References, times: 
     return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
 
 
+def _linear(
+    analysis: Analysis, task: TimedTask, references: References, times: Array
+) -> tuple[TimedTask, Formulation, Motion]:
+    """Return the task at some knots, its formulation there, and what references do in the linear model."""
+    there = _at(task, times)
+    formulation = formulated(analysis, _within_reach(analysis, there), redundancy=True)
+    dz_r = interpolated(times, references.times, references.values)
+    return there, formulation, forward(analysis.response, times, dz_r, there.wrench)
+
+
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
     from synergrip.planning.executing import Executor
     from synergrip.planning.figures import figures
-    from synergrip.planning.reach import allowed
+    from synergrip.planning.reach import allowed, off
     from synergrip.planning.solvers import SOLVERS
     from synergrip.planning.walk import Walker
 
@@ -125,19 +152,12 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         missed = Check(f"equilibrium: {walk.executed.why}", float("inf"), 0.0)
         return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
-    followed = Check("rigid motion [m]", walk.behind, allowed(walker))
+    followed = Check("rigid motion [m]", float(off(walk, walker).max()), allowed(walker))
     margins = frozen(found.usages[0].value)
     return Judgement(
-        task,
-        analysis,
-        formulation,
-        found.motion,
-        margins,
-        found.usages,
-        (followed, *found.checks),
-        found.between,
-        walk.executed,
-    )
+        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between,
+        walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench),
+    )  # fmt: skip
 
 
 def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Check:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
+from synergrip.statics.response import Response
 from synergrip.tasks.pushes import pushes_in
 from synergrip.tasks.timed_task import TimedTask
 
@@ -24,11 +25,27 @@ class Executor:
 
     setting: Setting
     task: TimedTask
+    response: Response
 
     @classmethod
     def of(cls, analysis: Analysis, task: TimedTask) -> Executor:
         """Return the executor of a task; pads with a radius roll on objects with a shape."""
-        return cls(setting(analysis.grasp, "rolling", analysis.response), task)
+        return cls(setting(analysis.grasp, "rolling", analysis.response), task, analysis.response)
+
+    def with_fixed_contacts(self, executed: Execution, wrench: Array) -> Execution | None:
+        """Return the references of an execution where pads roll, as if these stayed where they are on link and object.
+
+        What it costs to be wrong about rolling; None where nothing rolls.
+
+        Args:
+            executed: all of whose instants were reached.
+            wrench: (T, 6) on the object, as it was executed under.
+        """
+        own = self.setting
+        if own.contact_model != "rolling":
+            return None
+        fixed = replace(self, setting=setting(own.grasp, "fixed", self.response))
+        return fixed.run(executed.times, executed.references, wrench, executed.states)
 
     def run(self, times: Array, references: Array, wrench: Array, near: Motion | States | Execution) -> Execution:
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).

@@ -12,7 +12,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.outcome import Outcome, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.solvers import SOLVERS, Answerer
 from synergrip.tasks.timed_task import TimedTask
 
@@ -53,6 +53,9 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
         KeyboardInterrupt: somebody interrupted; the points before are whole.
     """
     grasp, task, most = best.analysis.grasp, best.task, best.largest_margin or 0.0
+    if best.executed is not None:  # every point begins with a plan of the start posture
+        begun = plan_of_start_posture(best.analysis, task, solver)
+        most = min(most, begun.largest_margin or 0.0) if isinstance(begun, Plan) else most
     top = most - ROOM * max(most, best.formulation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
         point = plan(grasp, replace(task, margin=float(margin), goals=(LeastPeak(), LeastEffort())), solver)

@@ -13,6 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
+from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
@@ -45,6 +46,7 @@ LONG = 200
 """Characters of a reason that are shown."""
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan(Tabled):
     """A verified answer: references to send, and all that follows from them.
@@ -69,7 +71,7 @@ class Plan(Tabled):
     decisions: tuple[Decision, ...]
     """The programs solved, in order; the last one is the plan's."""
     largest_margin: float | None
-    """The largest margin [N] when it was asked for."""
+    """The largest margin [N] when it was asked for; of an executed plan the one that it keeps."""
     notes: tuple[str, ...] = ()
     """What the plan is not, although its goal would have it so."""
     between: Between | None = None
@@ -77,6 +79,9 @@ class Plan(Tabled):
 
     executed: Execution | None = None
     """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
+    fixed: Execution | None = None
+    """The same references if pads stayed where they are on link and object: what it costs to be wrong about rolling;
+    None where nothing rolls."""
     passes: int = 0
     """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False
@@ -150,6 +155,7 @@ class Reasoned(Answer):
         return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Infeasible(Reasoned):
     """A proof that no plan exists.
@@ -198,6 +204,7 @@ class Reached(Value):
     because: str
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Unknown(Reasoned):
     """Nothing could be verified either way.

@@ -2,50 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-from synergrip.conic.conflicts import Conflict, beside_friction, conflicts
-from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.goals.goal import Goal
-from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.slip_margin import SlipMargin
-from synergrip.conic.question import Question
-from synergrip.conic.relaxed import proof
 from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.naming import naming_arguments
-from synergrip.documents.quantities import apart
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
+from synergrip.planning.first_goal import Planner
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
-from synergrip.planning.solvers import SOLVERS, Answered, Answerer, answerer, ask
-from synergrip.planning.stages import Stage, begun, through
-from synergrip.planning.verified import verified_plan
+from synergrip.planning.solvers import SOLVERS, Answerer, answerer
 from synergrip.statics.analysis import Analysis, analyse
-from synergrip.tasks.goals import unasked_goals
-from synergrip.tasks.scaling import caps, grips
 from synergrip.tasks.task import Task
-from synergrip.tasks.timed_task import TimedTask, unbounded
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
-
-NEAR = 1e-5
-"""Shortfall of a margin, relative to what the task asks of the contacts, that is a matter of digits."""
 
 
 @naming_arguments
 def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer = "clarabel") -> Outcome:
     """Plan a task: restraint, count, direction, magnitude, in this order (docs/theory.md).
 
-    A hand holds the load of the first instant when the task begins; a grasp given as matrices holds its w_0.
+    A hand holds the load of the first instant when the task begins; a grasp given as matrices holds its w_0. What comes
+    out on a hand is executed before it is shown, and its figures are those of the true equilibria (docs/along.md).
 
     Args:
         grasp: who plans; its `Analysis` instead, when the same grasp is planned many times.
@@ -67,18 +51,32 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
         'feasible'
     """
     answers = answerer(solver, "solver")
-    known, asked = _judged(grasp, task)
-    outcome = _analysed(known, asked, answers)
-    if isinstance(outcome, Plan) and outcome.grasp.held is not None:
-        from synergrip.planning.walked import on_the_hand
-
-        outcome = on_the_hand(outcome, answers)
+    outcome = _on_the_hand(plan_of_start_posture(grasp, task, answers), answers)
     LOG.info("%r", outcome)
     return outcome
 
 
-def _analysed(known: Grasp | Analysis, asked: TimedTask, answers: Answerer) -> Outcome:
-    """Work out what the grasp can do, and plan."""
+def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:
+    """Return the answer about the hand that moves, where there is one."""
+    if outcome.grasp.held is None:
+        return outcome
+    if isinstance(outcome, Plan):
+        from synergrip.planning.walked import on_the_hand
+
+        return on_the_hand(outcome, answers)
+    if isinstance(outcome, Infeasible):
+        from synergrip.planning.going_on import gone_on
+
+        return gone_on(outcome, lambda analysis, task: _planned(analysis, task, answers), answers)
+    return outcome
+
+
+def plan_of_start_posture(
+    grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer = "clarabel"
+) -> Outcome:
+    """Return what the linear model says, with contacts, G and J as they are at the start; arguments as of `plan`."""
+    answers = answerer(solver, "solver")
+    known, asked = _judged(grasp, task)
     if isinstance(known, Analysis):
         return _planned(known, asked, answers)
     try:
@@ -115,10 +113,10 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
     except Refusal as refusal:
         return _refused(grasp, task, analysis, refusal)
     refuse_malformed(task.limits, task.goals, formulation)
-    planners: list[_Planner] = []
+    planners: list[Planner] = []
 
     def answer(each: Formulation) -> Outcome:
-        planners.append(_Planner(task, analysis, each, solver))
+        planners.append(Planner(task, analysis, each, solver))
         return planners[-1].outcome()
 
     try:
@@ -139,112 +137,3 @@ def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: 
     if not certificate.verified:
         raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
     return Infeasible(task, grasp, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
-
-
-class _Planner:
-    """The first goal, which says whether there is a plan at all, and why not; the others follow by `stages`."""
-
-    def __init__(self, task: TimedTask, analysis: Analysis, formulation: Formulation, solver: Answerer) -> None:
-        self.task, self.analysis, self.formulation, self.solver = task, analysis, formulation, solver
-        self.decisions: list[Decision] = []
-
-    def outcome(self) -> Outcome:
-        first, *others = self.task.goals
-        LOG.info("first '%s': %d knots, %d unknowns each", first.name, self.formulation.knots, self.formulation.n_v)
-        limits = self.task.kept if isinstance(first, LargestMargin) else self.task.all_limits
-        best = self._ask(limits, first)
-        if not best.decision.acceptable:
-            return self._without_optimum(best.decision, first)
-        stage = begun(best, limits, first)
-        if stage.falls_short_of(self.task.margin):
-            return self._short_of_margin(best, stage.largest_margin or 0.0)
-        last = through(stage, others, unasked_goals(self.task), self.solver)
-        return verified_plan(self.task, self.analysis, last, stage.largest_margin)
-
-    def _ask(self, limits: tuple[Limit, ...], goal: Goal) -> Answered:
-        # how hard to squeeze for the largest margin, only what bounds it can tell; for the load, the friction
-        sizes = caps(self.analysis, self.task) if isinstance(goal, LargestMargin) else ()
-        sizes = (*grips(self.formulation), *sizes)
-        answered = ask(Question(self.formulation, limits, goal), self.solver, sizes)
-        self.decisions.append(answered.decision)
-        return answered
-
-    def _without_optimum(self, decision: Decision, goal: Goal) -> Outcome:
-        """Infeasible as claimed and proven, or proven by way of the largest margin, or unknown."""
-        if goal.has_scalar and decision.unbounded:
-            raise unbounded(goal)
-        if isinstance(goal, LargestMargin):
-            return self._no_optimum(decision)
-        first = self._ask(self.task.kept, LargestMargin())
-        widest = Stage(first.question.formulation, self.task.kept, LargestMargin(), (first.decision,))
-        largest = widest.largest_margin if first.decision.optimal else None
-        if decision.infeasible:
-            return self._infeasible(decision, largest)
-        if first.decision.infeasible:
-            return self._infeasible(first.decision, None)
-        if largest is not None and largest < self.task.margin:
-            return self._short_of_margin(first, largest)
-        return self._any_plan(goal)
-
-    def _any_plan(self, goal: Goal) -> Outcome:
-        """A plan that holds, when there is one and the best by the goal that was asked for is out of reach."""
-        some = self._ask(self.task.all_limits, LeastEffort())
-        if not some.decision.optimal:
-            return self._no_optimum(some.decision)
-        note = f"'{goal.name}' was not verified, nor came any goal after it; this is the plan of least contact effort"
-        stage = Stage(some.question.formulation, self.task.all_limits, LeastEffort(), (some.decision,), (note,))
-        return verified_plan(self.task, self.analysis, through(stage, (), unasked_goals(self.task), self.solver), None)
-
-    def _no_optimum(self, decision: Decision) -> Outcome:
-        if decision.infeasible:
-            return self._infeasible(decision, None)
-        why = f"{decision.solution.solver} says '{decision.solution.status}' and nothing verifies"
-        return Unknown(self.task, self.analysis, why, tuple(self.decisions))
-
-    def _short_of_margin(self, widest: Answered, largest: float) -> Outcome:
-        """The multipliers of the largest-margin program are the proof that the asked margin is out of reach."""
-        limits = (*self.task.kept, SlipMargin(self.task.margin))
-        program = Question(widest.question.formulation, limits, LeastEffort()).program()
-        certificate = proof(program, (widest.decision.solution.z,))
-        if certificate.verified:
-            return self._infeasible(replace(widest.decision, program=program, certificate=certificate), largest)
-        asked = self._ask(limits, LeastEffort()).decision
-        if asked.infeasible:
-            return self._infeasible(asked, largest)
-        near = self.task.margin - largest < NEAR * self.formulation.force_unit
-        doubt = "too close to" if near else "and no proof verifies that it cannot be"
-        why = (
-            f"the largest margin is {largest:.9g} N, {doubt} the {self.task.margin:.9g} N asked" + near * " to be sure"
-        )
-        return Unknown(self.task, self.analysis, why, tuple(self.decisions))
-
-    def _infeasible(self, proven: Decision, largest: float | None) -> Infeasible:
-        ray = proven.certificate.y
-        found = conflicts(proven.program, ray) if ray is not None else ()
-        return Infeasible(
-            self.task, self.analysis.grasp, self.analysis, "magnitude",
-            f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
-            proven.certificate, proven.program, tuple(self.decisions), largest, found,
-        )  # fmt: skip
-
-    def _shortfall(self, largest: float | None, found: Sequence[Conflict]) -> str:
-        chief = beside_friction(found)
-        if largest is None:
-            named = f"; {chief} is what clashes most" if chief else ""
-            return f"nothing that the synergies control keeps all limits at once{named}"
-        if largest < 0:
-            kept = f"as long as {chief} holds" if chief else "within these limits"
-            return f"{kept} some contact slips: its friction cone is missed by {-largest:.4g} N or more"
-        most, asked = apart(largest, self.task.margin)
-        return f"these limits allow a slip margin of {most} N at most, the task asks for {asked} N"
-
-    def _without_limits(self) -> str:
-        """Tell limits from geometry: would the cones alone allow it?"""
-        alone = Question(self.formulation, (SlipMargin(self.task.margin),), LeastEffort())
-        free = ask(alone, self.solver, grips(self.formulation))
-        if free.decision.infeasible:
-            return "no squeeze however hard would do: friction, contact places, load or synergies must change"
-        if not free.decision.optimal:
-            return "whether a harder squeeze would do could not be verified"
-        normal = free.question.formulation.force.at(free.v)[:, self.analysis.grasp.normal_rows].max()
-        return f"for the friction cones alone {normal:.4g} N of normal force would do"

@@ -31,8 +31,9 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import qpsolvers_
 from synergrip.errors import Issue, SelfCheckError, one_of, raise_issues
-from synergrip.planning.check import judge_references
+from synergrip.planning.check import judged_at_start
 from synergrip.planning.outcome import Check, Plan
+from synergrip.planning.planning import plan_of_start_posture
 from synergrip.planning.references import References
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.planning.stages import Stage, through
@@ -129,9 +130,16 @@ def requested(facets: int, backend: str = "osqp") -> Request:
     return Request(facets, backend)
 
 
-def compare(cones: Plan, request: Request) -> Comparison:
-    """Return what pyramids in the friction cones' place would make of a plan. The plan is not changed by it."""
+def compare(plan: Plan, request: Request) -> Comparison | None:
+    """Return what pyramids in the friction cones' place would make of a plan. The plan is not changed by it.
+
+    Both are those of the linear model at the start posture, so that nothing but the cones differs;
+    None when that has no plan, and the one given goes where only the hand that moves does.
+    """
     facets = request.facets
+    cones = plan if plan.executed is None else plan_of_start_posture(plan.analysis, plan.task)
+    if not isinstance(cones, Plan):
+        return None
     question = _question(cones, facets)
     answered = ask(question, SOLVERS["clarabel"])
     question, decision = answered.question, answered.decision
@@ -196,7 +204,7 @@ def _answer(cones: Plan, question: Question, best: Decision, backend: str) -> An
     with np.errstate(all="ignore"):  # whatever the numbers are, they are judged
         dz_r = analysis.coordinates.references(*question.formulation.parts(program.unknowns(found.x)))
         if np.all(np.isfinite(dz_r)):
-            checks = judge_references(analysis.grasp, task, References(task.times, dz_r, {})).checks
+            checks = judged_at_start(analysis, task, References(task.times, dz_r, {}), task.times).checks
             if best.optimal:
                 reached, least = program.objective(found.x), program.objective(best.solution.x)
                 gap = abs(reached - least) / max(1.0, abs(reached), abs(least))

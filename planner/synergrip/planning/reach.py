@@ -6,56 +6,84 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
+from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.outcome import Reached
+from synergrip.planning.straying import strayed
 from synergrip.planning.walk import FOLLOWED, Walk, Walker
+from synergrip.statics.twists import describe_displacement
+from synergrip.tasks.tracking_along import joints_of
 
-REACHED = 0.01
-"""How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
-the grasp."""
 AT_END = 1e-3
 """[rad], [m] from the end of its range within which a joint is at its limit."""
+RANGES = "limits.joint_range"
+DEAR = 3.0
+"""Near a straight posture some rigid motion takes joint motions larger than at the start by this factor."""
 
 
 def allowed(walker: Walker) -> float:
     """Return how far the rigid motion may be behind the wanted one [m]."""
-    return walker.task.tolerance or REACHED * walker.start.response.scale.length
+    return walker.allowed
 
 
-def _not_reached(walk: Walk, walker: Walker) -> str:
-    """Return from when on a motion is not reached, and how far it gets."""
-    times, executed = walker.task.times, walk.executed
-    if walk.way is None:
-        k = len(executed.states)
-        return f"not reached from t = {times[k]:.3g} s: {executed.why or 'no equilibrium was found there'}"
-    k = int(np.argmax(walk.way.behind > allowed(walker)))
-    stuck = _stuck(walk, walker, k)
-    return (
-        f"not reached from t = {times[k]:.3g} s: there the object is {1e3 * walk.way.behind[k]:.3g} mm behind, and by "
-        f"{1e3 * walk.behind:.3g} mm at most{stuck}"
-    )
-
-
-def _stuck(walk: Walk, walker: Walker, k: int) -> str:
-    """Return what keeps the hand from going on at a knot: joints at the ends of their ranges, or straight fingers."""
-    held = walker.start.grasp.held
-    if held is None:
-        return ""
-    q = held.q + walk.executed.joint[k]
-    ends = [
-        f"joint '{joint.name}' is at its {end} limit"
-        for joint, value in zip(held.hand.joints, q, strict=True)
-        for end, off in (("lower", value - joint.lower), ("upper", joint.upper - value))
-        if off < AT_END
-    ]
-    return f", because {', '.join(ends)}" if ends else ", because the fingers are near a straight posture"
+def off(walk: Walk, walker: Walker) -> Array:
+    """Return how far (T,) the object is from where it is wanted [m], but for elastic motion and sag."""
+    if walk.way is None or walk.until is not None:
+        return np.full(len(walker.task.times), np.inf)
+    return np.maximum(walk.way.behind, strayed(walk, walker))
 
 
 def reached_by(walk: Walk, walker: Walker) -> Reached:
-    """Return until when the motion was followed, and the pose of the object there."""
-    k = len(walk.executed.states) if walk.way is None else int(np.argmax(walk.way.behind > allowed(walker)))
-    pose = walk.executed.du[max(k - 1, 0)] if len(walk.executed.states) else np.zeros(6)
-    return Reached(float(walker.task.times[max(k - 1, 0)]), frozen(pose), _not_reached(walk, walker))
+    """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
+    times, executed = walker.task.times, walk.executed
+    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= allowed(walker)
+    pose, until = executed.du[-1] if arrived else np.zeros(6), walk.until
+    astray = False
+    if until is None:  # a walk of all knots that were reached, some of which are off
+        k = len(executed.states) if walk.way is None else int(np.argmax(off(walk, walker) > allowed(walker)))
+        pose, until = executed.du[k - 1] if k else np.zeros(6), float(times[max(k - 1, 0)])
+        astray = walk.way is not None and walk.way.behind[k] <= allowed(walker)
+    told = describe_displacement(pose, walker.start.response.scale.length)
+    beyond = f"the motion goes on, by {1e3 * float(off(walk, walker).max()):.3g} mm at most, where no rigid motion does"
+    why = f"{beyond} (Gamma_ucs there)" if astray else "; ".join(_hindrances(walk, walker))
+    return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
+
+
+def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
+    """Yield what keeps a walk from going on where it ends: what its last pass met, or how its joints are."""
+    met, ends = walk.hindered or Hindrance(), dict(_ends(walk, walker))
+    near = [told for told, (_, off) in ends.items() if off < AT_END]
+    if met.key == RANGES:
+        near = [min((off, told) for told, (joint, off) in ends.items() if joint == name)[1] for name in met.items]
+    if met.key and met.key != RANGES:
+        what = f"{met.key} ({', '.join(met.items)})"
+        yield f"{what} cannot be kept there" if met.friction else f"{what} binds"
+    if met.execution or walk.executed.why:
+        yield met.execution or walk.executed.why
+    elif near:
+        yield " and ".join(near)
+    elif _dear(walk, walker) > DEAR:
+        yield "the fingers are near a straight posture"
+    elif not met.key:
+        yield "no step however short comes nearer"
+
+
+def _ends(walk: Walk, walker: Walker) -> Iterator[tuple[str, tuple[str, float]]]:
+    """Yield for both ends of each joint's range what it would be to be there, the joint, and how far it is from it."""
+    held = walker.start.grasp.held
+    if held is None or not len(walk.executed.states):
+        return
+    for joint, value in zip(held.hand.joints, held.q + walk.executed.joint[-1], strict=True):
+        for end, off in (("lower", value - joint.lower), ("upper", joint.upper - value)):
+            yield f"joint '{joint.name}' is at its {end} limit", (joint.name, float(off))
+
+
+def _dear(walk: Walk, walker: Walker) -> float:
+    """Return how much larger the joint motions of the dearest rigid motion are at the end of a walk than at start."""
+    if walk.way is None or not walker.start.spaces.Gamma_ucs.shape[1]:
+        return 1.0
+    there, before = (np.linalg.norm(joints_of(at), 2) for at in (walk.way.each[-1], walker.start))
+    return float(there / before)
 
 
 def notes(walk: Walk, walker: Walker) -> Iterator[str]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.linalg import Array
-from synergrip.planning.arrays import ARRAYS, Size
+from synergrip.planning.arrays import ARRAYS, Size, columns_of
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forces_at_start
@@ -76,7 +76,17 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
             "smallest_stiffness_N_m": float(np.linalg.norm(response.K, 2)),
         }, "between": looks, "largest_margin_N": GIVEN_UP / EXACT * force,
     }  # fmt: skip
-    return Sizes(by_key)
+    columns = {
+        name: size
+        for key, names in columns_of(grasp).items()
+        for name, size in zip(names, np.broadcast_to(_of_columns(by_key[key]), len(names)), strict=True)
+    }
+    return Sizes(by_key | {"columns": columns})
+
+
+def _of_columns(size: Any) -> Any:
+    """Return the size of the columns of plan.csv that belong to a key: one, or one for each."""
+    return size["per_contact_N"] if isinstance(size, Mapping) else size
 
 
 def _largest(values: Array) -> float:

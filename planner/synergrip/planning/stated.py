@@ -40,21 +40,26 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
     analysis, motion, task, grasp = judged.analysis, judged.motion, judged.task, judged.analysis.grasp
     parts = analysis.coordinates.coordinates(motion.dz_r)
     arrays = arrays_of(Moved(analysis, motion, *parts, judged.margins))
-    code = claimed.get("exit_code")
-    return arrays | {
-        "verdict": verdict,
-        "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
-        "structure": structure_document(grasp, analysis),
-        **names_of(grasp),
-        "time_s": knots if len(knots) == len(motion.times) else motion.times,
-        "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
-        "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
-        "force_unit_N": units_of(analysis, task).force,
-        "limits": [series_document(usage) for usage in judged.usages],
-        "checks": _checks(judged, claimed.get("checks")),
-        "between": between_document(judged.between),
-        "columns": _columns(judged, arrays),
-    } | ({} if judged.executed is None else {"true": true_document(judged.executed, judged.usages[0])})  # fmt: skip
+    code, executed = claimed.get("exit_code"), judged.executed
+    true = {} if executed is None else {"true": true_document(executed, judged.usages[0], judged.fixed)}
+    return (
+        arrays
+        | {
+            "verdict": verdict,
+            "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
+            "structure": structure_document(grasp, analysis),
+            **names_of(grasp),
+            "time_s": knots if len(knots) == len(motion.times) else motion.times,
+            "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
+            "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
+            "force_unit_N": units_of(analysis, task).force,
+            "limits": [series_document(usage) for usage in judged.usages],
+            "checks": _checks(judged, claimed.get("checks")),
+            "between": between_document(judged.between),
+            "columns": _columns(judged, arrays),
+        }
+        | true
+    )
 
 
 INTERRUPTED = 130
@@ -86,6 +91,8 @@ def _columns_in(array: Array) -> Array:
 def _largest_margin(judged: Judgement) -> float:
     """Return the margin [N] that the references keep, with the reserve when it is asked for: the largest, if it is."""
     task, analysis = judged.task, judged.analysis
+    if judged.executed is not None:
+        return float(judged.margins.min())
     intersample = intersample_of(task, analysis) if task.between == "hold" else None
     if intersample is None:
         return float(judged.margins.min())

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
@@ -60,9 +62,18 @@ def series_document(usage: Usage) -> dict[str, Any]:
     return usage_document(usage) | {"series": series}
 
 
-def true_document(execution: Execution, margins: Usage) -> dict[str, Any]:
-    """Return the true states at the knots, of references executed on the hand that moves."""
+def true_document(execution: Execution, margins: Usage, fixed: Execution | None = None) -> dict[str, Any]:
+    """Return the true states at the knots, of references executed on the hand that moves.
+
+    Args:
+        execution: of the references.
+        margins: that it keeps.
+        fixed: the execution of the same with contacts that stay where they are, where they roll in the first.
+    """
+    radii = [touch.pad.radius or 0.0 for touch in execution.setting.held.touches]
+    other = None if fixed is None else finite(fixed.margins.min(initial=np.inf) if fixed.whole else np.inf)
     return {
+        "pad_radius_m": radii, "worst_N_if_fixed": other,
         "contact_model": execution.setting.contact_model,
         "margin": margin_document(margins) | {"per_contact_N": execution.margins},
         "lambda": execution.states.forces, "du": execution.du, "q": execution.states.q,

@@ -64,7 +64,8 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*accuracy_notes(analysis.response), *stage.notes, *_ranges_left(task, formulation, motion),
-         *_far(analysis, motion), *_missed(found), *frame_notes(analysis.grasp)), found, interrupted=stage.interrupted,
+         *_far(analysis, motion), *passed_over(found), *frame_notes(analysis.grasp)), found,
+        interrupted=stage.interrupted,
     )  # fmt: skip
 
 
@@ -134,7 +135,7 @@ def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
         )
 
 
-def _missed(between: Between | None) -> Iterator[str]:
+def passed_over(between: Between | None) -> Iterator[str]:
     """Yield a note when the knots are so far apart that the plan passes over a good part of the wanted motion."""
     if between is not None and between.path_departure > PASSED_OVER * between.path_size:
         size, departure = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))

@@ -7,7 +7,6 @@ step it took; a step that was too long is taken back and tried again shorter.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,16 +14,17 @@ import numpy as np
 
 from synergrip.conic.along import AlongPath, Path
 from synergrip.conic.decide import Decision
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
-from synergrip.conic.rows import Rows, norm_within
 from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
 from synergrip.planning.executing import Executor, analyses_of, sag_of
+from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
 from synergrip.statics.analysis import Analysis
@@ -38,6 +38,8 @@ from synergrip.values import Value
 
 TRUE, OF_FORCES = 1e-3, 1e-4
 """A promise is true when it is to this many newtons, or to this share of the largest force where that is more."""
+ROUGH = 0.05
+"""Share of the largest force up to which promise and truth are near each other."""
 MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
@@ -46,6 +48,9 @@ AIMED, SHORTEST_CUT = 0.5, 0.05
 """What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
 BETTER = 0.5
 """Share of the last difference between promise and truth that a step must get below."""
+REACHED = 0.01
+"""How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
+the grasp."""
 FOLLOWED, NEARER = 1e-5, 0.9
 """[m] How near the object is brought to where it is wanted, as long as a pass brings it nearer by this factor."""
 
@@ -63,10 +68,20 @@ class Walk(Value):
     stage: Stage | None = None
     """What the goals of the last pass came to; None before the first."""
     passes: int = 0
-    largest_margin: float | None = None
-    """The largest margin [N] in the program of the last pass, when it was asked for."""
     tried: tuple[Decision, ...] = ()
     """On the first goal, of every pass; of those taken back, too."""
+    hindered: Hindrance | None = None
+    """What kept the last pass from being taken; None when it was."""
+    until: float | None = None
+    """[s] until when the object is brought where it is wanted, by a walk of the first knots that does not go on from
+    there; None for a walk of all knots."""
+    stopped: bool = False
+    """Whether somebody interrupted it."""
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether somebody interrupted it, or the goals of its last pass."""
+        return self.stopped or (self.stage is not None and self.stage.interrupted)
 
     @property
     def true(self) -> bool:
@@ -80,8 +95,8 @@ class Walk(Value):
 
     @property
     def behind(self) -> float:
-        """How far the rigid motion is behind the wanted one [m], at most."""
-        return np.inf if self.way is None else float(self.way.behind.max(initial=0.0))
+        """How far the rigid motion is behind the wanted one [m], at most; infinitely where knots were not reached."""
+        return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
 
     def better_than(self, other: Walk) -> bool:
         """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""
@@ -90,30 +105,6 @@ class Walk(Value):
         if other.true:
             return self.true and self.behind < NEARER * other.behind
         return self.true or self.gap < BETTER * other.gap
-
-
-@dataclass(frozen=True, eq=False)
-class ShortStep(Limit):
-    """Joints move little in one pass, beyond what the way that is left takes: the maps hold near the path only."""
-
-    room: Array
-    """(T,) [rad, or m over the length]."""
-    key = "step"
-    watches = "references"
-
-    def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return one second-order cone per knot."""
-        assert isinstance(formulation, AlongPath)
-        moved = formulation.map_of(lambda at: at.response.dq_dzr) / self.room[:, None, None]
-        return [norm_within(self.key, "joints", formulation.change.after(moved).shortened, 1.0)]
-
-    def loosened(self, share: float) -> ShortStep:
-        """Return it with more room."""
-        return replace(self, room=frozen(self.room * (1 + share)))
-
-    def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Raise: it is a limit of a step, not of a plan."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +117,8 @@ class Walker:
     solver: Answerer
     reserve: float = 0.0
     """[N] how much more than the task asks contacts are to keep at the knots, so that they keep that between them."""
+    aim: Array | None = None
+    """(T, 6) where the object is wanted instead of where the task says [m, rad]."""
 
     def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
@@ -133,45 +126,78 @@ class Walker:
         Args:
             linear: the motion that the plan promises.
         """
-        return self.on(self.executed(linear.dz_r, linear.forces, linear))
+        whole = self.on(self.executed(linear.dz_r, linear.forces, linear))
+        if whole.interrupted or (whole.true and whole.behind <= self.allowed):
+            return whole
+        alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
+        held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
+        grown = self.grown(replace(linear, dz_r=frozen(held)))
+        return replace(grown, passes=whole.passes + grown.passes, tried=(*whole.tried, *grown.tried))
 
-    def on(self, best: Walk) -> Walk:
-        """Return the walk that the passes end with, from another one."""
+    def grown(self, hold: Motion) -> Walk:
+        """Return the walk that comes of following the wanted motion a little farther at a time (`growing`).
+
+        Args:
+            hold: a plan for the same loads without the motion, for its references; they change with the load.
+        """
+        from synergrip.planning.growing import grown
+
+        return grown(self, hold.dz_r)
+
+    def near(self, walk: Walk) -> bool:
+        """Return whether a walk is as far as wanted, and promise and truth are near each other."""
+        largest = float(np.abs(walk.executed.states.forces).max(initial=0.0))
+        return walk.behind <= self.allowed and walk.gap <= max(TRUE, ROUGH * largest)
+
+    @property
+    def allowed(self) -> float:
+        """How far the rigid motion may be behind the wanted one [m]."""
+        return self.task.tolerance or REACHED * self.start.response.scale.length
+
+    def on(self, best: Walk, *, roughly: bool = False) -> Walk:
+        """Return the walk that the passes end with, from another one; an interrupt keeps the best so far.
+
+        Args:
+            best: where they begin.
+            roughly: whether they end where promise and truth are near each other, or with the first that is no better.
+        """
         share, tries = 1.0, 0
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
             done = best.true and (best.behind < FOLLOWED or tries == TRIES)
+            done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
             if best.way is None or done or share < SHORTEST:
                 break
-            answered, limits = self._first(best.way, best, share)
-            found = self._after(answered, limits, best) if answered.decision.acceptable else None
+            try:
+                answered, limits = self._first(best.way, best, share)
+                found = self._after(answered, limits, best) if answered.decision.acceptable else None
+            except KeyboardInterrupt:
+                return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
             tried = (*best.tried, answered.decision)
-            best = replace(found if good and found is not None else best, passes=count, tried=tried)
+            why = None if good else Hindrance.of(answered.decision, None if found is None else found.executed)
+            best = replace(found if good and found is not None else best, passes=count, tried=tried, hindered=why)
             share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
         """Return what the goals after the first come to, executed."""
         first, *others = self.task.goals
-        stage = begun(answered, limits, first)
-        largest = stage.largest_margin
-        stage = through(stage, others, unasked_goals(self.task), self.solver)
+        stage = through(begun(answered, limits, first), others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        found = self.executed(references, promised, best.executed)
-        return replace(found, stage=stage, largest_margin=largest)
+        return replace(self.executed(references, promised, best.executed), stage=stage)
 
-    def executed(self, references: Array, promised: Array, near: Motion | States | Execution) -> Walk:
+    def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
 
         Args:
             references: at the knots of the task.
-            promised: forces.
+            promised: forces; None when nothing was promised, which any pass then improves on.
             near: states, a motion or an execution that are not far from what they do.
         """
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
         forces = executed.states.forces
-        gap = float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
+        gap = np.inf if promised is None else float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
         if not executed.whole:
             return Walk(frozen(references), executed, gap, None)
         each = analyses_of(executed, self.start)
@@ -188,7 +214,11 @@ class Walker:
     @cached_property
     def wanted(self) -> Array:
         """(T, 6) where the object is wanted, from where it starts [m, rad]."""
-        return frozen(target_displacement(self.start, self.task, self.task.target.values))
+        return (
+            self.aim
+            if self.aim is not None
+            else frozen(target_displacement(self.start, self.task, self.task.target.values))
+        )
 
     def around(self, way: Steps, walk: Walk, beta: Array) -> AlongPath:
         """Return the task around a path, with a rigid motion (T, dim Gamma_ucs) that follows what is wanted."""

@@ -7,13 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import BETWEEN, Figures, figures
 from synergrip.planning.outcome import Check, Plan, Unknown
-from synergrip.planning.reach import allowed, notes, reached_by
+from synergrip.planning.reach import allowed, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
+from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walk, Walker
 
 MORE, MOST_RESERVE = 1.2, 1.0
@@ -24,6 +26,9 @@ margin."""
 def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
     """Return the answer at the true equilibria of the hand; a grasp given as matrices has none to speak of.
 
+    Raises:
+        KeyboardInterrupt: what was found when somebody interrupted does not hold.
+
     Args:
         plan: for the start posture.
         answers: the solver.
@@ -33,7 +38,10 @@ def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
     if plan.task.linearise == "along" and not plan.interrupted:
         return answer_of(walker.walk(plan.motion), walker, plan)
-    return _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
+    answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
+    if plan.interrupted and not isinstance(answer, Plan):
+        raise KeyboardInterrupt
+    return answer
 
 
 def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
@@ -44,9 +52,9 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
         return _unknown(walker, plan, f"{why}; {ALONG}", walk)
     found = figures(walk, walker, plan.formulation, plan.between)
     said = _missed(found)
-    if walk.behind > allowed(walker):
-        off = f"the object is up to {1e3 * walk.behind:.3g} mm off the wanted motion"
-        said = f"{said}; {off}" if said else f"at the true equilibrium {off}"
+    if (most := float(off(walk, walker).max())) > allowed(walker):
+        strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
+        said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
     if said:
         return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
@@ -69,7 +77,9 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         linear: the plan for the start posture, where the walk began.
     """
     task = walker.task
-    if walk.way is None or walk.behind > allowed(walker):
+    if walk.interrupted:
+        return _best_so_far(walk, walker, linear)
+    if float(off(walk, walker).max()) > allowed(walker):
         reached = reached_by(walk, walker)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
     if not walk.true:
@@ -83,21 +93,45 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
     stage = walk.stage
-    told = (*accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *notes(walk, walker))
+    told = (
+        *accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *passed_over(found.between),
+        *frame_notes(walker.start.grasp), *notes(walk, walker),
+    )  # fmt: skip
     plan = linear if stage is None else replace(
-        linear, decisions=(*linear.decisions, *stage.decisions), largest_margin=walk.largest_margin,
-        interrupted=stage.interrupted,
+        linear, decisions=(*linear.decisions, *stage.decisions), interrupted=stage.interrupted,
     )  # fmt: skip
     return _with(plan, walk, walker, found, told)
+
+
+def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
+    """Return the plan that an interrupted walk has come to, when all that it asks holds at its true states.
+
+    Raises:
+        KeyboardInterrupt: it does not.
+    """
+    if float(off(walk, walker).max()) > allowed(walker):
+        raise KeyboardInterrupt
+    found = figures(walk, walker, linear.formulation, linear.between)
+    if not all(check.passed for check in found.checks):
+        raise KeyboardInterrupt
+    stage, note = (
+        walk.stage,
+        f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best",
+    )
+    decisions = linear.decisions if stage is None else (*linear.decisions, *stage.decisions)
+    plan = replace(linear, decisions=decisions, interrupted=True)
+    return _with(plan, walk, walker, found, (*(() if stage is None else stage.notes), note))
 
 
 def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, told: Sequence[str]) -> Plan:
     """Return a plan with the figures of a walk."""
     alpha, beta, gamma = walker.start.coordinates.coordinates(walk.references)
+    fixed = walker.executor.with_fixed_contacts(walk.executed, walker.task.wrench)
+    largest = None if plan.largest_margin is None else float(found.usages[0].value.min())
     return replace(
-        plan, motion=found.motion, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
+        plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, checks=found.checks, between=found.between,
-        executed=walk.executed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
+        executed=walk.executed, fixed=fixed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
     )  # fmt: skip
 
 

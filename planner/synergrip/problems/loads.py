@@ -75,8 +75,9 @@ def _gathered(issues: list[Issue], key: str, make: Callable[[], T]) -> T | None:
     try:
         return make()
     except InputError as error:
-        for issue in error.issues:  # the arguments of a push have the names of its keys
+        for issue in error.issues:  # the arguments of a push have the names of its keys, but for the point
             inside = issue.key.removeprefix("Push") if issue.key.startswith("Push.") else ""
+            inside = inside.replace(".point", ".at")
             issues.append(issue if issue.file else replace(issue, key=key + inside))
         return None
 
@@ -116,7 +117,7 @@ def _target(table: TaskTable, folder: Path) -> tuple[str, Callable[[], Motion]]:
 def push_of(table: PushTable) -> Push:
     """Return a push."""
     return Push(
-        force=table.force, direction=table.direction, at=table.at, start=table.start, end=table.end,
+        force=table.force, direction=table.direction, point=table.at, start=table.start, end=table.end,
         profile=table.profile, ramp=table.ramp,
     )  # fmt: skip
 

@@ -106,25 +106,13 @@ def _normal_force(model: Model, limit: NormalForce) -> tuple[Cone, ...]:
     )
 
 
-def _symmetric(key: str, names: tuple[str, ...], value: Expression, limit: Array) -> tuple[Cone, ...]:
-    keep = np.flatnonzero(np.isfinite(limit))
+def _symmetric(limit: Any, names: tuple[str, ...], value: Expression) -> tuple[Cone, ...]:
+    keep = np.flatnonzero(np.isfinite(limit.limit))
     if not len(keep):
         return ()
-    share = value[:, keep] @ np.diag(1 / limit[keep])
+    share = value[:, keep] @ np.diag(1 / limit.limit[keep])
     low, high = (items_of((names[i] for i in keep), side) for side in ("lowest", "highest"))
-    return Cone(key, low, 1 + share), Cone(key, high, 1 - share)
-
-
-def _joint_torque(model: Model, limit: JointTorque) -> tuple[Cone, ...]:
-    return _symmetric(limit.key, model.response.grasp.joints, model.torque, limit.limit)
-
-
-def _actuator_effort(model: Model, limit: ActuatorEffort) -> tuple[Cone, ...]:
-    return _symmetric(limit.key, model.response.grasp.synergies, model.effort, limit.limit)
-
-
-def _synergy_reference(model: Model, limit: SynergyReference) -> tuple[Cone, ...]:
-    return _symmetric(limit.key, model.response.grasp.synergies, model.dz_r, limit.limit)
+    return Cone(limit.key, low, 1 + share), Cone(limit.key, high, 1 - share)
 
 
 def _synergy_rate(model: Model, limit: SynergyRate) -> tuple[Cone, ...]:
@@ -177,9 +165,9 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     FrictionCone: lambda model, limit: friction(model, limit.margin / model.force_unit, limit.key),
     FrictionReserve: _friction_reserve,
     NormalForce: _normal_force,
-    JointTorque: _joint_torque,
-    ActuatorEffort: _actuator_effort,
-    SynergyReference: _synergy_reference,
+    JointTorque: lambda model, limit: _symmetric(limit, model.response.grasp.joints, model.torque),
+    ActuatorEffort: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.effort),
+    SynergyReference: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.dz_r),
     SynergyRate: _synergy_rate,
     SynergyAcceleration: synergy_acceleration,
     JointRange: joint_range,

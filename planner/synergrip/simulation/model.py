@@ -18,8 +18,8 @@ from synergrip.simulation.joint_springs import NOTHING, JointSprings, joint_spri
 from synergrip.simulation.played_plan import Pad, PlayedPlan
 from synergrip.values import Value
 
-SMALL_PAD = 1e-3
-"""Radius [m] of the sphere that touches where a pad has none."""
+SMALL_PAD = 2e-4
+"""Radius [m] of the sphere that touches where a pad has none; it rolls, but not far."""
 SWING = 0.15
 """Largest product of a natural frequency of joints and pads and the step."""
 STAND_IN = 0.1
@@ -35,6 +35,8 @@ STIFF = (0.999, 0.999, 1e-3, 0.5, 2.0)
 not part what touches for a step."""
 SOFTEST = 4.0
 """Time constant of contacts, in steps."""
+STICKING = 400.0
+"""How much stiffer contacts are against sliding than along the normal: with less they creep, with 1e4 some chatter."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,7 +92,7 @@ def make_model(plan: PlayedPlan, step: float) -> Model:
         if body.name != "world":
             body.mass, body.inertia = LIGHT, [LIGHT_INERTIA] * 3
     spec.compiler.degree, option = False, spec.option
-    option.timestep, option.gravity, option.impratio = step, [0.0, 0.0, 0.0], 100.0
+    option.timestep, option.gravity, option.impratio = step, [0.0, 0.0, 0.0], STICKING
     option.cone, option.integrator = mujoco.mjtCone.mjCONE_ELLIPTIC, mujoco.mjtIntegrator.mjINT_EULER
     option.solver, option.iterations, option.tolerance = mujoco.mjtSolver.mjSOL_NEWTON, 100, 1e-12
     for name, inertia in zip(plan.kinematics.joints, _armature(plan, springs, step), strict=True):

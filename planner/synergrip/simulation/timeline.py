@@ -10,7 +10,7 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.simulation.played_plan import PlayedPlan
 from synergrip.values import Value
 
-SLOWEST = {"object": 2e-3, "turn": 0.05, "force": 10.0, "reference": 0.2}
+SLOWEST = {"object": 1e-3, "turn": 0.025, "force": 5.0, "reference": 0.1}
 """What an object moves [m/s], turns [rad/s], a force changes [N/s] and a reference [1/s] at most, when it is slow."""
 SHORTEST = 0.02
 """[s] between two stations when it is slow, for what jumps."""

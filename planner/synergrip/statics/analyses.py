@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.judging import place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
@@ -42,12 +43,14 @@ class AnalysisGroup(Value):
 
     def at(self, index: int) -> Analysis:
         """Return the analysis of one of the N grasps, as `analyse` would."""
+        index = place_of("index", index, len(self.places))
         response = self.response.at(index)
         found = self.coordinates
         own = Coordinates(frozen(found.M[index]), frozen(found.inverse[index]), found.dimensions)
         return Analysis(response.grasp, response, self.spaces.at(index), own)
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Analyses(Value):
     """Everything that is true of many grasps before any task, those of like dimensions together."""

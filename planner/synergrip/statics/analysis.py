@@ -11,6 +11,7 @@ from synergrip.statics import Coordinates, Response, Subspaces, coordinates, res
 from synergrip.values import Value
 
 
+@naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Analysis(Value):
     """Everything that is true of a grasp before any task."""

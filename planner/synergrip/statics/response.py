@@ -22,7 +22,7 @@ from synergrip.linalg import SINGULAR, Array, Decision, frozen
 from synergrip.statics.restraint import restraint
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
-from synergrip.values import Value
+from synergrip.values import ByName, Value
 
 ENOUGH = 1e-11
 """Relative error of the maps up to which float64 is believed; beyond it they are worked out in twice the digits."""
@@ -66,6 +66,11 @@ class Accuracy:
     def _share(self, amount: float) -> float:
         whole = self.size if self.size > self.unknown else self.terms  # as `shares` has it
         return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
+
+
+def accuracies(known: Array) -> ByName[Accuracy]:
+    """Return what `figures` (12, 4) say of the maps of one grasp, by their names."""
+    return ByName("accuracy", {name: Accuracy(*row) for name, row in zip(FIGURES, known.tolist(), strict=True)})
 
 
 def shares(amounts: Array, figures: Array) -> Array:
@@ -142,7 +147,7 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     decision = restraint(grasp, scale, held)
     refuse_rigid_contacts(grasp, scale)
     maps, known = _worked_out(Matrices.of(grasp), scale)
-    accuracy = {name: Accuracy(*row) for name, row in zip(FIGURES, known.tolist(), strict=True)}
+    accuracy = accuracies(known)
     return Response(**{name: frozen(each) for name, each in maps.items()},
                     grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip
 

@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.documents.judging import place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, scale_of
 from synergrip.grasps.stack import GraspStack, Matrices
-from synergrip.linalg import Array, Decisions, Places, frozen
-from synergrip.statics.response import FIGURES, Accuracy, Maps, Response, is_enough, maps_in_float64, respond
-from synergrip.statics.restraint import restraints
+from synergrip.linalg import Array, Decisions, Places, decided, frozen
+from synergrip.statics.response import FIGURES, Maps, Response, accuracies, is_enough, maps_in_float64, respond
 from synergrip.statics.saddle import STACKED
 from synergrip.statics.yielding import is_rigid
 
@@ -53,12 +53,11 @@ class Responses(Maps):
 
     def at(self, index: int) -> Response:
         """Return the response of one of the N grasps, as `respond` would."""
-        index = range(len(self.places))[index]
-        grasp, rows = self.grasps[index], self.figures[index].tolist()
+        index = place_of("index", index, len(self.places))
         maps = {field.name: frozen(getattr(self, field.name)[index]) for field in fields(Maps)}
-        accuracy = {name: Accuracy(*row) for name, row in zip(FIGURES, rows, strict=True)}
+        grasp = self.grasps[index]
         return Response(**maps, grasp=grasp, scale=scale_of(grasp), restraint=self.restraint.at(index),
-                        accuracy=accuracy)  # fmt: skip
+                        accuracy=accuracies(self.figures[index]))  # fmt: skip
 
     def taken(self, indices: Any) -> Responses:
         """Return the responses of some of the N grasps (whole numbers or a slice), in their order."""
@@ -86,7 +85,7 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
         >>> responses.dlambda_dzr.shape  # (2, n_l, n_z)
     """
     stack = GraspStack.of(grasps)
-    restraint = restraints(stack.matrices.G, stack.metric)
+    restraint = decided(stack.of_object)
     parts = _in_chunks(stack, restraint.ranks == 6)
     left = np.setdiff1d(np.arange(len(stack)), np.concatenate([places for places, _, _ in parts]))
     refusals: dict[int, InputError | Refusal] = {}
@@ -154,12 +153,12 @@ def _part(place: int, response: Response) -> Part:
 
 def _joined(parts: Sequence[Part], answered: Places) -> tuple[dict[str, Array], Array]:
     """Return maps and figures of all parts in the order of the places that are answered."""
-    slots = [np.searchsorted(answered, places) for places, _, _ in parts]
+    places = np.concatenate([each for each, _, _ in parts])
+    order = None if np.array_equal(places, answered) else np.argsort(places)
 
     def joined(pieces: Sequence[Array]) -> Array:
-        whole = np.empty((len(answered), *pieces[0].shape[1:]))
-        for slot, piece in zip(slots, pieces, strict=True):
-            whole[slot] = piece
+        whole = np.concatenate(pieces)
+        whole = whole if order is None else whole[order]
         whole.setflags(write=False)
         return whole
 

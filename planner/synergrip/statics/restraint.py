@@ -6,8 +6,8 @@ import numpy as np
 
 from synergrip.errors import NotRestrainedError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Metric, Scale
-from synergrip.linalg import RANK_TOLERANCE, Array, Decision, Decisions, canonical, decided, frozen, split
+from synergrip.grasps.scale import Scale
+from synergrip.linalg import RANK_TOLERANCE, Array, Decision, canonical, decided, frozen, split
 from synergrip.statics.twists import describe_twist
 
 
@@ -23,7 +23,7 @@ def restraint(grasp: Grasp, scale: Scale, load: Array) -> Decision:
         NotRestrainedError: a motion of the object moves no contact; it carries the free twists and
             the largest part of the load that no contact force can balance.
     """
-    decision = restraints(grasp.G, scale).at(())
+    decision = decided(scale.scaled_grasp(grasp.G)).at(())
     if decision.rank == 6:
         return decision
     free = canonical(split(scale.scaled_grasp(grasp.G)).null_space)
@@ -33,11 +33,6 @@ def restraint(grasp: Grasp, scale: Scale, load: Array) -> Decision:
     counts = np.linalg.norm(worst) > RANK_TOLERANCE * float(np.linalg.norm(scale.wrench(load), axis=1).max())
     unsupported = scale.motion.T @ free @ worst if counts else np.zeros(6)
     raise NotRestrainedError(_message(grasp, scale, twists, unsupported), frozen(twists), frozen(unsupported))
-
-
-def restraints(G: Array, metric: Metric) -> Decisions:
-    """Return the rank decisions on the G' of one grasp or of many, G (..., 6, n_l)."""
-    return decided(metric.scaled_grasp(G))
 
 
 def _message(grasp: Grasp, scale: Scale, twists: Array, unsupported: Array) -> str:

@@ -148,20 +148,21 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
     values, lost = rounded(maps), rounded(system.followed(last, number(np.zeros((n_z, n_z + 6)))))
     others = _System.of(matrices, arithmetic, arithmetic.other)
     other = others.followed(solution + correction(others, solution), still)
-    changes = _sizes(rounded(other - maps), CAUTION / arithmetic.apart)
-    errors = _sizes(lost, CAUTION)
-    errors += _sizes(values, ROUNDOFF)
+    other -= maps
+    changes = _to_sizes(rounded(other), CAUTION / arithmetic.apart)
+    errors = _to_sizes(lost, CAUTION)
+    errors += ROUNDOFF * np.abs(values)
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
         changes = errors = np.maximum(changes, errors, out=errors)
     rows = _rows(matrices)
     return Answer(rows, values, errors, changes, _terms(matrices, rounded(inverse), values, rows))
 
 
-def _sizes(values: Array, times: float) -> Array:
-    """Return the sizes of entries, `times` as large."""
-    sizes = np.abs(values)
-    sizes *= times
-    return sizes
+def _to_sizes(values: Array, times: float) -> Array:
+    """Turn entries into their sizes, `times` as large: new arrays of a whole stack cost more than the arithmetic."""
+    np.abs(values, out=values)
+    values *= times
+    return values
 
 
 def _rows(matrices: Matrices) -> dict[str, slice]:
@@ -171,9 +172,9 @@ def _rows(matrices: Matrices) -> dict[str, slice]:
 
 
 def _terms(matrices: Matrices, inverse: Array, values: Array, rows: Mapping[str, slice]) -> Array:
-    """Return the sizes of the terms of every map; `inverse` is that of the system."""
+    """Return the sizes of the terms of every map; `inverse`, that of the system, is used up."""
     J, S, n_z = np.abs(matrices.J), np.abs(matrices.S), matrices.S.shape[-1]
-    inverse = np.abs(inverse)
+    np.abs(inverse, out=inverse)
     added = _System(matrices.G, J, S, matrices.C_s, -np.abs(matrices.C_q), -np.abs(matrices.C_z), FLOAT64)
     answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
     result = added.followed(answers, np.eye(n_z, n_z + 6))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.documents.judging import expected
+from synergrip.documents.judging import expected, place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Decisions, Places, frozen
 from synergrip.statics.responses import Responses
@@ -22,6 +22,7 @@ from synergrip.statics.subspaces import (
     free_motions,
 )
 from synergrip.statics.theorem1 import Coordinates, coordinates_of
+from synergrip.values import ByName
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,8 +46,10 @@ class SubspaceGroup(Bases):
 
     def at(self, index: int) -> Subspaces:
         """Return the subspaces of one of the N grasps, as `subspaces` would."""
+        index = place_of("index", index, len(self.places))
         bases = {field.name: frozen(getattr(self, field.name)[index]) for field in fields(Bases)}
-        return Subspaces(**bases, decisions={name: each.at(index) for name, each in self.decisions.items()})
+        decisions = {name: each.at(index) for name, each in self.decisions.items()}
+        return Subspaces(**bases, decisions=ByName("decisions", decisions))
 
 
 @naming_arguments
@@ -68,7 +71,8 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
         ...     print(group.dimensions, group.places, group.E_s.shape)
     """
     expected("responses", responses, Responses, "respond_many(grasps)")
-    moved = ContactMotions.of(responses.grasps.matrices, responses.grasps.metric)
+    grasps = responses.grasps
+    moved = ContactMotions.of(grasps.matrices, grasps.metric, grasps.of_object)
     groups = []
     for rank, alike in _by_rank(moved.rigid.ranks):
         same, theirs = moved.taken(alike), responses.taken(alike)

@@ -30,7 +30,7 @@ from synergrip.linalg import (
     singular_values,
 )
 from synergrip.statics.response import Response
-from synergrip.values import Value
+from synergrip.values import ByName, Value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -85,14 +85,15 @@ def subspaces(response: Response) -> Subspaces:
         InputError: no response.
     """
     expected("response", response, Response, "respond(grasp)")
-    moved = ContactMotions.of(Matrices.of(response.grasp), response.scale)
+    matrices, scale = Matrices.of(response.grasp), response.scale
+    moved = ContactMotions.of(matrices, scale, scale.scaled_grasp(matrices.G))
     rank, known = int(moved.rigid.ranks), response.accuracy["dlambda_dzr"]
     moving = moved.moving(rank)
     E_s, forces = controllable_forces(response.dlambda_dzr, np.array(known.unknown), moved, response.scale, rank)
     Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, response.scale, int(moving.ranks))
     found = {"redundancy": moved.redundancy, "rigid": moved.rigid, "forces": forces}
     decisions = {"restraint": response.restraint, **{name: each.at(()) for name, each in found.items()}}
-    return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, decisions)
+    return Subspaces(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, ByName("decisions", decisions))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -126,9 +127,9 @@ class ContactMotions(Value):
     """(..., n_z, n_z) the synergy motions, orthonormal, behind the singular values of `rigid`."""
 
     @classmethod
-    def of(cls, matrices: Matrices, metric: Metric) -> ContactMotions:
-        """Return those of one grasp or of many."""
-        of_object, J = metric.scaled_grasp(matrices.G), metric.scaled_rows(matrices.J)
+    def of(cls, matrices: Matrices, metric: Metric, of_object: Array) -> ContactMotions:
+        """Return those of one grasp or of many; `of_object` is the G' that `Metric.scaled_grasp` makes."""
+        J = metric.scaled_rows(matrices.J)
         of_synergies = J @ matrices.S
         values = singular_values(of_synergies)
         largest = values.max(axis=-1, initial=0.0)

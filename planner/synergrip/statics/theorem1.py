@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.documents.judging import expected
+from synergrip.documents.judging import as_numbers, described, expected
 from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
 from synergrip.grasps.scale import Metric
 from synergrip.linalg import Array, frozen
 from synergrip.statics.response import Maps, Response
@@ -38,13 +39,28 @@ class Coordinates(Value):
 
     def references(self, alpha: Array, beta: Array, gamma: Array) -> Array:
         """Return dz_r (..., n_z) for alpha (..., dim E_s), beta (..., dim Gamma_ucs), gamma (..., dim Gamma_zr)."""
-        return np.asarray(np.concatenate([alpha, beta, gamma], axis=-1) @ self.inverse.mT)
+        given = {"alpha": alpha, "beta": beta, "gamma": gamma}
+        parts = [_judged(name, given[name], self.M, size) for name, size in zip(given, self.dimensions, strict=True)]
+        return np.asarray(np.concatenate(parts, axis=-1) @ self.inverse.mT)
 
     def coordinates(self, dz_r: Array) -> tuple[Array, Array, Array]:
         """Return alpha, beta, gamma (..., dim) of references (..., n_z)."""
         forces, motions, _ = self.dimensions
-        result = np.asarray(dz_r) @ self.M.mT
+        result = _judged("dz_r", dz_r, self.M, self.M.shape[-1]) @ self.M.mT
         return result[..., :forces], result[..., forces : forces + motions], result[..., forces + motions :]
+
+
+def _judged(name: str, value: object, M: Array, size: int) -> Array:
+    """Return numbers (..., size) of the grasp or grasps of M.
+
+    Raises:
+        InputError: something else.
+    """
+    found, many = as_numbers(value), M.ndim - 2
+    if found is None or found.ndim <= many or found.shape[-1:] != (size,) or (many and len(found) not in (1, len(M))):
+        shape = f"({len(M)}, ..., {size}), a row for each grasp" if many else f"(..., {size})"
+        raise InputError.at(name, f"expected numbers of shape {shape}; got {described(value)}")
+    return found
 
 
 @naming_arguments

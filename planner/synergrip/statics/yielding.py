@@ -46,23 +46,26 @@ def _contacts_yield_plainly(C_s: Array, metric: Metric) -> NDArray[np.bool_]:
     force = metric.force[..., None]
     diagonal = np.diagonal(C_s, axis1=-2, axis2=-1)[..., None] / force**2
     rows = np.abs(C_s) @ (1 / force) / force
-    plain = np.array((2 * diagonal - rows).min(axis=(-2, -1)) > PLAINLY * _norm(rows))
+    size = _norm(rows)  # at least that of the matrix
+    plain = np.array((2 * diagonal - rows).min(axis=(-2, -1)) > PLAINLY * size)
     if not np.all(plain):
-        plain[~plain] = _determinant_shows_it(C_s[~plain], metric.taken(~plain))
+        least = diagonal[~plain].min(axis=(-2, -1))
+        plain[~plain] = least * smallest_of_unit_diagonal(C_s[~plain]) > PLAINLY * size[~plain]
     return plain
 
 
-def _determinant_shows_it(C_s: Array, metric: Metric) -> NDArray[np.bool_]:
-    """Return where the determinant of scaled C_s shows that no eigenvalue is small.
+def smallest_of_unit_diagonal(matrices: Array) -> Array:
+    """Return what no eigenvalue of matrices is smaller than once they are scaled to a diagonal of ones; or 0.
 
-    Scaled once more to a diagonal of ones, n eigenvalues have the sum n: the least of them is the determinant through
-    the product of the others, which is at most ``(n / (n - 1))^(n - 1) < e``.
+    Their n eigenvalues have the sum n: the least of them is the determinant through the product of the others, which
+    is at most ``(n / (n - 1))^(n - 1) < e``. The determinant is that of the matrix through its diagonal.
     """
-    scaled = metric.scaled_rows(C_s) / metric.force[..., None, :]
-    diagonal = np.diagonal(scaled, axis1=-2, axis2=-1)
-    positive = np.where(diagonal > 0, diagonal, np.inf)
-    determinant = np.exp(np.linalg.slogdet(scaled)[1] - np.log(positive).sum(axis=-1))
-    return np.asarray(diagonal.min(axis=-1) * determinant / np.e > PLAINLY * _norm(scaled))
+    try:
+        factors = np.linalg.cholesky(matrices)
+    except np.linalg.LinAlgError:  # of one of them or more
+        return np.array([smallest_of_unit_diagonal(each) for each in matrices]) if matrices.ndim > 2 else np.array(0.0)
+    squares = np.diagonal(factors, axis1=-2, axis2=-1) ** 2 / np.diagonal(matrices, axis1=-2, axis2=-1)
+    return np.asarray(squares.prod(axis=-1) / np.e)
 
 
 def _yielding(matrices: Matrices, metric: Metric) -> Array:

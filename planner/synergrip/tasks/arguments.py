@@ -19,6 +19,9 @@ Numbers = Sequence[float] | Array
 Rows = Sequence[Sequence[float]] | Array
 """What may be given as a table (K, m)."""
 
+MOST_TURNS = 2
+"""Whole turns of a palm or an object at most; a number that says more is one of degrees."""
+
 
 class TaskArguments(Judge):
     """Judges the arguments of a load or a target, and returns each as it is kept: plain, immutable values."""
@@ -33,6 +36,14 @@ class TaskArguments(Judge):
             self.refuse(name, f"expected a number{f' in {unit}' if unit else ''}{wanted}, got {described(value)}")
             return math.nan
         return float(value)
+
+    def angle(self, name: str, value: Any) -> float:
+        """Return an angle [rad] of at most `MOST_TURNS`; NaN after noting that it is none, or likely in degrees."""
+        found = self.real(name, value, unit="rad")
+        if abs(found) > MOST_TURNS * 2 * math.pi:
+            what = f"more than {MOST_TURNS} turns; angles are in radians: np.radians(90) = 1.57"
+            self.refuse(name, f"{found:g} rad are {what}")
+        return found
 
     def vector(self, name: str, value: Any, count: int, what: str) -> tuple[float, ...]:
         """Return a list of finite numbers."""

@@ -27,6 +27,10 @@ class _Addable(Motion):
         """Return both moves at once."""
         return Moves((*_parts(self), *_parts(other)))
 
+    def __radd__(self, other: object) -> Moves:
+        """Return the move itself for the 0 that `sum` starts with."""
+        return Moves(_parts(self)) if isinstance(other, int) and other == 0 else Moves((other, *_parts(self)))  # type: ignore[arg-type]
+
     def over(self, setting: Setting) -> Moving:
         """Return the motion (T, m) at any time of a task."""
         parts = _parts(self)
@@ -65,7 +69,7 @@ class Move(_Addable):
         judge = TaskArguments("Move")
         axis = judge.direction("axis", self.axis)
         lift = None if self.lift is None else judge.real("lift", self.lift, unit="m")
-        roll = None if self.roll is None else judge.real("roll", self.roll, unit="rad")
+        roll = None if self.roll is None else judge.angle("roll", self.roll)
         if lift is None and roll is None:
             judge.refuse("lift", "a move along an axis needs lift [m] or roll [rad], for example lift=0.01")
         judge.word("profile", self.profile, tuple(PROFILES))

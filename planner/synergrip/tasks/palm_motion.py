@@ -48,7 +48,7 @@ class Palm(Load):
         """Judge the arguments, alone and together."""
         judge = TaskArguments("Palm")
         axis = None if self.axis is None else judge.direction("axis", self.axis)
-        turn = None if self.turn is None else judge.real("turn", self.turn, unit="rad")
+        turn = None if self.turn is None else judge.angle("turn", self.turn)
         what = "3 lengths in m, axes of the palm at the start"
         shift = None if self.shift is None else judge.vector("shift", self.shift, 3, what)
         judge.word("profile", self.profile, tuple(PROFILES))

@@ -29,7 +29,7 @@ class Push(Load):
     Args:
         force: its largest size [N].
         direction: in the palm frame: "x", "y", "z" or 3 numbers.
-        at: (3,) where it acts, from B, axes of the palm [m].
+        point: (3,) where it acts, from B, axes of the palm [m].
         start: when it begins [s]; None for the start of the task.
         end: when it is over [s]; None for the end of the task.
         profile: "step", "trapezoid" or "half-sine".
@@ -45,7 +45,7 @@ class Push(Load):
 
     force: float
     direction: str | Numbers
-    at: Numbers = (0.0, 0.0, 0.0)  # type: ignore[assignment]  # its values over time are those of `over`
+    point: Numbers = (0.0, 0.0, 0.0)
     start: float | None = None
     end: float | None = None
     profile: PushProfile = "step"
@@ -57,7 +57,7 @@ class Push(Load):
         kept = {
             "force": judge.real("force", self.force, at_least=0, unit="N"),
             "direction": judge.direction("direction", self.direction),
-            "at": judge.vector("at", self.at, 3, "3 lengths in m from B, axes of the palm"),
+            "point": judge.vector("point", self.point, 3, "3 lengths in m from B, axes of the palm"),
             "start": None if self.start is None else judge.real("start", self.start, at_least=0, unit="s"),
             "end": None if self.end is None else judge.real("end", self.end, above=0, unit="s"),
             "ramp": None if self.ramp is None else judge.real("ramp", self.ramp, above=0, unit="s"),
@@ -102,8 +102,8 @@ class Push(Load):
             message = f"two ramps of {ramp:g} s do not fit into a push of {last - first:g} s; at most half of it each"
             raise InputError.at("ramp", message)
         force = self.force * np.array(self.direction, dtype=float)
-        wrench = np.concatenate([force, np.cross(self.at, force)])
-        return Pushing(frozen(wrench), self.profile, first, last, ramp, frozen(self.at))
+        wrench = np.concatenate([force, np.cross(self.point, force)])
+        return Pushing(frozen(wrench), self.profile, first, last, ramp, frozen(self.point))
 
     def corners(self, setting: Setting) -> Iterator[Corner]:
         """Yield its start, its end and its peak or corners; none when it lasts."""

@@ -96,7 +96,7 @@ class Stated(ByContent):
             profile = self.over(Setting(float(instants[0]), float(instants[-1]), body))
         except InputError as error:
             whose = error.under(f"{type(self).__name__}.at")
-            hint = "; or give at(times, object=Object(mass=...))" if object is None else ""
+            hint = "; or give at(times, object=Object(mass=...))" if object is None and "mass" in str(error) else ""
             raise whose.located(lambda issue: replace(issue, message=issue.message + hint)) from None
         return np.zeros((len(instants), 6)) if profile is None else frozen(profile.at(instants))
 

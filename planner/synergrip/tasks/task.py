@@ -10,7 +10,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.documents.judging import described, is_whole
+from synergrip.documents.judging import described, is_list, is_whole
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
@@ -86,13 +86,14 @@ class Task(ByContent):
             expected = "where the object is wanted, such as Hold(), Move(...) + Move(...) or Waypoints(...)"
             judge.refuse("target", f"expected {expected}, got {described(self.target)}")
         loads = _listed(judge, "loads", self.loads, Load, "loads such as Gravity(...), Wrench(...), Push(...)")
-        limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(0.0, 20.0)")
+        limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(upper=20.0)")
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
         axes = _listed(judge, "axes", self.axes, str, f"names of axes, of {', '.join(AXES)}")
         factor = judge.real("load_factor", self.load_factor, at_least=0)
         compliant = isinstance(self.tracking, str) and self.tracking == "compliant"
         judge.issues += [
-            *limit_issues(limits), *goal_issues(goals), *_axis_issues(axes, self.drift),
+            *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),
+            *(_axis_issues(axes, self.drift) if is_list(self.axes) else ()),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
             *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold")),
                          linearise=(self.linearise, ("once", "along"))),
@@ -141,7 +142,8 @@ def _whole(judge: TaskArguments, value: Any) -> int:
 def _listed(judge: TaskArguments, name: str, values: Any, of: type, what: str) -> tuple[Any, ...]:
     """Return a list of values of a type as a tuple; an empty one after noting what is wrong."""
     if not isinstance(values, list | tuple):
-        hint = f"; write {name}=[...] around it" if isinstance(values, of) and of is not object else ""
+        alone = isinstance(values, (Limit, Goal) if of is object else of)
+        hint = f"; write {name}=[...] around it" if alone else ""
         judge.refuse(name, f"expected a list of {what}; got {described(values)}{hint}")
         return ()
     for index, value in enumerate(values):

@@ -45,7 +45,7 @@ class Steps(Value):
         Args:
             damping: [m/rad] joint motions are as dear as this much of the way.
         """
-        joints = _joints_of(self.each)
+        joints = joints_of(self.each)
         stiff = np.eye(self.beta.shape[1]) + damping**2 * joints.mT @ joints
         damped = np.linalg.solve(stiff, self.beta[:, :, None])
         return frozen(damped[:, :, 0]), frozen(np.linalg.norm((joints @ damped)[:, :, 0], axis=1))
@@ -75,7 +75,7 @@ def steps(each: Each, start: Analysis, task: TimedTask, left: Array) -> Steps:
     return Steps(each, frozen(beta), frozen(basis), frozen(beside))
 
 
-def _joints_of(each: Each) -> Array:
-    """Return how the joints move with beta (T, n_q, dim Gamma_ucs) [rad/m]."""
-    forces, motions, _ = each.coordinates.dimensions
-    return np.asarray(each.response.dq_dzr @ each.coordinates.inverse[..., forces : forces + motions])
+def joints_of(at: Each | Analysis) -> Array:
+    """Return how the joints move with beta, (n_q, dim Gamma_ucs) or (T, n_q, dim Gamma_ucs) at each knot [rad/m]."""
+    forces, motions, _ = at.coordinates.dimensions
+    return np.asarray(at.response.dq_dzr @ at.coordinates.inverse[..., forces : forces + motions])

@@ -69,5 +69,4 @@ class ElasticMotion(Limit):
 
 IN_FILE = FileKey(
     "elastic_motion", ElasticMotion, Size, "how far the grip may push the object beyond its rigid motion, sag excluded",
-    lambda value, grasp: ElasticMotion(value),
 )  # fmt: skip

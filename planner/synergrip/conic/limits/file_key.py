@@ -34,8 +34,8 @@ class FileKey:
     type: Any
     """Annotation of the value: how it is read, and its JSON Schema."""
     description: str
-    make: Callable[[Any, Grasp], Limit]
-    """The limit of a value that was read, for a grasp; keys of what it refuses are replaced by this one."""
+    make: Callable[[Any, Grasp], Limit] | None = None
+    """The limit of a value that was read, for a grasp, where it is not simply ``kind(value)``."""
     default: str | None = None
     """The value where none stands; None for no limit."""
     efforts_of: Literal["joint", "synergy"] | None = None
@@ -108,8 +108,8 @@ def limit_of(key: FileKey, value: Any, grasp: Grasp) -> Limit:
             reverse; at the key.
     """
     try:
-        made = key.make(value, grasp).on(grasp)
-    except InputError as error:
+        made = (key.kind(value) if key.make is None else key.make(value, grasp)).on(grasp)
+    except InputError as error:  # of an argument of the limit; its place is the key
         raise InputError([replace(issue, key=key.key) for issue in error.issues]) from None
     if key.efforts_of is not None and grasp.held is not None and not isinstance(value, str):
         kinds = joint_kinds(grasp.held.hand.joints)

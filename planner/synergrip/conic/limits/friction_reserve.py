@@ -61,7 +61,10 @@ class FrictionReserve(Limit):
         if self.factor is not None:
             size("FrictionReserve.factor", self.factor, "a factor of at least 1", at_least=1.0)
         if self.angle is not None:
-            size("FrictionReserve.angle", self.angle, "an angle in radians greater than 0", above=0.0)
+            angle = size("FrictionReserve.angle", self.angle, "an angle in radians greater than 0", above=0.0)
+            if angle >= np.pi / 2:
+                message = f"expected an angle in radians less than a right one, got {angle:g}; np.radians takes degrees"
+                raise InputError.at("FrictionReserve.angle", message)
         if self.ratios is not None:
             ratios = sizes("FrictionReserve.ratios", self.ratios, "contact")
             if np.any(ratios > 1):

@@ -15,7 +15,7 @@ from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
 from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
-from synergrip.documents.judging import is_number
+from synergrip.documents.judging import described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array
@@ -46,6 +46,13 @@ class NormalForce(Limit):
     key: str = field(default="limits.normal_force", repr=False)
     watches = "forces"
 
+    def __new__(cls, *bounds: float, **named: Any) -> Self:
+        """Refuse one bound without a name, which would be the lower one where most people mean the upper one."""
+        if len(bounds) == 1 and "upper" not in named:
+            got = described(bounds[0])
+            raise InputError.at("NormalForce", f"one force without a name; write upper={got} or lower={got}")
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
         """Judge the bounds; a lower one of minus infinity stands for none."""
         lower = _bound("NormalForce.lower", self.lower, -np.inf)
@@ -53,6 +60,8 @@ class NormalForce(Limit):
         if lower > upper:
             message = f"the lower bound {lower:g} N is above the upper bound {upper:g} N; swap them"
             raise InputError.at("NormalForce.lower", message)
+        if upper == 0:
+            raise InputError.at("NormalForce.upper", "the largest normal force must be greater than 0 N")
         object.__setattr__(self, "lower", lower)
         object.__setattr__(self, "upper", upper)
 

@@ -108,5 +108,4 @@ def axis_weights(axes: Sequence[AxisName], length: float) -> Array:
 
 IN_FILE = FileKey(
     "drift", ObjectError, Size, "how far the object may be from where it is wanted, sag under load included",
-    lambda value, grasp: ObjectError(value),
 )  # fmt: skip

@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-from synergrip.conic.limits import (
-    actuator_effort,
-    elastic_motion,
-    friction_reserve,
-    joint_range,
-    joint_torque,
-    normal_force,
-    object_error,
-    slip_margin,
-    synergy_acceleration,
-    synergy_rate,
-    synergy_reference,
-)
+from collections.abc import Iterator
+from importlib import import_module
+
 from synergrip.conic.limits.file_key import FileKey
 
-LIMITS: tuple[FileKey, ...] = (
-    slip_margin.IN_FILE,
-    friction_reserve.ANGLE_IN_FILE,
-    friction_reserve.FACTOR_IN_FILE,
-    normal_force.IN_FILE,
-    joint_torque.IN_FILE,
-    actuator_effort.IN_FILE,
-    synergy_reference.IN_FILE,
-    synergy_rate.IN_FILE,
-    synergy_acceleration.IN_FILE,
-    joint_range.IN_FILE,
-    elastic_motion.IN_FILE,
-    object_error.IN_FILE,
+FILES = (
+    "slip_margin",
+    "friction_reserve",
+    "normal_force",
+    "joint_torque",
+    "actuator_effort",
+    "synergy_reference",
+    "synergy_rate",
+    "synergy_acceleration",
+    "joint_range",
+    "elastic_motion",
+    "object_error",
 )
-"""In the order in which limits are listed, rows are stacked and messages name keys."""
+"""Modules beside this one, in the order in which limits are listed, rows are stacked and messages name keys."""
+
+
+def _keys() -> Iterator[FileKey]:
+    """Yield what the files may say of limits, in the order in which each module states its keys."""
+    for name in FILES:
+        held = vars(import_module(f"synergrip.conic.limits.{name}")).values()
+        yield from (each for each in held if isinstance(each, FileKey))
+
+
+LIMITS: tuple[FileKey, ...] = tuple(_keys())

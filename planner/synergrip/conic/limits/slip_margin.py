@@ -37,5 +37,5 @@ class SlipMargin(FrictionCone):
 
 IN_FILE = FileKey(
     "margin", SlipMargin, Force, "distance of every contact force to its friction cone",
-    lambda value, grasp: SlipMargin(value), default="0 N",
+    default="0 N",
 )  # fmt: skip

@@ -61,5 +61,4 @@ class SynergyAcceleration(Differences):
 IN_FILE = FileKey(
     "synergy_acceleration", SynergyAcceleration, References,
     "largest acceleration of a synergy reference, per s^2, one or one per synergy",
-    lambda value, grasp: SynergyAcceleration(value),
 )  # fmt: skip

@@ -52,5 +52,4 @@ class SynergyRate(Differences):
 
 IN_FILE = FileKey(
     "synergy_rate", SynergyRate, References, "largest change of a synergy reference per second, one or one per synergy",
-    lambda value, grasp: SynergyRate(value),
 )  # fmt: skip

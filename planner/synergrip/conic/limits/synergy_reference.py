@@ -41,5 +41,4 @@ class SynergyReference(Symmetric):
 
 IN_FILE = FileKey(
     "synergy_reference", SynergyReference, References, "largest change of a synergy reference, one or one per synergy",
-    lambda value, grasp: SynergyReference(value),
 )  # fmt: skip

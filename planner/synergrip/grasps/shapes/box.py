@@ -8,7 +8,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size
 from synergrip.linalg import Array
@@ -33,16 +32,7 @@ class Box(Shape):
     size: tuple[float, float, float]  # edge lengths [m]
 
     name: ClassVar[str] = "box"
-    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "length of the three edges", count=3),)
-
-    def __post_init__(self) -> None:
-        """Judge the size."""
-        judge = Arguments("Box")
-        edges = judge.array("size", self.size, (3,), ": three edge lengths").tolist()
-        if not judge.issues and not min(edges) > 0:
-            judge.refuse("size", f"each edge must be greater than 0, got {min(edges):g}")
-        judge.finish()
-        object.__setattr__(self, "size", tuple(edges))
+    sizes: ClassVar[tuple[Size, ...]] = (Size("size", "three edge lengths", count=3),)
 
     @property
     def title(self) -> str:

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
@@ -35,13 +34,6 @@ class Cylinder(Shape):
 
     name: ClassVar[str] = "cylinder"
     sizes: ClassVar[tuple[Size, ...]] = (Size("radius", "radius"), Size("height", "height"))
-
-    def __post_init__(self) -> None:
-        """Judge the sizes."""
-        judge = Arguments("Cylinder")
-        for name in ("radius", "height"):
-            object.__setattr__(self, name, judge.number(name, getattr(self, name), above=0, unit="m"))
-        judge.finish()
 
     @property
     def title(self) -> str:

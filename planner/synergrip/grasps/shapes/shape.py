@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from synergrip.documents.judging import Arguments
 from synergrip.linalg import Array
 
 ROUND = 72
@@ -31,6 +32,20 @@ class Shape(ABC):
     """Key in problem files."""
     sizes: ClassVar[tuple[Size, ...]]
     """One for each argument."""
+
+    def __post_init__(self) -> None:
+        """Judge the sizes, each of which is a length or lengths greater than 0."""
+        judge = Arguments(type(self).__name__)
+        for size in self.sizes:
+            value = getattr(self, size.name)
+            if size.count == 1:
+                kept: float | tuple[float, ...] = judge.number(size.name, value, above=0, unit="m")
+            else:
+                kept = tuple(judge.array(size.name, value, (size.count,), f": {size.meaning}").tolist())
+                if not judge.issues and not min(kept) > 0:
+                    judge.refuse(size.name, f"each must be greater than 0, got {min(kept):g}")
+            object.__setattr__(self, size.name, kept)
+        judge.finish()
 
     @property
     @abstractmethod

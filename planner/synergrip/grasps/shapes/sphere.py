@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
@@ -33,12 +32,6 @@ class Sphere(Shape):
 
     name: ClassVar[str] = "sphere"
     sizes: ClassVar[tuple[Size, ...]] = (Size("radius", "radius"),)
-
-    def __post_init__(self) -> None:
-        """Judge the radius."""
-        judge = Arguments("Sphere")
-        object.__setattr__(self, "radius", judge.number("radius", self.radius, above=0, unit="m"))
-        judge.finish()
 
     @property
     def title(self) -> str:

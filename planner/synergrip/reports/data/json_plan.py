@@ -76,7 +76,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         document[EXECUTION] = execution
     if plan.executed is not None:
         passes = {"programs": len(plan.decisions), "iterations": plan.executed.iterations, "passes": plan.passes}
-        document["true"] = true_document(plan.executed, plan.usages[0]) | passes
+        document["true"] = true_document(plan.executed, plan.usages[0], plan.fixed) | passes
     return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,

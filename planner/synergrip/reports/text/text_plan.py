@@ -14,6 +14,7 @@ from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN, apart
+from synergrip.equilibrium.execution import Execution
 from synergrip.explain.repairs import repairs
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
@@ -91,19 +92,28 @@ def _executed(plan: Plan) -> Iterator[str]:
     if plan.executed is None:
         told = "not executed: matrices have no kinematics, and the figures are those of their linear model"
     else:
-        model = {"rolling": "pads roll on hand and object", "fixed": "contacts stay where they are"}
         how = f"linearised anew {many(plan.passes, 'time')} along the motion" if plan.passes else "planned at its start"
         told = (
-            f"the figures are those of the hand that moves, {how}; {model[plan.executed.setting.contact_model]}; the "
-            f"object is held with {1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
+            f"the figures are those of the hand that moves, {how}; {_model(plan.executed, plan.fixed)}; "
+            f"the object is held with {1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
         )
     yield from wrapped("true     ", told)
+
+
+def _model(executed: Execution, fixed: Execution | None) -> str:
+    """Return how contacts move, and what it would cost if they moved otherwise."""
+    if fixed is None:
+        return "contacts stay where they are on link and object"
+    radii = sorted(1e3 * radius for touch in executed.setting.held.touches if (radius := touch.pad.radius))
+    size = f"{radii[0]:.3g}" if radii[0] == radii[-1] else f"{radii[0]:.3g} to {radii[-1]:.3g}"
+    other = f"it would keep {fixed.margins.min():.4g} N" if fixed.whole else "it would not get through"
+    return f"pads of {size} mm radius roll (if they stayed where they are {other})"
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
     k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
-    best = "" if plan.largest_margin is None else ", the largest there is" + _with_reserve(plan) * " with the reserve"
+    best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
     yield f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
@@ -120,9 +130,12 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     yield table(("", "worst", "at", "limit"), rows)
 
 
-def _with_reserve(plan: Plan) -> bool:
-    """Return whether the program asked for more than is needed, so that limits hold where a load is curved."""
-    return plan.task.between == "hold" and plan.between is not None and not plan.between.exact
+def _largest_of(plan: Plan) -> str:
+    """Return among what a margin is the largest."""
+    if plan.executed is not None:
+        return "found along the motion" if plan.passes else "of the start posture, executed"
+    held = plan.task.between == "hold" and plan.between is not None and not plan.between.exact
+    return "there is with the reserve" if held else "there is"  # the program asks for more where a load is curved
 
 
 def _largest_motion(name: str, sizes: Array, plan: Plan) -> tuple[str, ...]:

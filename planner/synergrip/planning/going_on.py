@@ -1,0 +1,79 @@
+"""A no of the start posture about a later knot is none about the hand that moves: it may get there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.errors import Refusal
+from synergrip.linalg import Array, Places
+from synergrip.planning.executing import Executor
+from synergrip.planning.formulated import formulated
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.solvers import Answerer
+from synergrip.planning.walk import Walker
+from synergrip.planning.walked import answer_of
+from synergrip.statics.analysis import Analysis
+from synergrip.tasks.profiles import Constant, Profiles
+from synergrip.tasks.timed_task import TimedTask, still
+from synergrip.tasks.tracking import target_displacement
+
+Planned = Callable[[Analysis, TimedTask], Outcome]
+
+
+def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
+    """Return what becomes of a task along the motion, of which the start posture says no.
+
+    The no stands where no motion can help: the same loads without the motion are infeasible too, the very first step
+    is refused, or there are more independent motions than synergies.
+
+    Args:
+        no: on a hand.
+        planned: what the start posture says of a task.
+        answers: the solver.
+    """
+    task, start = no.task, no.analysis
+    if task.linearise == "once" or start is None or no.stage not in ("direction", "magnitude"):
+        return no
+    if not len(_moving(start, task)) or (no.stage == "direction" and refused_at_once(start, task)):
+        return no
+    hold = planned(start, _without_motion(task))
+    if not isinstance(hold, Plan):
+        return no
+    walker = Walker(task, start, Executor.of(start, task), answers)
+    answer = answer_of(walker.grown(hold.motion), walker, replace(hold, task=task))
+    told = f"the linear model of the start posture alone says no: {no.why}"
+    if isinstance(answer, Plan):
+        return replace(answer, notes=(*answer.notes, told))
+    return replace(answer, why=f"{answer.why}; {told}")
+
+
+def refused_at_once(start: Analysis, task: TimedTask) -> bool:
+    """Return whether the very first step of a motion leaves what the rigid motions of the start posture can follow."""
+    moving = _moving(start, task)
+    try:
+        formulated(start, _until(task, task.times[: moving[0] + 1]), redundancy=True)
+    except Refusal:
+        return True
+    return False
+
+
+def _moving(start: Analysis, task: TimedTask) -> Places:
+    """Return the knots at which the object is wanted elsewhere than at the start."""
+    return np.flatnonzero(np.any(target_displacement(start, task, task.target.values) != 0, axis=1))
+
+
+def _until(task: TimedTask, times: Array) -> TimedTask:
+    """Return the task at its first knots, whatever lies between them; it tolerates nothing."""
+    count = len(times)
+    target = replace(task.target, values=task.target.values[:count])
+    return replace(task, times=times, wrench=task.wrench[:count], target=target, course=None, tolerance=0.0)
+
+
+def _without_motion(task: TimedTask) -> TimedTask:
+    """Return the task with its loads, the object where it is."""
+    course = task.course
+    loads = replace(course, target=Constant(np.zeros(0))) if isinstance(course, Profiles) else None
+    return replace(task, target=still(task.times), course=loads)

@@ -1,0 +1,129 @@
+"""Growing: the wanted motion is followed a little farther at a time, each time from the states that were reached.
+
+Where the linear plan of the whole motion is no place to begin at, or where there is none, the first knot is planned
+for, then as many knots as the hand comes by on a short piece of the way, and so on. A piece on which promise and truth
+do not come near each other is halved; the next one is longer where they do so at once. What was reached last is a plan
+of its own, whatever comes after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.equilibrium.states import States
+from synergrip.linalg import Array, frozen, interpolated
+from synergrip.log import LOG
+from synergrip.planning.walk import Walk, Walker
+from synergrip.values import Value
+
+PIECE, LONGEST, SHORTEST = 5e-3, 2e-2, 2e-4
+"""[m, rotations times the length of the grasp] of the way that is taken at first, at most and at least."""
+KNOT = 1e-3
+"""[m] of the way that a knot counts for beside the motion: the load changes there."""
+QUICK = 2
+"""Passes that a piece takes at most for the next one to be longer."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Way(Value):
+    """The wanted motion of a task by how far it is along it."""
+
+    walker: Walker
+    gone: Array
+    """(T,) how far it is to each knot [m]."""
+
+    @classmethod
+    def of(cls, walker: Walker) -> Way:
+        """Return the way of a walker."""
+        scale = walker.start.response.scale
+        pieces = np.linalg.norm(scale.twist(np.diff(walker.wanted, axis=0)), axis=1) + KNOT
+        return cls(walker, frozen(np.concatenate([[0.0], np.cumsum(pieces)])))
+
+    @property
+    def end(self) -> float:
+        """How far it is to the last knot [m]."""
+        return float(self.gone[-1])
+
+    def until(self, gone: float) -> Walker:
+        """Return who walks it until there: to the knots up to the next one, which then is wanted nearer."""
+        whole, walker = self.walker.wanted, self.walker
+        count = int(np.searchsorted(self.gone, gone)) + 1
+        aim = np.array(whole[:count])
+        if count > 1:
+            share = (gone - self.gone[count - 2]) / (self.gone[count - 1] - self.gone[count - 2])
+            aim[-1] = (1 - share) * whole[count - 2] + share * whole[count - 1]
+        task = walker.task
+        target = replace(task.target, values=task.target.values[:count])
+        part = replace(task, times=task.times[:count], wrench=task.wrench[:count], target=target)
+        return replace(walker, task=part, aim=frozen(aim))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Grown(Value):
+    """How far the way was followed."""
+
+    walk: Walk
+    gone: float
+    """[m]"""
+    before: float
+    """[m] how far it was before the last piece."""
+
+
+def grown(walker: Walker, hold: Array) -> Walk:
+    """Return the walk that comes of it, of all knots, or of those that were reached.
+
+    Args:
+        walker: whose task it is.
+        hold: (T, n_z) references that hold the object where it is, under the loads of the task.
+    """
+    way, met = Way.of(walker), None
+    part = way.until(0.0)
+    here = sure = Grown(part.on(part.executed(hold[:1], None, walker.executor.setting.start)), 0.0, 0.0)
+    piece = PIECE if _arrived(here.walk, part) else 0.0
+    passes, tried, rough = here.walk.passes, here.walk.tried, True
+    while here.gone < way.end and piece >= SHORTEST:
+        to = min(here.gone + piece, way.end)
+        part = way.until(to)
+        found = part.on(_begun(part, here, to, way, hold), roughly=True)
+        good = part.near(found)
+        found = found if rough or not good else part.on(found)
+        good = good and (rough or _arrived(found, part))
+        LOG.info("%s to %.4g of %.4g m in %d passes", "grown" if good else "not grown", to, way.end, found.passes)
+        passes, tried = passes + found.passes, (*tried, *found.tried)
+        if found.interrupted:
+            break
+        if good:
+            here, piece = Grown(found, to, here.gone), min((1 + (found.passes <= QUICK)) * piece, LONGEST)
+            sure = here if _arrived(found, part) else sure
+            continue
+        met, piece = found.hindered, piece / 2
+        if here is not sure:  # what comes next may be out of reach only because promise and truth are not near enough
+            part = way.until(here.gone)
+            settled = part.on(here.walk)
+            rough = _arrived(settled, part)
+            here = sure = replace(here, walk=settled) if rough else sure
+    if here.gone == way.end:
+        return walker.on(replace(here.walk, passes=passes, tried=tried))
+    until = float(np.interp(sure.gone, way.gone, walker.task.times))
+    return replace(sure.walk, until=until, passes=passes, tried=tried, hindered=met or sure.walk.hindered)
+
+
+def _arrived(walk: Walk, walker: Walker) -> bool:
+    return walk.true and walk.behind <= walker.allowed
+
+
+def _begun(part: Walker, here: Grown, to: float, way: Way, hold: Array) -> Walk:
+    """Return a walk whose references go on as they did on the last piece, and with the load as those that hold."""
+    walk, count = here.walk, len(part.task.times)
+    known = len(walk.references)
+    own = walk.references - hold[:known]
+    places = np.append(way.gone[: known - 1], here.gone)
+    before = interpolated(np.array([here.before]), places, own)[0]
+    slope = (own[-1] - before) / max(here.gone - here.before, KNOT)
+    beyond = np.minimum(way.gone[known - 1 : count], to) - here.gone
+    references = hold[:count] + np.concatenate([own[:-1], own[-1] + np.outer(beyond, slope)])
+    guess, last = walk.executed.guess, walk.executed.states.taken([-1])
+    near = States.joined([guess, *[last] * (count - known)])
+    return part.executed(references, None, near)

@@ -1,0 +1,89 @@
+"""A motion that is followed a little farther at a time: as good as one planned at once, and honest where it ends."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from synergrip.planning.executing import Executor
+from synergrip.planning.growing import LONGEST, Way
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.planning.reach import reached_by
+from synergrip.planning.solvers import SOLVERS
+from synergrip.planning.walk import Walk, Walker
+from synergrip.problems.problem import load_problem
+from synergrip.tasks.timed_task import still
+
+
+@cache
+def held(name: str, *overrides: str) -> tuple[Walker, Plan]:
+    """Return who walks a problem, and a plan of its loads without the motion."""
+    problem = load_problem(name, overrides)
+    task = problem.timed
+    hold = plan(problem.grasp, replace(task, target=still(task.times), course=None))
+    assert isinstance(hold, Plan)
+    return Walker(task, hold.analysis, Executor.of(hold.analysis, task), SOLVERS["clarabel"]), hold
+
+
+@cache
+def grown(name: str, *overrides: str) -> tuple[Walker, Walk]:
+    walker, hold = held(name, *overrides)
+    return walker, walker.grown(hold.motion)
+
+
+ROLL = ("barrett-ball-roll", "task.knots=11")
+FAR = ("gripper-box", "task.knots=11", "task.move[0].lift=40 mm")
+
+
+def test_a_grown_walk_is_the_one_that_begins_with_the_linear_plan() -> None:
+    _, walk = grown(*ROLL)
+    problem = load_problem(*ROLL[:1], ROLL[1:])
+    direct = plan(problem.grasp, problem.task)
+    assert isinstance(direct, Plan)
+    assert walk.true
+    assert walk.until is None
+    assert walk.behind < 1e-5
+    largest = np.abs(direct.forces).max()
+    assert walk.executed.states.forces == pytest.approx(direct.forces, abs=0.01 * largest)
+    assert walk.executed.margins.min() == pytest.approx(direct.margins.min(), abs=1e-3)
+    assert np.abs(walk.executed.du - direct.motion.du).max() < 1e-4
+
+
+def test_where_a_grown_walk_ends_it_is_what_it_says_until_then() -> None:
+    walker, walk = grown(*FAR)
+    reached, times = reached_by(walk, walker), walker.task.times
+    assert walk.until is not None
+    assert walk.true
+    assert times[0] < reached.until_s < times[-1]
+    assert np.isinf(walk.behind)
+    count = len(walk.references)
+    begin = walker.executor.setting.start.taken([0] * count)
+    whole = walker.executor.run(times[:count], walk.references, walker.task.wrench[:count], begin)
+    assert whole.du[-1] == pytest.approx(reached.pose, abs=1e-9)
+    wanted = [np.interp(reached.until_s, times, column) for column in walker.wanted.T]
+    assert np.linalg.norm(reached.pose[:3] - wanted[:3]) < 2e-3  # elastic motion is left
+
+
+def test_it_says_what_keeps_it_from_going_on() -> None:
+    walker, walk = grown(*FAR)
+    because = reached_by(walk, walker).because
+    assert "nearest pose" in because
+    assert "straight" in because or "limit" in because
+
+
+def test_the_way_is_cut_where_it_is_asked_for() -> None:
+    walker, _ = held(*FAR)
+    way = Way.of(walker)
+    for gone in (0.0, 0.3 * way.end, way.gone[4], way.end):
+        part = way.until(float(gone))
+        count = len(part.task.times)
+        assert way.gone[count - 1] >= gone
+        assert count == 1 or way.gone[count - 2] < gone
+        assert part.wanted[: count - 1] == pytest.approx(walker.wanted[: count - 1])
+        own = [np.interp(gone, way.gone, column) for column in walker.wanted.T]
+        assert part.wanted[-1] == pytest.approx(own)
+    assert way.end > LONGEST
