@@ -17,7 +17,7 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
 from synergrip.planning.instants import intersample_of
-from synergrip.planning.outcome import Check
+from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
 from synergrip.statics.motion import Motion
@@ -30,7 +30,6 @@ FORCE, OF_FORCES = 1e-3, 1e-3
 """A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
 LENGTH, ANGLE = 1e-5, 1e-4
 """[m], [rad] to which limits on motions are kept."""
-BETWEEN = "between the knots"
 BALANCED = 1e-8
 """Relative error of the equilibrium."""
 

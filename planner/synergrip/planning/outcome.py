@@ -42,6 +42,8 @@ class Check:
         return bool(self.error <= self.tolerance)
 
 
+BETWEEN = "between the knots"
+"""How the names of checks begin that are about what happens there on the hand that moves."""
 LONG = 200
 """Characters of a reason that are shown."""
 

@@ -11,8 +11,8 @@ from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
-from synergrip.planning.figures import BETWEEN, Figures, figures
-from synergrip.planning.outcome import Check, Plan, Unknown
+from synergrip.planning.figures import Figures, figures
+from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.reach import allowed, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over

@@ -17,7 +17,7 @@ from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.explain.repairs import repairs
 from synergrip.linalg import Array
-from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
@@ -77,7 +77,9 @@ def _checked(plan: Plan) -> str:
     missing = [decision.goal for decision in plan.decisions if not decision.optimal]
     verified = f"not of {', '.join(missing)}" if missing else "✓"  # then a note says what that means
     parts = [f"certificate {verified} (cones {cones:.0e}, gap {gap:.0e})"]
-    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks]
+    there = [check for check in plan.checks if plan.executed is not None and check.name.startswith(BETWEEN)]
+    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks if check not in there]
+    parts += [f"{BETWEEN} {many(len(there), 'check')} ✓"] if there else []
     return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
 
 
