@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from random_formulations import KNOTS, LIMITS, random_formulation
 
+from synergrip.conic.affine import Affine
 from synergrip.conic.beside_knots import beside
 from synergrip.conic.build import build
 from synergrip.conic.decide import decide
@@ -335,3 +336,12 @@ def test_grasps_that_do_not_fit_the_knots_are_refused() -> None:
     renamed = replace(once.response.grasp, synergies=tuple(f"y{i}" for i in range(once.response.grasp.n_z)))
     with pytest.raises(InputError, match=r"each\[3\]: expected the joints, synergies and contacts"):
         at_each(once, (same, same, same, analyse(renamed)))
+
+
+def test_a_shortened_quantity_has_the_same_norm_at_every_knot() -> None:
+    rng = np.random.default_rng(9)
+    long = Affine(rng.normal(size=(4, 12, 3)), rng.normal(size=(4, 12)))
+    short, v = long.shortened, rng.normal(size=(4, 3))
+    assert short.matrix.shape == (4, 4, 3)
+    assert np.linalg.norm(short.at(v), axis=1) == pytest.approx(np.linalg.norm(long.at(v), axis=1), rel=1e-12)
+    assert short.shortened is short

@@ -5,8 +5,8 @@ and gamma say what is added to z. With the maps of that state
 
     lambda = lambda_k + F_k dz,   q = q_k + Q_k dz,   u = u_k + U_k dz,   dz = M_k^-1 (alpha, beta, gamma),
 
-so that everything is affine again, and a fixed point is exact: where dz = 0 the forces are the true ones. F_k is taken
-whole, since away from the start the motions of Gamma_ucs cost a little force, too.
+so that everything is affine again, and a fixed point is exact: where dz = 0 the forces are the true ones. F_k counts
+the motions of Gamma_ucs, too, which cost a little force away from the start, and not the redundancy.
 """
 
 from __future__ import annotations

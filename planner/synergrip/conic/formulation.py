@@ -3,8 +3,7 @@
 At knot k the unknown is ``v_k = (alpha_k / force_unit, gamma_k / reference_unit, beta_k / motion_unit)``. The units
 are the solver's: they bring the unknowns near 1 and change no answer. gamma is left out (zero) when no limit looks at
 more than forces, beta as far as the wanted motion fixes it. Then
-``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k``, the references follow by (35), and the rest from these two
-(docs/theory.md).
+``lambda_k = lambda_0 - G+ dw_k + E_s alpha_k``, the references follow by (35), the rest from these (docs/theory.md).
 """
 
 from __future__ import annotations
@@ -58,8 +57,7 @@ class Formulation(Value):
     free_basis: sparse.csc_matrix | None = None
     """(T n_v, m) orthogonal columns that the knots' unknowns, stacked, are made of; None when they are any."""
     each: Each | None = None
-    """(T) what the statics are at every knot; None when those above are the same for all. What is above then tells
-    names, contacts and lengths only."""
+    """(T) the statics at every knot, where those above tell names and lengths only; None when they tell all."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
 

@@ -8,6 +8,10 @@ from synergrip.conic.limits.object_error import axis_weights
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.planning.walk import Walk, Walker
+<<<<<<< HEAD
+=======
+from synergrip.statics.analysis import Analysis
+>>>>>>> part-A
 from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 
@@ -30,6 +34,7 @@ def strayed(walk: Walk, walker: Walker) -> Array:
     if way is None or task.target.kind == "hold" or task.tracking == "compliant":
         return np.zeros(len(task.times))
     seen = axis_weights(task.axes, start.response.scale.length)
+<<<<<<< HEAD
     before, found = forces_at_start(start.response), []
     for at, left, forces in zip(way.each, walk.executed.left(walker.wanted), walk.executed.states.forces, strict=True):
         elastic = _elastic(start.grasp, at, forces - before)
@@ -44,8 +49,25 @@ def _elastic(start: Grasp, at: Each, change: Array) -> Array:
     strain = (start.C_s + J @ (start.C_q + start.S @ start.C_z @ start.S.T) @ J.T) @ change
     moved = np.linalg.lstsq(np.hstack([J @ start.S, -G.T]), strain, rcond=1e-12)[0]
     return np.asarray(moved[start.n_z :])
+=======
+    elastic = _elastic(way.each, start, walk.executed.states.forces - forces_at_start(start.response))
+    directions = seen @ way.each.spaces.Gamma_ucs
+    left = walk.executed.left(walker.wanted)
+    whole, of_springs = (_outside(directions, each @ seen.T) for each in (left + elastic, elastic))
+    return frozen(np.maximum(whole - OF_ELASTIC * of_springs, 0.0))
 
 
-def _outside(directions: Array, vector: Array) -> float:
-    """Return how much of a vector lies outside the span of directions."""
-    return float(np.linalg.norm(vector - directions @ np.linalg.lstsq(directions, vector, rcond=1e-12)[0]))
+def _elastic(each: Each, start: Analysis, change: Array) -> Array:
+    """Return displacements (T, 6) of the object that go with changes of the contact forces (T, n_l)."""
+    grasp, there = start.grasp, each.grasp
+    softness = grasp.C_s + there.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ there.J.mT
+    motions = np.concatenate([there.J @ grasp.S, -there.G.mT], axis=2)
+    moved = np.linalg.pinv(motions, rcond=1e-12) @ softness @ change[:, :, None]
+    return np.asarray(moved[:, grasp.n_z :, 0])
+>>>>>>> part-A
+
+
+def _outside(directions: Array, vectors: Array) -> Array:
+    """Return how much (T,) of vectors (T, m) lies outside the spans of directions (T, m, n)."""
+    within = directions @ (np.linalg.pinv(directions, rcond=1e-12) @ vectors[:, :, None])
+    return np.asarray(np.linalg.norm(vectors - within[:, :, 0], axis=1))
