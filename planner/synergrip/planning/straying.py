@@ -5,13 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.object_error import axis_weights
-from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.planning.walk import Walk, Walker
-<<<<<<< HEAD
-=======
 from synergrip.statics.analysis import Analysis
->>>>>>> part-A
 from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 
@@ -34,22 +30,6 @@ def strayed(walk: Walk, walker: Walker) -> Array:
     if way is None or task.target.kind == "hold" or task.tracking == "compliant":
         return np.zeros(len(task.times))
     seen = axis_weights(task.axes, start.response.scale.length)
-<<<<<<< HEAD
-    before, found = forces_at_start(start.response), []
-    for at, left, forces in zip(way.each, walk.executed.left(walker.wanted), walk.executed.states.forces, strict=True):
-        elastic = _elastic(start.grasp, at, forces - before)
-        whole, of_springs = (_outside(seen @ at.spaces.Gamma_ucs, seen @ each) for each in (left + elastic, elastic))
-        found.append(max(whole - OF_ELASTIC * of_springs, 0.0))
-    return frozen(found)
-
-
-def _elastic(start: Grasp, at: Each, change: Array) -> Array:
-    """Return a displacement (6,) of the object that goes with a change of the contact forces (n_l,)."""
-    J, G = at.grasp.J, at.grasp.G
-    strain = (start.C_s + J @ (start.C_q + start.S @ start.C_z @ start.S.T) @ J.T) @ change
-    moved = np.linalg.lstsq(np.hstack([J @ start.S, -G.T]), strain, rcond=1e-12)[0]
-    return np.asarray(moved[start.n_z :])
-=======
     elastic = _elastic(way.each, start, walk.executed.states.forces - forces_at_start(start.response))
     directions = seen @ way.each.spaces.Gamma_ucs
     left = walk.executed.left(walker.wanted)
@@ -64,7 +44,6 @@ def _elastic(each: Each, start: Analysis, change: Array) -> Array:
     motions = np.concatenate([there.J @ grasp.S, -there.G.mT], axis=2)
     moved = np.linalg.pinv(motions, rcond=1e-12) @ softness @ change[:, :, None]
     return np.asarray(moved[:, grasp.n_z :, 0])
->>>>>>> part-A
 
 
 def _outside(directions: Array, vectors: Array) -> Array:

@@ -75,14 +75,7 @@ def steps(each: Each, start: Analysis, task: TimedTask, left: Array) -> Steps:
     return Steps(each, frozen(beta), frozen(basis), frozen(beside))
 
 
-<<<<<<< HEAD
-def joints_of(each: Each | Analysis) -> Array:
-    """Return how the joints move with beta (n_q, dim Gamma_ucs), at every instant of several, [rad/m]."""
-    forces, motions, _ = each.coordinates.dimensions
-    return np.asarray(each.response.dq_dzr @ each.coordinates.inverse[..., forces : forces + motions])
-=======
 def joints_of(at: Each | Analysis) -> Array:
     """Return how the joints move with beta, (n_q, dim Gamma_ucs) or (T, n_q, dim Gamma_ucs) at each knot [rad/m]."""
     forces, motions, _ = at.coordinates.dimensions
     return np.asarray(at.response.dq_dzr @ at.coordinates.inverse[..., forces : forces + motions])
->>>>>>> part-A
