@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.errors import Refusal
 from synergrip.linalg import Array, Places
+from synergrip.planning.between import between
 from synergrip.planning.executing import Executor
 from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
@@ -43,7 +44,9 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
     if not isinstance(hold, Plan):
         return no
     walker = Walker(task, start, Executor.of(start, task), answers)
-    answer = answer_of(walker.grown(hold.motion), walker, replace(hold, task=task))
+    begun = replace(hold.formulation, target=walker.wanted, intersample=None)
+    begin = replace(hold, task=task, between=between(task, start, begun, hold.motion))
+    answer = answer_of(walker.grown(hold.motion), walker, begin)
     told = f"the linear model of the start posture alone says no: {no.why}"
     if isinstance(answer, Plan):
         return replace(answer, notes=(*answer.notes, told))
