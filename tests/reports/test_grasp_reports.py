@@ -114,7 +114,10 @@ def test_notes_are_told_by_validate(sunk: Problem) -> None:
     assert " ".join(line[9:] for line in lines[first:]) == note
 
 
-@pytest.mark.parametrize("more", [[], ["contacts.friction=2", "limits.normal_force=200 N", "limits.joint_torque=50"]])
+@pytest.mark.parametrize(
+    "more",
+    [[], ["contacts.friction=2", "limits.normal_force=200 N", "limits.joint_torque=50", "limits.joint_range=none"]],
+)
 def test_notes_are_told_with_every_outcome_of_a_plan(more: list[str]) -> None:
     problem = load_problem("barrett-ball-hold", [*SUNK, *more])
     outcome = plan(problem.grasp, problem.task)

@@ -48,8 +48,13 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
         astray = walk.way is not None and walk.way.behind[k] <= allowed(walker)
     told = describe_displacement(pose, walker.start.response.scale.length)
     beyond = f"the motion goes on, by {1e3 * float(off(walk, walker).max()):.3g} mm at most, where no rigid motion does"
-    why = f"{beyond} (Gamma_ucs there)" if astray else "; ".join(_hindrances(walk, walker))
+    why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
+
+
+def hindrances(walk: Walk, walker: Walker) -> str:
+    """Return what keeps a walk from going on where it ends."""
+    return "; ".join(_hindrances(walk, walker))
 
 
 def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
