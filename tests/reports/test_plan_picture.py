@@ -31,7 +31,7 @@ def test_charts_hold_the_motion_the_limits_and_the_references_of_the_plan() -> N
     outcome = planned("gripper-peg")
     found = by_title(outcome)
     assert list(found) == ["object displacement", "object rotation", "slip margin", "normal force", "joint torque",
-                           "tracking error", "synergy reference"]  # fmt: skip
+                           "joint value", "tracking error", "synergy reference"]  # fmt: skip
     np.testing.assert_allclose(found["object displacement"].values, 1e3 * outcome.motion.du[:, :3])
     np.testing.assert_allclose(found["object displacement"].target[-1], [0, 0, 3], atol=1e-9)
     np.testing.assert_allclose(found["object rotation"].values, np.degrees(outcome.motion.du[:, 3:]))
@@ -39,7 +39,9 @@ def test_charts_hold_the_motion_the_limits_and_the_references_of_the_plan() -> N
     assert found["normal force"].bounds == (0.0, 20.0)
     assert found["tracking error"].label == "tracking error [mm]"
     assert found["tracking error"].bounds == (0.1,)
-    assert found["tracking error"].values.max() == pytest.approx(0.1, rel=1e-3)
+    assert found["tracking error"].values.max() == pytest.approx(
+        0.1, abs=0.01
+    )  # mm, to which limits on motions are kept
     for title, values, names in (
         ("joint torque", outcome.motion.torques, outcome.analysis.grasp.joints),
         ("synergy reference", outcome.motion.dz_r, outcome.analysis.grasp.synergies),
