@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from synergrip import scratch, together
+from synergrip import scratch as scratch_folders
 from synergrip.files import atomic_path
 from synergrip.signals import held_back
 from synergrip.together import replace_together
@@ -268,3 +269,22 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
             assert signal.getsignal(signal.SIGINT) == signal.SIG_IGN
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_a_hidden_folder_swept_before_it_is_locked_is_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another run may take it for left behind between the opening and the locking of it."""
+    lock, swept = scratch_folders._lock, list[Path]()
+
+    def late(folder: Path, until: float = 0.0) -> int | None:
+        handle = lock(folder, until)
+        if not swept:
+            folder.rmdir()
+            swept.append(folder)
+        return handle
+
+    monkeypatch.setattr(scratch_folders, "_lock", late)
+    with scratch_folders.scratch(tmp_path) as folder:
+        assert folder.is_dir()
+        assert folder != swept[0]

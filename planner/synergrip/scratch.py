@@ -95,13 +95,24 @@ def synced(path: Path) -> None:
         os.close(handle)
 
 
+def _is_there(folder: Path, lock: int | None) -> bool:
+    """Return whether what is locked is still the folder of that name."""
+    try:
+        return lock is None or os.path.samestat(os.fstat(lock), os.stat(folder))
+    except FileNotFoundError:
+        return False
+
+
 def _made(parent: Path) -> tuple[Path, int | None]:
     """Return a new hidden folder and its lock; a run that sweeps just now may have taken it for left behind."""
     while True:
         folder = parent / f".synergrip-{os.urandom(8).hex()}"
         folder.mkdir()
         try:
-            return folder, _lock(folder)
+            lock = _lock(folder)
+            if _is_there(folder, lock):
+                return folder, lock
+            _unlock(lock)  # swept between the opening and the locking of it
         except (FileNotFoundError, BlockingIOError):
             continue
         except OSError:
