@@ -12,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from synergrip import scratch, together
-from synergrip import scratch as scratch_folders
 from synergrip.files import atomic_path
 from synergrip.signals import held_back
 from synergrip.together import replace_together
@@ -275,7 +274,7 @@ def test_a_hidden_folder_swept_before_it_is_locked_is_made_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Another run may take it for left behind between the opening and the locking of it."""
-    lock, swept = scratch_folders._lock, list[Path]()
+    lock, swept = scratch._lock, list[Path]()
 
     def late(folder: Path, until: float = 0.0) -> int | None:
         handle = lock(folder, until)
@@ -284,7 +283,7 @@ def test_a_hidden_folder_swept_before_it_is_locked_is_made_anew(
             swept.append(folder)
         return handle
 
-    monkeypatch.setattr(scratch_folders, "_lock", late)
-    with scratch_folders.scratch(tmp_path) as folder:
+    monkeypatch.setattr(scratch, "_lock", late)
+    with scratch.scratch(tmp_path) as folder:
         assert folder.is_dir()
         assert folder != swept[0]
