@@ -1,11 +1,11 @@
 """What planning along the motion changes and costs, on the bundled problems of hands.
 
-    python tests/benchmarks/along.py [PROBLEM ...]
+    python tests/benchmarks/along.py [--knots] [PROBLEM ...]
 
 Prints for each problem: the worst slip margin that a plan of the start posture promises and the one that the hand then
 really keeps (executed with rolling pads); the worst margin of the plan along the motion, at its knots and between them;
 how often it was linearised anew, and its processor time relative to that of the plan of the start posture (medians of
-`TIMES` each), with the knots of the problem, with 41 and with 401: where that many fit its corners.
+`TIMES` each), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit its corners.
 """
 
 from __future__ import annotations
@@ -59,8 +59,13 @@ def told(answer: Outcome) -> str:
 
 def main() -> None:
     """Print one line for each problem."""
-    names = sys.argv[1:] or sorted(path.stem for path in bundled("problems").glob("*.toml"))
-    columns = f"{'promised':>8}  {'true':>8}  {'along':>8}  {'between':>8}  passes   time  at 41  at 401"
+    counts = COUNTS if "--knots" in sys.argv else ()
+    names = [name for name in sys.argv[1:] if name != "--knots"] or sorted(
+        path.stem for path in bundled("problems").glob("*.toml")
+    )
+    columns = f"{'promised':>8}  {'true':>8}  {'along':>8}  {'between':>8}  passes   time" + "  at 41  at 401" * bool(
+        counts
+    )
     print(f"{'problem':28}  {'knots':>5}  {columns}")
     for name in names:
         problem = load_problem(name)
@@ -70,11 +75,12 @@ def main() -> None:
         along = plan(problem.grasp, task)
         once = plan_of_start_posture(problem.grasp, task)
         if not isinstance(once, Plan):
-            print(f"{name:28}  {once.verdict}")
+            found = told(along) if isinstance(along, Plan) else along.verdict
+            print(f"{name:28}  {len(along.task.times):>5}  {'-':>8}  {'-':>8}  {found}", flush=True)
             continue
         executed = Executor.of(once.analysis, once.task).run(once.time, once.dz_r, once.task.wrench, once.motion)
         promised, true = once.margins.min(), executed.margins.min()
-        ratios = [ratio(problem.grasp, each) for each in (task, *(task.replace(knots=count) for count in COUNTS))]
+        ratios = [ratio(problem.grasp, each) for each in (task, *(task.replace(knots=count) for count in counts))]
         times = "  ".join(f"{each:>5}" for each in ratios)
         print(f"{name:28}  {len(once.time):>5}  {promised:>8.3f}  {true:>8.3f}  {told(along)}  {times}", flush=True)
 
