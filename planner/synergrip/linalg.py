@@ -241,9 +241,3 @@ def unit_vector(direction: Sequence[float]) -> tuple[float, ...]:
     if abs(size - 1.0) <= SAME_LENGTH:
         return tuple(direction)
     return tuple(part / size for part in direction)
-
-
-def cross(v: Array) -> Array:
-    """Return the skew matrix (3, 3) of a vector (3,): ``cross(v) @ u`` is v x u."""
-    x, y, z = v
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -68,7 +68,7 @@ def alone_in(folder: Path) -> Iterator[None]:
         BlockingIOError: another run has held it for `PATIENCE_S`.
     """
     until = time.monotonic() + PATIENCE_S
-    while (lock := _lock(folder, until)) is not None and not os.path.samestat(os.fstat(lock), os.stat(folder)):
+    while not _is_there(folder, lock := _lock(folder, until)):
         _unlock(lock)  # another run has just put a new folder in its place
     try:
         yield

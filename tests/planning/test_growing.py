@@ -32,7 +32,7 @@ def held(name: str, *overrides: str) -> tuple[Walker, Plan]:
 @cache
 def grown(name: str, *overrides: str) -> tuple[Walker, Walk]:
     walker, hold = held(name, *overrides)
-    return walker, walker.grown(hold.motion)
+    return walker, walker.grown(hold.dz_r)
 
 
 ROLL = ("barrett-ball-roll", "task.knots=11")

@@ -79,7 +79,7 @@ def at(path: Path, lines: Sequence[str], issue: Issue, line: int, column: int, l
 def too_long(path: Path, text: str) -> InputError:
     """Return the error at the first number that has more digits than Python converts."""
     runs = (match.start() for match in _DIGITS.finditer(text) if match.end() - match.start() > _MOST_DIGITS)
-    return InputError([_at_offset(path, text, Issue("a number with too many digits"), next(runs, 0))])
+    return _endless(path, text, next(runs, 0))
 
 
 def duplicates(path: Path, lines: Sequence[str], found: Positions, most: int) -> list[Issue]:
@@ -117,7 +117,11 @@ def _check_digits(path: Path, text: str) -> None:
     half = _MANY_DIGITS // 2  # a run that long holds a whole block of half its length
     for start in range(0, len(text), half):
         if text[start : start + half].isdecimal() and start + half <= len(text):
-            raise InputError([_at_offset(path, text, Issue("a number with too many digits"), start)])
+            raise _endless(path, text, start)
+
+
+def _endless(path: Path, text: str, offset: int) -> InputError:
+    return InputError([_at_offset(path, text, Issue("a number with too many digits"), offset)])
 
 
 def _check_toml(path: Path, text: str, kind: str) -> None:

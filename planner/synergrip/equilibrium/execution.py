@@ -58,11 +58,6 @@ class Execution(Value):
         """Whether all instants were reached."""
         return len(self.states) == len(self.times)
 
-    @property
-    def guess(self) -> States:
-        """States to begin at when references near these are executed."""
-        return self.path.states if len(self.path.states) == len(self.times) + squeezes(self.setting) else self.states
-
     @cached_property
     def maps(self) -> Maps:
         """(K, ...) how forces and motions answer to references and load at the equilibria."""

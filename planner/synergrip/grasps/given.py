@@ -12,7 +12,8 @@ from synergrip.errors import InputError, Issue
 from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.matrices import GivenContact, Matrices, read_matrices
-from synergrip.linalg import Array, cross, frozen
+from synergrip.linalg import Array, frozen
+from synergrip.vectors import skews
 
 AGREEMENT = 1e-6
 """Relative difference up to which given points and frames agree with G."""
@@ -137,7 +138,7 @@ def _points(matrices: Matrices, columns: list[Array]) -> list[Array]:
 
 def _moment_system(columns: Array) -> tuple[Array, Array]:
     """Return matrix and right-hand side of ``p x f = m`` for all force columns (f, m) of a contact."""
-    return np.vstack([-cross(f) for f in columns[:3].T]), columns[3:].T.ravel()
+    return np.vstack([-skews(f) for f in columns[:3].T]), columns[3:].T.ravel()
 
 
 def _normal_at(matrices: Matrices, k: int) -> str:

@@ -13,8 +13,9 @@ from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.grasps.matrix_reading import unbalanced
-from synergrip.linalg import Array, block_diagonal, cross, frozen
+from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.values import ByContent
+from synergrip.vectors import skews
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
@@ -171,7 +172,7 @@ def grasp_matrix(contacts: Sequence[Contact]) -> Array:
     The contact twist of an object that moves with (v, omega) about B is
     ``R' (v + omega x p)``, ``R' omega`` with R = (n, t, o).
     """
-    complete = [_to_contact_frame(c.frame) @ np.block([[np.eye(3), -cross(c.point)], [np.zeros((3, 3)), np.eye(3)]])
+    complete = [_to_contact_frame(c.frame) @ np.block([[np.eye(3), -skews(c.point)], [np.zeros((3, 3)), np.eye(3)]])
                 for c in contacts]  # fmt: skip
     return frozen((selection_matrix(contacts) @ np.vstack(complete)).T)
 

@@ -15,8 +15,9 @@ from synergrip.grasps.shapes.cylinder import Cylinder as Cylinder
 from synergrip.grasps.shapes.shape import Shape as Shape
 from synergrip.grasps.shapes.shape import Size
 from synergrip.grasps.shapes.sphere import Sphere as Sphere
-from synergrip.linalg import Array, cross, frozen
+from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent
+from synergrip.vectors import skews
 
 ROTATION = 1e-9
 """How far the products of the columns of a rotation may be from those of unit vectors normal to each other."""
@@ -81,7 +82,7 @@ class Turned(Shape, ByContent):
 
 def turn(axis: Sequence[float], angle: float) -> Array:
     """Return the rotation matrix (3, 3) about a unit vector (3,) by `angle` [rad]: the exponential of its cross."""
-    skew = cross(np.asarray(axis, dtype=float))
+    skew = skews(np.asarray(axis, dtype=float))
     return frozen(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
 
 

@@ -141,7 +141,7 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
     from synergrip.planning.executing import Executor
     from synergrip.planning.figures import figures
-    from synergrip.planning.reach import allowed, off
+    from synergrip.planning.reach import off
     from synergrip.planning.solvers import SOLVERS
     from synergrip.planning.walk import Walker
 
@@ -152,7 +152,7 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         missed = Check(f"equilibrium: {walk.executed.why}", float("inf"), 0.0)
         return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
-    followed = Check("rigid motion [m]", float(off(walk, walker).max()), allowed(walker))
+    followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
     margins = frozen(found.usages[0].value)
     return Judgement(
         task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between,

@@ -11,13 +11,13 @@ from synergrip.conic.along import AtStates
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.outcome import BETWEEN, Check
+from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
 from synergrip.statics.motion import Motion
@@ -121,14 +121,9 @@ def _missed(usages: Sequence[Usage], rooms: Mapping[str, float], where: str = ""
     """Yield what is beyond its limit: the worst of each, where, when, and the limit."""
     for usage in usages:
         if usage.excess.max(initial=0.0) > _room(usage, rooms):
-            k, i = usage.worst()
-            factor, unit = SHOWN_IN.get(usage.unit, (1.0, usage.unit))
-            value = float(usage.value[k, i])
-            bound = float(usage.upper[i] if value > usage.upper[i] else usage.lower[i])
-            shown, limit = apart(factor * value, factor * bound)
-            least = "at most" if value > usage.upper[i] else "at least"
-            place = f"({usage.items[i]}, t = {usage.times[k]:.3g} s; {least} {limit} {unit}".rstrip() + " asked)"
-            yield f"{where}{usage.title} {shown} {unit}".rstrip() + f" {place}"
+            (k, i), (shown, limit) = usage.worst(), nearest(usage)
+            end = "at most" if usage.value[k, i] > usage.upper[i] else "at least"
+            yield (f"{where}{usage.title} {shown} ({usage.items[i]}, t = {usage.times[k]:.3g} s; {end} {limit} asked)")
 
 
 def _rooms(executed: Execution, walker: Walker) -> dict[str, float]:

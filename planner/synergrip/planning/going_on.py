@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.errors import Refusal
-from synergrip.linalg import Array, Places
+from synergrip.linalg import Places
 from synergrip.planning.between import between
 from synergrip.planning.executing import Executor
 from synergrip.planning.formulated import formulated
@@ -46,7 +46,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
     walker = Walker(task, start, Executor.of(start, task), answers)
     begun = replace(hold.formulation, target=walker.wanted, intersample=None)
     begin = replace(hold, task=task, between=between(task, start, begun, hold.motion))
-    answer = answer_of(walker.grown(hold.motion), walker, begin)
+    answer = answer_of(walker.grown(hold.dz_r), walker, begin)
     told = f"the linear model of the start posture alone says no: {no.why}"
     if isinstance(answer, Plan):
         return replace(answer, notes=(*answer.notes, told))
@@ -55,9 +55,9 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
 
 def refused_at_once(start: Analysis, task: TimedTask) -> bool:
     """Return whether the very first step of a motion leaves what the rigid motions of the start posture can follow."""
-    moving = _moving(start, task)
+    begun = task.first(int(_moving(start, task)[0]) + 1)
     try:
-        formulated(start, _until(task, task.times[: moving[0] + 1]), redundancy=True)
+        formulated(start, replace(begun, course=None, tolerance=0.0), redundancy=True)
     except Refusal:
         return True
     return False
@@ -66,13 +66,6 @@ def refused_at_once(start: Analysis, task: TimedTask) -> bool:
 def _moving(start: Analysis, task: TimedTask) -> Places:
     """Return the knots at which the object is wanted elsewhere than at the start."""
     return np.flatnonzero(np.any(target_displacement(start, task, task.target.values) != 0, axis=1))
-
-
-def _until(task: TimedTask, times: Array) -> TimedTask:
-    """Return the task at its first knots, whatever lies between them; it tolerates nothing."""
-    count = len(times)
-    target = replace(task.target, values=task.target.values[:count])
-    return replace(task, times=times, wrench=task.wrench[:count], target=target, course=None, tolerance=0.0)
 
 
 def _without_motion(task: TimedTask) -> TimedTask:

@@ -54,10 +54,7 @@ class Way(Value):
         if count > 1:
             share = (gone - self.gone[count - 2]) / (self.gone[count - 1] - self.gone[count - 2])
             aim[-1] = (1 - share) * whole[count - 2] + share * whole[count - 1]
-        task = walker.task
-        target = replace(task.target, values=task.target.values[:count])
-        part = replace(task, times=task.times[:count], wrench=task.wrench[:count], target=target)
-        return replace(walker, task=part, aim=frozen(aim))
+        return replace(walker, task=walker.task.first(count), aim=frozen(aim))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -24,11 +24,6 @@ DEAR = 3.0
 """Near a straight posture some rigid motion takes joint motions larger than at the start by this factor."""
 
 
-def allowed(walker: Walker) -> float:
-    """Return how far the rigid motion may be behind the wanted one [m]."""
-    return walker.allowed
-
-
 def off(walk: Walk, walker: Walker) -> Array:
     """Return how far (T,) the object is from where it is wanted [m], but for elastic motion and sag."""
     if walk.way is None or walk.until is not None:
@@ -39,15 +34,15 @@ def off(walk: Walk, walker: Walker) -> Array:
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
-    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= allowed(walker)
+    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= walker.allowed
     pose, until = executed.du[-1] if arrived else np.zeros(6), walk.until
-    astray = False
+    astray, far = False, off(walk, walker)
     if until is None:  # a walk of all knots that were reached, some of which are off
-        k = len(executed.states) if walk.way is None else int(np.argmax(off(walk, walker) > allowed(walker)))
+        k = len(executed.states) if walk.way is None else int(np.argmax(far > walker.allowed))
         pose, until = executed.du[k - 1] if k else np.zeros(6), float(times[max(k - 1, 0)])
-        astray = walk.way is not None and walk.way.behind[k] <= allowed(walker)
+        astray = walk.way is not None and walk.way.behind[k] <= walker.allowed
     told = describe_displacement(pose, walker.start.response.scale.length)
-    beyond = f"the motion goes on, by {1e3 * float(off(walk, walker).max()):.3g} mm at most, where no rigid motion does"
+    beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
 
@@ -101,5 +96,5 @@ def notes(walk: Walk, walker: Walker) -> Iterator[str]:
     if walk.behind > FOLLOWED:
         yield (
             f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
-            f"within the {1e3 * allowed(walker):.2g} mm that count as followed"
+            f"within the {1e3 * walker.allowed:.2g} mm that count as followed"
         )

@@ -42,24 +42,20 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
     arrays = arrays_of(Moved(analysis, motion, *parts, judged.margins))
     code, executed = claimed.get("exit_code"), judged.executed
     true = {} if executed is None else {"true": true_document(executed, judged.usages[0], judged.fixed)}
-    return (
-        arrays
-        | {
-            "verdict": verdict,
-            "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
-            "structure": structure_document(grasp, analysis),
-            **names_of(grasp),
-            "time_s": knots if len(knots) == len(motion.times) else motion.times,
-            "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
-            "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
-            "force_unit_N": units_of(analysis, task).force,
-            "limits": [series_document(usage) for usage in judged.usages],
-            "checks": _checks(judged, claimed.get("checks")),
-            "between": between_document(judged.between),
-            "columns": _columns(judged, arrays),
-        }
-        | true
-    )
+    return arrays | true | {
+        "verdict": verdict,
+        "exit_code": code if verdict == "feasible" and code == INTERRUPTED else int(verdict != "feasible"),
+        "structure": structure_document(grasp, analysis),
+        **names_of(grasp),
+        "time_s": knots if len(knots) == len(motion.times) else motion.times,
+        "margin": margin_document(judged.usages[0]) | {"per_contact_N": judged.margins},
+        "largest_margin_N": _largest_margin(judged) if isinstance(task.goal, LargestMargin) else None,
+        "force_unit_N": units_of(analysis, task).force,
+        "limits": [series_document(usage) for usage in judged.usages],
+        "checks": _checks(judged, claimed.get("checks")),
+        "between": between_document(judged.between),
+        "columns": _columns(judged, arrays),
+    }  # fmt: skip
 
 
 INTERRUPTED = 130

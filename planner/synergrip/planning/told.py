@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from synergrip.conic.limits.limit import Usage
+from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.between import Between
@@ -54,6 +53,16 @@ def usage_document(usage: Usage) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def nearest(usage: Usage) -> tuple[str, str]:
+    """Return the worst value of a limit and the bound that it is nearest to or beyond, as people read them."""
+    k, i = usage.worst()
+    value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
+    factor, unit = SHOWN_IN.get(usage.unit, (1.0, ""))
+    bound = lower if lower - value >= value - upper else upper
+    shown, limit = (f"{number} {unit}".rstrip() for number in apart(factor * value, factor * bound))
+    return shown, limit
+
+
 def series_document(usage: Usage) -> dict[str, Any]:
     """Return the worst value of a limit and all of them: at the knots, of its items, with the bounds of each."""
     ends = {"lower": usage.lower, "upper": usage.upper}
@@ -71,7 +80,7 @@ def true_document(execution: Execution, margins: Usage, fixed: Execution | None 
         fixed: the execution of the same with contacts that stay where they are, where they roll in the first.
     """
     radii = [touch.pad.radius or 0.0 for touch in execution.setting.held.touches]
-    other = None if fixed is None else finite(fixed.margins.min(initial=np.inf) if fixed.whole else np.inf)
+    other = None if fixed is None else finite(float(fixed.margins.min()) if fixed.whole else math.inf)
     return {
         "pad_radius_m": radii, "worst_N_if_fixed": other,
         "contact_model": execution.setting.contact_model,

@@ -86,12 +86,17 @@ class Walk(Value):
     @property
     def true(self) -> bool:
         """Whether what was promised is what happens."""
-        return self.way is not None and self.gap <= self.allowed
+        return self.way is not None and self.gap <= self.room
 
     @property
-    def allowed(self) -> float:
+    def room(self) -> float:
         """[N] difference up to which a promise counts as what happens."""
-        return max(TRUE, OF_FORCES * float(np.abs(self.executed.states.forces).max(initial=0.0)))
+        return max(TRUE, OF_FORCES * self.largest)
+
+    @property
+    def largest(self) -> float:
+        """[N] The largest component of the true forces."""
+        return float(np.abs(self.executed.states.forces).max(initial=0.0))
 
     @property
     def behind(self) -> float:
@@ -131,23 +136,22 @@ class Walker:
             return whole
         alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
         held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
-        grown = self.grown(replace(linear, dz_r=frozen(held)))
+        grown = self.grown(frozen(held))
         return replace(grown, passes=whole.passes + grown.passes, tried=(*whole.tried, *grown.tried))
 
-    def grown(self, hold: Motion) -> Walk:
+    def grown(self, hold: Array) -> Walk:
         """Return the walk that comes of following the wanted motion a little farther at a time (`growing`).
 
         Args:
-            hold: a plan for the same loads without the motion, for its references; they change with the load.
+            hold: (T, n_z) references of a plan for the same loads without the motion; they change with the load.
         """
         from synergrip.planning.growing import grown
 
-        return grown(self, hold.dz_r)
+        return grown(self, hold)
 
     def near(self, walk: Walk) -> bool:
         """Return whether a walk is as far as wanted, and promise and truth are near each other."""
-        largest = float(np.abs(walk.executed.states.forces).max(initial=0.0))
-        return walk.behind <= self.allowed and walk.gap <= max(TRUE, ROUGH * largest)
+        return walk.behind <= self.allowed and walk.gap <= max(TRUE, ROUGH * walk.largest)
 
     @property
     def allowed(self) -> float:
@@ -214,11 +218,9 @@ class Walker:
     @cached_property
     def wanted(self) -> Array:
         """(T, 6) where the object is wanted, from where it starts [m, rad]."""
-        return (
-            self.aim
-            if self.aim is not None
-            else frozen(target_displacement(self.start, self.task, self.task.target.values))
-        )
+        if self.aim is not None:
+            return self.aim
+        return frozen(target_displacement(self.start, self.task, self.task.target.values))
 
     def around(self, way: Steps, walk: Walk, beta: Array) -> AlongPath:
         """Return the task around a path, with a rigid motion (T, dim Gamma_ucs) that follows what is wanted."""
@@ -241,7 +243,7 @@ def _shorter(found: Walk | None) -> float:
     """Return by how much a step is made shorter that was too long: its gap is as the square of it."""
     if found is None or found.way is None:
         return SHORTER
-    return float(np.clip(np.sqrt(AIMED * found.allowed / max(found.gap, 1e-300)), SHORTEST_CUT, SHORTER))
+    return float(np.clip(np.sqrt(AIMED * found.room / max(found.gap, 1e-300)), SHORTEST_CUT, SHORTER))
 
 
 def _told(found: Walk | None, good: bool) -> str:

@@ -13,7 +13,7 @@ from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
-from synergrip.planning.reach import allowed, hindrances, notes, off, reached_by
+from synergrip.planning.reach import hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walk, Walker
@@ -24,17 +24,15 @@ margin."""
 
 
 def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
-    """Return the answer at the true equilibria of the hand; a grasp given as matrices has none to speak of.
+    """Return the answer at the true equilibria of the hand.
+
+    Args:
+        plan: for the start posture, on a hand.
+        answers: the solver.
 
     Raises:
         KeyboardInterrupt: what was found when somebody interrupted does not hold.
-
-    Args:
-        plan: for the start posture.
-        answers: the solver.
     """
-    if plan.grasp.held is None:
-        return plan
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
     if plan.task.linearise == "along" and not plan.interrupted:
         return answer_of(walker.walk(plan.motion), walker, plan)
@@ -52,7 +50,7 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
         return _unknown(walker, plan, f"{why}; {ALONG}", walk)
     found = figures(walk, walker, plan.formulation, plan.between)
     said = _missed(found)
-    if (most := float(off(walk, walker).max())) > allowed(walker):
+    if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
     if said:
@@ -79,7 +77,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     task = walker.task
     if walk.interrupted:
         return _best_so_far(walk, walker, linear)
-    if float(off(walk, walker).max()) > allowed(walker):
+    if float(off(walk, walker).max()) > walker.allowed:
         reached = reached_by(walk, walker)
         if not np.any(walker.wanted):
             held = f"the hand that moves does not hold the object within its limits after t = {reached.until_s:.3g} s"
@@ -95,15 +93,11 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
             return answer_of(more.on(replace(walk, gap=np.inf)), more, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
-    stage = walk.stage
     told = (
-        *accuracy_notes(walker.start.response), *(() if stage is None else stage.notes), *passed_over(found.between),
+        *accuracy_notes(walker.start.response), *_goal_notes(walk), *passed_over(found.between),
         *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
-    plan = linear if stage is None else replace(
-        linear, decisions=(*linear.decisions, *stage.decisions), interrupted=stage.interrupted,
-    )  # fmt: skip
-    return _with(plan, walk, walker, found, told)
+    return _with(_decided(linear, walk), walk, walker, found, told)
 
 
 def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
@@ -112,18 +106,24 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     Raises:
         KeyboardInterrupt: it does not.
     """
-    if float(off(walk, walker).max()) > allowed(walker):
+    if float(off(walk, walker).max()) > walker.allowed:
         raise KeyboardInterrupt
     found = figures(walk, walker, linear.formulation, linear.between)
     if not all(check.passed for check in found.checks):
         raise KeyboardInterrupt
-    stage, note = (
-        walk.stage,
-        f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best",
-    )
-    decisions = linear.decisions if stage is None else (*linear.decisions, *stage.decisions)
-    plan = replace(linear, decisions=decisions, interrupted=True)
-    return _with(plan, walk, walker, found, (*(() if stage is None else stage.notes), note))
+    note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
+    plan = replace(_decided(linear, walk), interrupted=True)
+    return _with(plan, walk, walker, found, (*_goal_notes(walk), note))
+
+
+def _decided(linear: Plan, walk: Walk) -> Plan:
+    """Return the plan where a walk began with the decisions of the pass that it ended with."""
+    return linear if walk.stage is None else replace(linear, decisions=(*linear.decisions, *walk.stage.decisions))
+
+
+def _goal_notes(walk: Walk) -> tuple[str, ...]:
+    """Return what is to be said of the goals of the pass that a walk ended with."""
+    return () if walk.stage is None else walk.stage.notes
 
 
 def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, told: Sequence[str]) -> Plan:

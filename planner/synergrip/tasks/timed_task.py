@@ -137,6 +137,11 @@ class TimedTask(Value):
             each = (*each, JointRange().on(grasp))
         return replace(self, limits=each, goals=tuple(goal.on(grasp) for goal in self.goals))
 
+    def first(self, count: int) -> TimedTask:
+        """Return the task at the first of its knots."""
+        target = replace(self.target, values=self.target.values[:count])
+        return replace(self, times=self.times[:count], wrench=self.wrench[:count], target=target)
+
     @property
     def binding(self) -> tuple[Limit, ...]:
         """The limits that are stated, without joint ranges where all of them are let go."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
+from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT
 from synergrip.reports.text.tables import wrapped
 from synergrip.reports.text.text_problem import many
@@ -49,10 +49,7 @@ def _limits(between: Between, held: bool) -> str:
         return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
     worst = max(between.usages, key=lambda usage: usage.violation)
     k, i = worst.worst()
-    value = float(worst.value[k, i])
-    bound = float(worst.lower[i] if worst.lower[i] - value >= value - worst.upper[i] else worst.upper[i])
-    factor, unit = SHOWN_IN.get(worst.unit, (1.0, ""))
-    reached, limit = (f"{number} {unit}".rstrip() for number in apart(factor * value, factor * bound))
+    reached, limit = nearest(worst)
     advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
