@@ -19,6 +19,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.planning.check import judge_references
 from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan as plan_that_moves
 from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.references import References
 from synergrip.problems.problem import load_problem
@@ -94,6 +95,7 @@ def test_a_motion_under_a_load_of_rounding_size_is_feasible() -> None:
     for overrides in (light, [*light, "task.gravity=[0,0,0]"]):
         problem = load_problem("gripper-peg", overrides)
         assert isinstance(plan(problem.grasp, problem.task), Plan)
+        assert isinstance(plan_that_moves(problem.grasp, problem.task), Plan)
 
 
 def test_a_margin_that_is_just_out_of_reach_is_told_as_zero() -> None:

@@ -48,6 +48,8 @@ AIMED, SHORTEST_CUT = 0.5, 0.05
 """What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
 BETTER = 0.5
 """Share of the last difference between promise and truth that a step must get below."""
+OF_PATH = 1e-3
+"""Share of the largest force on a path that the unit of force in a program around it is at least."""
 REACHED = 0.01
 """How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
 the grasp."""
@@ -230,7 +232,7 @@ class Walker:
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
             sag_of(way.each, task.wrench, start),
         )  # fmt: skip
-        sizes = expected_units(start, task, np.zeros_like(beta), self.wanted)
+        sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(
             start.response, start.spaces, start.coordinates, times=task.times, wrench=task.wrench, beta=beta,
             beta_basis=way.basis, target=self.wanted, units=sizes, redundancy=True, stated=units_of(start, task),

@@ -31,7 +31,7 @@ def units_of(analysis: Analysis, task: TimedTask) -> Units:
     return Units(force if force > 0 else smallest_cap(analysis, task), reference, _motion(task))
 
 
-def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Array) -> Units:
+def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Array, known: float = 0.0) -> Units:
     """Return the sizes near which the unknowns of a task are expected.
 
     Args:
@@ -39,9 +39,10 @@ def expected_units(analysis: Analysis, task: TimedTask, beta: Array, target: Arr
         task: its loads and limits.
         beta: (T, dim Gamma_ucs) the rigid motion as far as it is given [m].
         target: (T, 6) wanted displacement of the object [m, rad].
+        known: [N] forces that there are whatever is asked, and beside which the unknowns must not drown.
     """
     least = max((limit.lower for limit in task.limits if isinstance(limit, NormalForce)), default=0.0)
-    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, target))
+    force = max(_load(analysis, task), task.margin, least, _of_motion(analysis, task, target), known)
     if not force > 0:
         force = smallest_cap(analysis, task)
     n_alpha, n_beta, _ = analysis.coordinates.dimensions
