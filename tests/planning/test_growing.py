@@ -10,8 +10,8 @@ import pytest
 
 from synergrip.planning.executing import Executor
 from synergrip.planning.growing import LONGEST, Way
-from synergrip.planning.outcome import Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.outcome import Plan, Unknown
+from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.reach import reached_by
 from synergrip.planning.solvers import SOLVERS
 from synergrip.planning.walk import Walk, Walker
@@ -87,3 +87,15 @@ def test_the_way_is_cut_where_it_is_asked_for() -> None:
         own = [np.interp(gone, way.gone, column) for column in walker.wanted.T]
         assert part.wanted[-1] == pytest.approx(own)
     assert way.end > LONGEST
+
+
+def test_a_squeeze_that_the_motors_cannot_give_is_not_blamed_on_joints_that_a_short_step_stops() -> None:
+    """The start posture keeps the margin; the hand that moves would need more effort than its motors have."""
+    problem = load_problem("brown-asada-ball", ("limits.margin=0.55 N", "object.mass=95 g"))
+    assert isinstance(plan_of_start_posture(problem.grasp, problem.task), Plan)
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Unknown)
+    assert answer.stage == "execution"
+    assert "does not hold the object within its limits at t = 0 s" in answer.why
+    assert "limits.margin (middle/tip) and limits.actuator_effort (motor1) cannot both be kept there" in answer.why
+    assert "joint '" not in answer.why

@@ -1,38 +1,36 @@
-"""What kept a pass along the motion from being taken: a limit that binds, or a hand that does not go on."""
+"""What kept a pass along the motion from being taken: limits that clash, or a hand that does not go on."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Self
 
-from synergrip.conic.conflicts import conflicts
+from synergrip.conic.conflicts import Conflict, conflicts
 from synergrip.conic.decide import Decision
 from synergrip.equilibrium.execution import Execution
 from synergrip.values import Value
 
 STEP = "step"
 """Key of what keeps a pass short, which is no limit of the task."""
+PLAYS_A_PART = 0.05
+"""Share of a proof that a limit carries at least to be named."""
 
 
 @dataclass(frozen=True, repr=False)
 class Hindrance(Value):
     """Why a pass was not taken."""
 
-    key: str = ""
-    """The limit that carries most of the proof that there is no such pass; empty when that is not the reason."""
-    items: tuple[str, ...] = ()
-    """Whom it binds, the heaviest first."""
-    friction: bool = False
-    """Whether it is the friction cones that carry most of it."""
+    limits: tuple[Conflict, ...] = ()
+    """Those that prove that there is no such pass, the heaviest first; empty when that is not the reason."""
     execution: str = ""
     """Why the execution of what was found ended early; empty when it did not."""
 
     @classmethod
-    def of(cls, decision: Decision, executed: Execution | None) -> Self:
-        """Return it from what was answered, and from the execution of that, if there was any."""
+    def of(cls, decision: Decision, executed: Execution | None) -> Self | None:
+        """Return it from what was answered, and from its execution, if there was any; None when none is known."""
         if executed is not None:
-            return cls(execution=executed.why)
-        ray = decision.certificate.y if decision.infeasible else None
-        found = [] if ray is None else [each for each in conflicts(decision.program, ray) if each.key != STEP]
-        chief = next((each for each in found if not each.friction), None) or next(iter(found), None)
-        return cls() if chief is None else cls(chief.key, chief.items, chief.friction)
+            return cls(execution=executed.why) if executed.why else None
+        if not decision.infeasible or decision.certificate.y is None:
+            return None
+        found = [each for each in conflicts(decision.program, decision.certificate.y) if each.key != STEP]
+        return cls(tuple(each for each in found if each.share > PLAYS_A_PART) or tuple(found[:1]))

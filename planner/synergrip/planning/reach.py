@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from synergrip.conic.conflicts import Conflict
 from synergrip.hands.hand import Joint
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
@@ -34,8 +35,7 @@ def off(walk: Walk, walker: Walker) -> Array:
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
-    arrived = walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= walker.allowed
-    pose, until = executed.du[-1] if arrived else np.zeros(6), walk.until
+    pose, until = executed.du[-1] if arrived(walk, walker) else np.zeros(6), walk.until
     astray, far = False, off(walk, walker)
     if until is None:  # a walk of all knots that were reached, some of which are off
         k = len(executed.states) if walk.way is None else int(np.argmax(far > walker.allowed))
@@ -45,6 +45,11 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
     beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
+
+
+def arrived(walk: Walk, walker: Walker) -> bool:
+    """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
+    return walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= walker.allowed
 
 
 def hindrances(walk: Walk, walker: Walker) -> str:
@@ -57,19 +62,28 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     met, ends = walk.hindered or Hindrance(), dict(_ends(walk, walker))
     near = [told for told, (joint, off) in ends.items() if off < AT_END[SI_UNITS[joint.kind]]]
     straight = _dear(walk, walker) > DEAR
-    if met.key == RANGES and not near and not straight:
-        near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in met.items]
-    if met.key and met.key != RANGES:
-        what = f"{met.key} ({', '.join(met.items)})"
-        yield f"{what} cannot be kept there" if met.friction else f"{what} binds"
+    others = [limit for limit in met.limits if limit.key != RANGES]
+    if not near and not straight:
+        names = [name for limit in met.limits if limit.key == RANGES for name in limit.items]
+        near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in names]
+    if others:
+        yield _binding(others)
     if met.execution or walk.executed.why:
         yield met.execution or walk.executed.why
     elif near:
         yield " and ".join(near)
     elif straight:
         yield "the fingers are near a straight posture"
-    elif not met.key:
+    elif not others:
         yield "no step however short comes nearer"
+
+
+def _binding(limits: Sequence[Conflict]) -> str:
+    """Return that limits other than ranges of joints bind."""
+    what = [f"{limit.key} ({', '.join(limit.items)})" for limit in limits]
+    if len(what) > 1:
+        return f"{', '.join(what[:-1])} and {what[-1]} cannot {'both' if len(what) == 2 else 'all'} be kept there"
+    return f"{what[0]} cannot be kept there" if limits[0].friction else f"{what[0]} binds"
 
 
 def _ends(walk: Walk, walker: Walker) -> Iterator[tuple[str, tuple[Joint, float]]]:

@@ -181,7 +181,8 @@ class Walker:
             good = found is not None and found.better_than(best)
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
             tried = (*best.tried, answered.decision)
-            why = None if good else Hindrance.of(answered.decision, None if found is None else found.executed)
+            met = Hindrance.of(answered.decision, None if found is None else found.executed)
+            why = None if good else best.hindered or met  # a shorter step is hindered by being short, too
             best = replace(found if good and found is not None else best, passes=count, tried=tried, hindered=why)
             share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
         return best

@@ -13,7 +13,7 @@ from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
-from synergrip.planning.reach import hindrances, notes, off, reached_by
+from synergrip.planning.reach import arrived, hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walk, Walker
@@ -80,7 +80,8 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if float(off(walk, walker).max()) > walker.allowed:
         reached = reached_by(walk, walker)
         if not np.any(walker.wanted):
-            held = f"the hand that moves does not hold the object within its limits after t = {reached.until_s:.3g} s"
+            when = f"{'after' if arrived(walk, walker) else 'at'} t = {reached.until_s:.3g} s"
+            held = f"the hand that moves does not hold the object within its limits {when}"
             return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
     if not walk.true:
