@@ -46,7 +46,7 @@ STEP, DAMPING = 0.3, 2e-3
 SHORTER, SHORTEST, TRIES = 1 / 3, 1e-3, 2
 AIMED, SHORTEST_CUT = 0.5, 0.05
 """What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
-BETTER = 0.5
+BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
 OF_PATH = 1e-3
 """Share of the largest force on a path that the unit of force in a program around it is at least."""
