@@ -44,7 +44,7 @@ def over(knots: int, formulation: Formulation) -> Formulation:
 def rows(squares: Sequence[Squares], knots: int, n_v: int) -> Array:
     """Every row of the squares (R, T n_v), each part 1 in size, made by looking at every unknown alone."""
     units = np.eye(knots * n_v).reshape(-1, knots, n_v)
-    parts = [np.zeros((0, knots * n_v))]
+    parts = [np.zeros((1, knots * n_v))]  # older SciPy has no null space of a matrix without rows
     for part in squares:
         still = part.at(np.zeros((knots, n_v))).ravel()
         own = np.array([part.at(unit).ravel() - still for unit in units]).T
