@@ -130,6 +130,7 @@ def interrupted(after_s: float, tally: Counter[str]) -> list[str]:
 
 def interrupts(instants: list[float]) -> list[str]:
     """Interrupt plans at instants [s]."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell's background job ignores, its children do
     tally: Counter[str] = Counter()
     wrong = [word for instant in instants for word in interrupted(instant, tally)]
     print(*(f"{key}: {value}" for key, value in sorted(tally.items())), sep="\n")

@@ -35,7 +35,8 @@ def test_the_front_runs_from_the_least_peak_to_the_largest_margin(name: str) -> 
     assert np.all(np.diff(peaks, 2) > -4e-3 * peaks.max())  # the trade is convex
     begun = plan_of_start_posture(problem.grasp, best.task)
     assert isinstance(begun, Plan)
-    most = min(best.largest_margin, begun.largest_margin)
+    assert best.between is not None
+    most = min(best.largest_margin, begun.largest_margin, best.between.usages[0].value.min())
     assert margins[-1] == pytest.approx(most, abs=1.1 * ROOM * best.formulation.force_unit)
     least = plan(problem.grasp, replace(problem.timed, goals=goals("peak_force", "effort")))
     assert isinstance(least, Plan)

@@ -21,7 +21,6 @@ from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT, limit_usages
 from synergrip.planning.walk import Walk, Walker
 from synergrip.statics.motion import Motion
-from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import Steps, steps
 from synergrip.values import Value
@@ -45,13 +44,6 @@ class Figures(Value):
     checks: tuple[Check, ...]
     missed: tuple[str, ...]
     """What is beyond its limit, by how much, where and when, in words."""
-
-    def short_between(self, task: TimedTask) -> float:
-        """Return by how much a slip margin that is to hold between the knots falls short there [N]; 0 when kept."""
-        if task.between != "hold" or self.between is None or self.between.rooms is None:
-            return 0.0
-        short = float(self.between.usages[0].excess.max(initial=0.0))
-        return short if short > self.between.rooms[0] else 0.0
 
 
 def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Between | None) -> Figures:
@@ -93,7 +85,7 @@ def _between(
         rooms=tuple(_room(usage, rooms) for usage in usages),
     )  # fmt: skip
     where = f"{BETWEEN}: "
-    if task.between != "hold":
+    if task.between == "report":
         return found, (stable(executed, where),), ()
     return found, (stable(executed, where), *kept(usages, rooms, where)), tuple(_missed(usages, rooms, where))
 

@@ -56,6 +56,8 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
     if best.executed is not None:  # every point begins with a plan of the start posture
         begun = plan_of_start_posture(best.analysis, task, solver)
         most = min(most, begun.largest_margin or 0.0) if isinstance(begun, Plan) else most
+        if best.between is not None and task.between != "report":  # where it is to be kept, too
+            most = min(most, float(best.between.usages[0].value.min()))
     top = most - ROOM * max(most, best.formulation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
         point = plan(grasp, replace(task, margin=float(margin), goals=(LeastPeak(), LeastEffort())), solver)

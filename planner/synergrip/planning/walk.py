@@ -24,6 +24,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
 from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
@@ -122,8 +123,8 @@ class Walker:
     start: Analysis
     executor: Executor
     solver: Answerer
-    reserve: float = 0.0
-    """[N] how much more than the task asks contacts are to keep at the knots, so that they keep that between them."""
+    more: MoreAtKnots | None = None
+    """How much tighter limits are asked for at the knots than the task has them, so that they hold between them."""
     aim: Array | None = None
     """(T, 6) where the object is wanted instead of where the task says [m, rad]."""
 
@@ -213,8 +214,9 @@ class Walker:
     def _first(self, way: Steps, walk: Walk, share: float) -> tuple[Answered, tuple[Limit, ...]]:
         """Return what the first goal comes to around a path, and the limits that it keeps."""
         beta, moved = way.damped(DAMPING / share)
-        first, asked = self.task.goal, replace(self.task, margin=self.task.margin + self.reserve)
-        limits = asked.kept if isinstance(first, LargestMargin) else asked.all_limits
+        first, task = self.task.goal, self.task
+        limits = task.kept if isinstance(first, LargestMargin) else task.all_limits
+        limits = limits if self.more is None else self.more.asked(limits)
         limits = (*limits, ShortStep(frozen(STEP * share + 1.5 * moved)))
         return ask(Question(self.around(way, walk, beta), limits, first), self.solver), limits
 

@@ -12,15 +12,12 @@ from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
+from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.reach import arrived, hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walk, Walker
-
-MORE, MOST_RESERVE = 1.2, 1.0
-"""What is asked for at the knots for each newton of margin that is missing between them, and up to what share of the
-margin."""
 
 
 def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
@@ -74,7 +71,6 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         walker: who walked.
         linear: the plan for the start posture, where the walk began.
     """
-    task = walker.task
     if walk.interrupted:
         return _best_so_far(walk, walker, linear)
     if float(off(walk, walker).max()) > walker.allowed:
@@ -88,10 +84,8 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         why = f"after {walk.passes} passes what is promised and what the hand does still differ by {walk.gap:.3g} N"
         return _unknown(walker, linear, why, walk, figures(walk, walker, linear.formulation, linear.between))
     found = figures(walk, walker, linear.formulation, linear.between)
-    if short := found.short_between(task):
-        more = replace(walker, reserve=walker.reserve + MORE * short)
-        if more.reserve <= MOST_RESERVE * max(task.margin, short):
-            return answer_of(more.on(replace(walk, gap=np.inf)), more, linear)
+    if kept := _kept_between(walk, walker, found):
+        return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
     told = (
@@ -99,6 +93,19 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
     return _with(_decided(linear, walk), walk, walker, found, told)
+
+
+def _kept_between(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
+    """Return a walk that asks for more at the knots for what limits miss between them; None when no such one helps."""
+    if walker.task.between == "report" or found.between is None:
+        return None
+    more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
+    if (more_still := more.for_what_is_missing(found.between, walker.task)) is None:
+        return None
+    harder = replace(walker, more=more_still)
+    again = harder.on(replace(walk, gap=np.inf))
+    arrives = again.true and float(off(again, harder).max()) <= harder.allowed
+    return (again, harder) if arrives or again.interrupted else None
 
 
 def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:

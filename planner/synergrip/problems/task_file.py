@@ -91,9 +91,10 @@ class TaskTable(Table):
     axes: Annotated[tuple[AxisName, ...], Field(min_length=1)] = Field(
         default=AXES, description="on which axes about B the wanted motion is asked for: x, y, z, rx, ry, rz"
     )
-    between: Literal["report", "hold"] = Field(
-        default="report",
-        description="what happens between the knots: reported, or kept within all limits by a reserve at the knots",
+    between: Literal["report", "hold"] | None = Field(
+        default=None,
+        description="what happens between the knots: reported, or kept within all limits by a reserve at the knots; "
+        "kept by the hand that moves when absent",
     )
     linearise: Literal["once", "along"] = Field(
         default="along",

@@ -49,7 +49,8 @@ class Task(ByContent):
         tolerance: rigid: how far the target may leave Gamma_ucs; compliant: how far the object may be from it [m].
         axes: on which of x, y, z, rx, ry, rz about B the target is asked for.
         drift: how far the object may move on the other axes [m]; None when as far as it likes.
-        between: what happens between the knots: "report" it, or "hold" the limits there too.
+        between: what happens between the knots: "report" it, or "hold" the limits there too, in the linear model as
+            well; None: the limits hold there on the hand that moves, and are reported for a grasp given as matrices.
         load_factor: by which the whole load is multiplied.
         linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
             the hand does; or "once", at the start posture, as the paper does.
@@ -73,7 +74,7 @@ class Task(ByContent):
     tolerance: float = 0.0
     axes: tuple[AxisName, ...] = AXES
     drift: float | None = None
-    between: Literal["report", "hold"] = "report"
+    between: Literal["report", "hold"] | None = None
     load_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
 
@@ -95,8 +96,9 @@ class Task(ByContent):
             *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),
             *(_axis_issues(axes, self.drift) if is_list(self.axes) else ()),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold")),
-                         linearise=(self.linearise, ("once", "along"))),
+            *word_issues(tracking=(self.tracking, ("rigid", "compliant"))),
+            *word_issues(linearise=(self.linearise, ("once", "along"))),
+            *([] if self.between is None else word_issues(between=(self.between, ("report", "hold")))),
         ]  # fmt: skip
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)

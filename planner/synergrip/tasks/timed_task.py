@@ -82,8 +82,9 @@ class TimedTask(Value):
     """How far the object may move on the other axes [m, rotations times length]; None when as far as it likes."""
     course: Course | None = None
     """Load and wish at any time; straight lines between the knots when None."""
-    between: Literal["report", "hold"] = "report"
-    """Whether what happens between the knots is reported, or also kept within all limits."""
+    between: Literal["report", "hold"] | None = None
+    """Whether what happens between the knots is reported, or also kept within all limits; None: reported in the linear
+    model, kept by the hand that moves."""
     linearise: Literal["once", "along"] = "along"
     """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
 
@@ -107,8 +108,9 @@ class TimedTask(Value):
             *judge.issues,
             *size_issues(self.margin, self.tolerance, self.drift, compliant=is_word(self.tracking, ("compliant",))),
             *goal_issues(self.goals),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant")), between=(self.between, ("report", "hold")),
-                         linearise=(self.linearise, ("once", "along"))),
+            *word_issues(tracking=(self.tracking, ("rigid", "compliant"))),
+            *word_issues(linearise=(self.linearise, ("once", "along"))),
+            *([] if self.between is None else word_issues(between=(self.between, ("report", "hold")))),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
             *limit_issues(self.limits),
         ])  # fmt: skip

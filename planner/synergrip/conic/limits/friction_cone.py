@@ -74,32 +74,34 @@ def carried(formulation: Formulation, motion: Motion) -> Array:
     return frozen(np.maximum(largest, max(formulation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
 
 
-def friction_rows(formulation: Formulation, margin: float, epigraph: float, key: str) -> list[Rows]:
+def friction_rows(formulation: Formulation, margin: float | Array, epigraph: float, key: str) -> list[Rows]:
     """Return rows ``W lambda - (margin - epigraph s) e_1`` in the cone, cones of one size together.
 
     Args:
         formulation: the task.
-        margin: required margin [N].
+        margin: required margin, one for all or (T, n_c) for each knot and contact [N].
         epigraph: coefficient of the goal's scalar in the margin's place, in force units.
         key: what asks for it.
     """
     grasp, unit = formulation.response.grasp, formulation.force_unit
     every = [
-        (Item(contact.name, side), cone, rows)
-        for contact, rows in zip(grasp.contacts, grasp.rows, strict=True)
+        (Item(contact.name, side), cone, i)
+        for i, contact in enumerate(grasp.contacts)
         for side, cone in zip(contact.kind.sides, contact.cones, strict=True)
     ]
+    margins = np.broadcast_to(margin, (*np.shape(margin)[:-1], grasp.n_c))
     result = []
     for size in sorted({len(cone) for _, cone, _ in every}):
         chosen = [each for each in every if len(each[1]) == size]
         W = np.zeros((len(chosen) * size, grasp.n_l))
-        for i, (_, cone, rows) in enumerate(chosen):
-            W[i * size : (i + 1) * size, rows] = cone / cone_unit(cone[0, 0])
+        for i, (_, cone, contact) in enumerate(chosen):
+            W[i * size : (i + 1) * size, grasp.rows[contact]] = cone / cone_unit(cone[0, 0])
         first = np.concatenate([np.eye(size)[0] / cone_unit(cone[0, 0]) for _, cone, _ in chosen])
+        asked = np.repeat(margins[..., [contact for *_, contact in chosen]], size, axis=-1)
         value = formulation.force.after(W / unit)
         kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
         items = tuple(item for item, _, _ in chosen)
-        constant = frozen(value.constant - first * margin / unit)
+        constant = frozen(value.constant - first * asked / unit)
         result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first), friction=True))
     return result
 

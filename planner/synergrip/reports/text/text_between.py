@@ -15,12 +15,17 @@ from synergrip.reports.text.text_problem import many
 def between_lines(plan: Plan) -> Iterator[str]:
     """Yield the lines of ``between``; none when nothing is known of it."""
     if plan.between is not None:
-        yield from looked_at(plan.between, held=plan.task.between == "hold")
+        yield from looked_at(plan.between, plan.task.between)
 
 
-def looked_at(between: Between, *, held: bool) -> Iterator[str]:
-    """Yield the lines of ``between``: what was looked at, what load and wish do there, and what of the limits."""
-    yield from wrapped("between  ", "; ".join([*_departures(between), _limits(between, held)]))
+def looked_at(between: Between, asked: str | None) -> Iterator[str]:
+    """Yield the lines of ``between``: what was looked at, what load and wish do there, and what of the limits.
+
+    Args:
+        between: what was looked at.
+        asked: `task.between`.
+    """
+    yield from wrapped("between  ", "; ".join([*_departures(between), _limits(between, asked)]))
 
 
 def _departures(between: Between) -> Iterator[str]:
@@ -43,15 +48,19 @@ def _departures(between: Between) -> Iterator[str]:
         yield f"the wanted motion {leaves} by {1e3 * between.path_departure:.3g} mm"
 
 
-def _limits(between: Between, held: bool) -> str:
+def _limits(between: Between, asked: str | None) -> str:
     if between.excess <= LIMIT:
         exact = between.exact and not between.straight
         return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
     worst = max(between.usages, key=lambda usage: usage.violation)
     k, i = worst.worst()
     reached, limit = nearest(worst)
-    advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
+    advice = "; more knots straighten it"
+    if between.rooms is None and asked != "hold":
+        advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
+    elif asked == "report":
+        advice = '; without task.between = "report" they are kept there, more knots straighten it'
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
-        f"past its limit of {limit}" + ("" if held else advice)
+        f"past its limit of {limit}{advice}"
     )

@@ -36,7 +36,7 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
     why = f"this plan breaks: {', '.join(failed)}" if failed else kept
     lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
     if judgement.between is not None:
-        lines += looked_at(judgement.between, held=judgement.task.between == "hold")
+        lines += looked_at(judgement.between, judgement.task.between)
     used = [row for usage in judgement.usages for row in usage_rows(usage)]
     return "\n".join([*lines, "", f"{word}  {why}", table(("", "worst", "at", "limit"), used)])
 

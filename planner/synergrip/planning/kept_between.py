@@ -1,0 +1,91 @@
+"""What is asked for beyond the limits at the knots, so that they hold between them, where true forces bend."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.rows import Rows
+from synergrip.linalg import Array, frozen
+from synergrip.planning.between import Between
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
+
+MORE = 1.2
+"""What is asked for at the knots for each newton of margin, or share of another limit, that is missing between them."""
+ROUNDS, MOST_SHARE = 3, 0.5
+"""How often this is done, and up to what share of limits other than the margin."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MoreAtKnots(Value):
+    """How much tighter limits are asked for at the knots than the task has them."""
+
+    margin: Array  # (T, n_c) [N]
+    shares: tuple[float, ...]
+    """Of each limit but the friction cones."""
+    rounds: int = 0
+    """How often more was asked for than before."""
+
+    @classmethod
+    def none(cls, task: TimedTask, n_c: int) -> MoreAtKnots:
+        """Return that limits are asked for as they are."""
+        return cls(frozen(np.zeros((len(task.times), n_c))), (0.0,) * len(task.kept))
+
+    def for_what_is_missing(self, between: Between, task: TimedTask) -> MoreAtKnots | None:
+        """Return more than this, by what is missing between the knots; None where nothing is, or it is asked in vain.
+
+        Args:
+            between: what the limits of the task use at the true states.
+            task: whose knots they are.
+        """
+        rooms = between.rooms or (0.0,) * len(between.usages)
+        short = [usage.excess.max(initial=0.0) > room for usage, room in zip(between.usages, rooms, strict=True)]
+        if not any(short):
+            return None
+        cones, *others = between.usages
+        margin = self.margin + MORE * _beside(task.times, cones) * short[0]
+        shares = np.array(self.shares)
+        of_instants = [i for i, limit in enumerate(task.kept) if not limit.couples_knots]
+        for i, usage, over in zip(of_instants, others, short[1:], strict=True):
+            shares[i] += MORE * over * max(float((usage.excess / usage.scale).max(initial=0.0)), 0.0)
+        if self.rounds == ROUNDS or shares.max(initial=0.0) > MOST_SHARE:
+            return None
+        return MoreAtKnots(frozen(margin), tuple(shares.tolist()), self.rounds + 1)
+
+    def asked(self, limits: Sequence[Limit]) -> tuple[Limit, ...]:
+        """Return the limits of a task, with or without its friction cones, as they are asked for at the knots."""
+        cones = [limit for limit in limits if isinstance(limit, SlipMargin)]
+        others = [limit for limit in limits if not isinstance(limit, SlipMargin)]
+        return (
+            *(_MarginAtKnots(limit.margin, at_knots=frozen(limit.margin + self.margin)) for limit in cones),
+            *(each.loosened(-share) if share else each for each, share in zip(others, self.shares, strict=True)),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _MarginAtKnots(FrictionCone):
+    """Friction cones with a margin of their own for each knot and contact, and the usage of the one that is asked."""
+
+    at_knots: Array = field(default_factory=lambda: np.zeros((0, 0)))  # (T, n_c) [N]
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        return friction_rows(formulation, self.at_knots[: formulation.knots], 0.0, self.key)
+
+    def loosened(self, share: float) -> _MarginAtKnots:
+        return replace(self, at_knots=frozen(self.at_knots - share * np.abs(self.at_knots)))
+
+
+def _beside(knots: Array, usage: Usage) -> Array:
+    """Return for each knot (T, m) how much is missing at most in the intervals beside it."""
+    missing, found = np.maximum(usage.excess, 0.0), np.zeros((len(knots), usage.value.shape[1]))
+    after = np.clip(np.searchsorted(knots, usage.times, side="left"), 1, len(knots) - 1)  # t in (before, after]
+    for row, k in zip(missing, after, strict=True):
+        found[k - 1 : k + 1] = np.maximum(found[k - 1 : k + 1], row)
+    return found
