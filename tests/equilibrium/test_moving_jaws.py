@@ -16,6 +16,7 @@ from synergrip.grasps.contacts.patch_contact import PatchContact
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.shapes.box import Box
 from synergrip.grasps.shapes.sphere import Sphere
+from synergrip.planning.figures import stable as told_stable
 
 CUBE = Box(size=(0.04, 0.04, 0.04))
 HALF, TIP = 0.02, 0.005
@@ -68,6 +69,19 @@ def test_a_column_under_a_load_topples(model: str, load: float, stable: bool) ->
     assert (about_z > 0) == stable
     expected = about_z / found.setting.length**2  # the softest direction
     assert found.stiffness[0] == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(("load", "stable"), [(4 - 1e-6, True), (4.0, False), (4 + 1e-6, False)])
+def test_a_column_under_just_the_load_that_topples_it_is_not_stable(load: float, stable: bool) -> None:
+    """Sizes that are exact in binary numbers: at 2 a (a - s) / (c h) the tangent has no inverse at all."""
+    a, s, h, c = 0.5, 0.25, 1.0, 2.0**-4
+    grasp = jaws(None, a, 0.0, C_s=[c, c, c, 2.0**-10], C_q=[0.0] * 6)
+    point, force = np.array([[0.0, h, 0.0]]), np.array([0.0, -load, 0.0])
+    loads = Loads(np.hstack([force, np.cross(point[0], force)])[None], point, force[None, None])
+    found = execute(grasp, [0.0], np.array([[s, 0, 0, s, 0, 0]]), loads, contact_model="fixed")
+    assert found.whole, found.why
+    assert (found.stiffness[0] > 0) == stable
+    assert told_stable(found).passed == stable
 
 
 @pytest.mark.parametrize("preload", [0.0, 50.0])

@@ -26,6 +26,9 @@ from synergrip.statics.response import Maps
 from synergrip.values import Value
 from synergrip.vectors import skews
 
+SINGULAR = 1e-3
+"""How far the tangent and its inverse may be from each other's, in units of the grasp."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Balance(Value):
@@ -143,10 +146,7 @@ class Balance(Value):
     @cached_property
     def inverse(self) -> Array:
         """(T, n, n) of the tangent: how (lambda, q, u) answer to (r_s, r_q, r_w); least where it is singular."""
-        grasp, length = self.setting.grasp, self.setting.length
-        force = max(float(np.abs(self.states.forces).max(initial=0.0)), 1e-3)
-        moments = [length if is_moment(component) else 1.0 for _, component in grasp.components]
-        scale = np.concatenate([force * np.array(moments), np.ones(grasp.n_q), [length] * 3, np.ones(3)])
+        scale = self._sizes
         scaled = self.tangent * scale
         rows = np.abs(scaled).max(axis=2, initial=0.0)
         rows = np.where(rows > 0, rows, 1.0)
@@ -156,6 +156,21 @@ class Balance(Value):
         except np.linalg.LinAlgError:
             found = np.linalg.pinv(scaled)
         return np.asarray(scale[:, None] * found / rows[:, None])
+
+    @property
+    def _sizes(self) -> Array:
+        """(n,) sizes of (lambda, q, u)."""
+        grasp, length = self.setting.grasp, self.setting.length
+        force = max(float(np.abs(self.states.forces).max(initial=0.0)), 1e-3)
+        moments = [length if is_moment(component) else 1.0 for _, component in grasp.components]
+        return np.concatenate([force * np.array(moments), np.ones(grasp.n_q), [length] * 3, np.ones(3)])
+
+    @cached_property
+    def regular(self) -> Array:
+        """(T,) whether the tangent has an inverse."""
+        size = self._sizes
+        left = self.inverse @ self.tangent * size / size[:, None] - np.eye(len(size))
+        return np.asarray(np.abs(left).max(axis=(1, 2), initial=0.0) < SINGULAR)
 
     @cached_property
     def maps(self) -> Maps:

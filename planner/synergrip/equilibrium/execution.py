@@ -115,13 +115,17 @@ class Execution(Value):
 
     @cached_property
     def stiffness(self) -> Array:
-        """(K,) the smallest stiffness with which the object is held [N/m]; not above 0 where it is not stable."""
+        """(K,) the smallest stiffness with which the object is held [N/m]; not above 0 where it is not stable.
+
+        It is 0 in a state whose tangent has no inverse.
+        """
         length = self.setting.length
         wrench = np.diag([1.0, 1.0, 1.0, length, length, length])
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        return frozen(1.0 / soft)
+        regular = self.balance.regular
+        return frozen(np.where(regular, 1.0 / np.where(regular, soft, 1.0), 0.0))
 
     @cached_property
     def du(self) -> Array:

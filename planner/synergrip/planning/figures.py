@@ -91,8 +91,12 @@ def _between(
 
 
 def stable(executed: Execution, where: str = "") -> Check:
-    """Return the check that the hand stays at its equilibria: in [N/m], how far the least stiffness is below 0."""
-    return Check(f"{where}stability", max(-float(executed.stiffness.min()), 0.0), 0.0)
+    """Return the check that the hand stays at its equilibria: in [N/m], how far the least stiffness is below 0.
+
+    At 0 the equilibrium is lost, too: the error is then the smallest number above it.
+    """
+    least = float(executed.stiffness.min())
+    return Check(f"{where}stability", 0.0 if least > 0 else max(-least, float(np.nextafter(0.0, 1.0))), 0.0)
 
 
 def kept(usages: Sequence[Usage], rooms: Mapping[str, float], where: str = "") -> tuple[Check, ...]:
