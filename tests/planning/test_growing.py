@@ -75,6 +75,39 @@ def test_it_says_what_keeps_it_from_going_on() -> None:
     assert "straight" in because or "limit" in because
 
 
+def test_joints_of_idle_fingers_keep_nothing_from_going_on() -> None:
+    """Index and little finger are straight, which is where the ranges of their joints end, from the start."""
+    posture = {
+        **_bent("thumb", ("tmc_abd", "tmc_flex", "mcp", "ip"), (8.8, 40.15, -9.83, 11.56)),
+        **_bent("middle", FINGER, (2.4, -12.74, 27.19, 24.92)),
+        **_bent("ring", FINGER, (-1.41, -7.78, 20.17, 50.22)),
+    }
+    problem = load_problem({
+        "schema": 1,
+        "hand": {"model": "human", "posture": posture, "synergies": "all"},
+        "object": {
+            "shape": {"sphere": {"radius": "36 mm"}},
+            "position": ["-22.28 mm", "116.8 mm", "-10.23 mm"],
+            "mass": "50 g",
+        },
+        "contacts": {"friction": 0.8, "stiffness": "8 N/mm", "at": ["thumb/tip", "middle/tip", "ring/tip"]},
+        "task": {"duration": "2 s", "knots": 5, "move": [{"axis": "x", "lift": "60 mm"}]},
+        "limits": {"margin": "0.2 N"},
+    })  # fmt: skip
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Unknown)
+    assert answer.reached is not None
+    assert "straight" in answer.reached.because
+    assert not any(idle in answer.reached.because for idle in ("index", "little"))
+
+
+FINGER = ("mcp_abd", "mcp_flex", "pip", "dip")
+
+
+def _bent(finger: str, joints: tuple[str, ...], values: tuple[float, ...]) -> dict[str, str]:
+    return {f"{finger}_{joint}": f"{value} deg" for joint, value in zip(joints, values, strict=True)}
+
+
 def test_the_way_is_cut_where_it_is_asked_for() -> None:
     walker, _ = held(*FAR)
     way = Way.of(walker)

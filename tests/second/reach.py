@@ -36,6 +36,11 @@ class Found:
     beyond: float  # [rad], [m] of the joint farthest beyond its range
 
     @property
+    def short(self) -> float:
+        """What is missing, of which postures are compared [m], [rad]."""
+        return self.apart + max(self.beyond - BEYOND, 0.0)
+
+    @property
     def reached(self) -> bool:
         """Whether the hand gets there."""
         return self.apart <= APART and self.beyond <= BEYOND
@@ -59,17 +64,26 @@ class Search:
             starts: how many to begin at; the first is the posture at the start. The best few are gone on with.
         """
         rng, n_z = np.random.default_rng(seed), self.fixed.S.shape[1]
-        begin = [np.zeros(n_z), *(self._anywhere(rng) for _ in range(starts - 1))]
-        fixed = [least_squares(self._residual, z, self._slope, args=(pose, self.fixed), max_nfev=40) for z in begin]
-        best = Found(np.inf, np.inf)
+        near = self._nearest(np.zeros(n_z), pose)
+        best = self._rolled(near.x, pose)
+        if best.reached:
+            return best
+        fixed = [near, *(self._nearest(self._anywhere(rng), pose) for _ in range(starts - 1))]
         for nearest in sorted(fixed, key=lambda each: float(each.cost))[:BEST]:
-            z = least_squares(self._residual, nearest.x, self._slope, args=(pose, self.rolling), max_nfev=15).x
-            apart, beyond = self._off(z[None], pose, self.rolling)
-            found = Found(float(np.linalg.norm(apart[0], axis=-1).max()), float(beyond.max(initial=0.0)))
-            best = min(best, found, key=lambda each: each.apart + max(each.beyond - BEYOND, 0.0))
+            best = min(best, self._rolled(nearest.x, pose), key=lambda found: found.short)
             if best.reached:
                 break
         return best
+
+    def _nearest(self, z: Array, pose: Array) -> Any:
+        """Return what the search comes to from references (n_z,), with contacts that stay where they are."""
+        return least_squares(self._residual, z, self._slope, args=(pose, self.fixed), max_nfev=40)
+
+    def _rolled(self, z: Array, pose: Array) -> Found:
+        """Return what it goes on to from there, with contacts that roll."""
+        z = least_squares(self._residual, z, self._slope, args=(pose, self.rolling), max_nfev=15).x
+        apart, beyond = self._off(z[None], pose, self.rolling)
+        return Found(float(np.linalg.norm(apart[0], axis=-1).max()), float(beyond.max(initial=0.0)))
 
     def _anywhere(self, rng: np.random.Generator) -> Array:
         """Return references (n_z,) whose joints are near random places in their ranges."""

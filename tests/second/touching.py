@@ -61,9 +61,15 @@ def _times(matrices: Array, vectors: Array) -> Array:
     return np.asarray((matrices @ vectors[..., None])[..., 0])
 
 
+def _cross(a: Array, b: Array) -> Array:
+    """Return a x b of (B, 3) each; NumPy's own takes longer than the rest of rolling."""
+    (x, y, z), (u, v, w) = a.T, b.T
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+
+
 def _turn_between(before: Array, after: Array) -> Array:
     """Return the smallest rotations (B, 3, 3) that turn unit vectors into others."""
-    axis = np.cross(before, after)
+    axis = _cross(before, after)
     cosine = np.sum(before * after, axis=-1)
     cross = np.zeros((*axis.shape, 3))
     cross[..., 0, 1], cross[..., 0, 2], cross[..., 1, 2] = -axis[..., 2], axis[..., 1], -axis[..., 0]
@@ -163,7 +169,7 @@ class Rolling:
         """
 
         def rate(at: Array) -> Array:
-            return np.cross(theta, self.height * self.face.normal(at))
+            return _cross(theta, self.height * self.face.normal(at))
 
         h, carried = 1 / ROLLING_STEPS, np.tile(np.eye(3), (len(theta), 1, 1))
         before = self.face.normal(centre)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import compress
 
 import numpy as np
 
 from synergrip.conic.conflicts import Conflict
+from synergrip.grasps.grasp import Grasp
 from synergrip.hands.hand import Joint
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
@@ -64,7 +66,8 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     straight = _dear(walk, walker) > DEAR
     others = [limit for limit in met.limits if limit.key != RANGES]
     if not near and not straight:
-        names = [name for limit in met.limits if limit.key == RANGES for name in limit.items]
+        known = {joint.name for joint, _ in ends.values()}
+        names = [name for limit in met.limits if limit.key == RANGES for name in limit.items if name in known]
         near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in names]
     if others:
         yield _binding(others)
@@ -87,13 +90,24 @@ def _binding(limits: Sequence[Conflict]) -> str:
 
 
 def _ends(walk: Walk, walker: Walker) -> Iterator[tuple[str, tuple[Joint, float]]]:
-    """Yield for both ends of each joint's range what it would be to be there, the joint, and how far it is from it."""
-    held = walker.start.grasp.held
+    """Yield for both ends of each joint's range what it would be to be there, the joint, and how far it is from it.
+
+    Joints of idle fingers keep nothing from going on.
+    """
+    grasp = walker.start.grasp
+    held = grasp.held
     if held is None or not len(walk.executed.states):
         return
-    for joint, value in zip(held.hand.joints, held.q + walk.executed.joint[-1], strict=True):
+    values = held.q + walk.executed.joint[-1]
+    for joint, value in compress(zip(held.hand.joints, values, strict=True), _taking_part(grasp)):
         for end, off in (("lower", value - joint.lower), ("upper", joint.upper - value)):
             yield f"joint '{joint.name}' is at its {end} limit", (joint, float(off))
+
+
+def _taking_part(grasp: Grasp) -> Array:
+    """Return which joints (n_q,) move a contact, or go with synergies that do."""
+    synergies = np.any(grasp.J @ grasp.S, axis=0)
+    return np.asarray(np.any(grasp.J, axis=0) | np.any(grasp.S[:, synergies], axis=1))
 
 
 def _dear(walk: Walk, walker: Walker) -> float:
