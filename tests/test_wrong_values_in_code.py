@@ -214,3 +214,20 @@ def test_an_instant_at_which_a_load_jumps_stands_twice_in_an_execution() -> None
     executed = sg.execute(**{**RIGHT["execute"], "times": [0, 1, 1], "references": np.zeros((3, 4)), "loads": loads})
     assert executed.whole
     assert executed.du[2, 2] > executed.du[1, 2] == executed.du[0, 2]
+
+
+@pytest.mark.parametrize(
+    ("ask", "named"),
+    [
+        (lambda executed: executed.interpolated("x"), "times"),
+        (lambda executed: executed.interpolated([math.nan]), "times"),
+        (lambda executed: executed.interpolated([[0.0]]), "times"),
+        (lambda executed: executed.left(np.zeros((2, 5))), "wanted"),
+        (lambda executed: executed.left(None), "wanted"),
+    ],
+)
+def test_what_an_execution_is_asked_is_judged(ask: Callable[[Any], Any], named: str) -> None:
+    executed = sg.execute(**RIGHT["execute"])
+    assert len(executed.interpolated([0.0, 0.5])) == len(executed.interpolated(np.array([0.5]))) + 1
+    assert not executed.left(executed.du).round(12).any()
+    assert [issue.key.split(".")[-1] for issue in refused(lambda: ask(executed), named)] == [named]

@@ -175,9 +175,14 @@ def _from_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     *leading, rows, columns = matrices.shape
     if rows < columns or columns == 0:  # the smallest is 0, or there is none
         return np.zeros((*leading, columns)), np.full(leading, columns == 0)
-    squares = np.linalg.eigvalsh(matrices.mT @ matrices)[..., ::-1]
+    squares = np.linalg.eigvalsh(gram(matrices))[..., ::-1]
     clear = squares[..., -1] > CLEAR**2 * squares[..., 0]
     return np.sqrt(np.maximum(squares, 0.0)), np.array(clear)
+
+
+def gram(matrices: Array) -> Array:
+    """Return ``A' A`` for matrices A (..., m, n)."""
+    return np.asarray(matrices.mT @ matrices.copy())  # seeing A itself twice, NumPy takes three times as long
 
 
 def _padded(values: Array, columns: int) -> Array:

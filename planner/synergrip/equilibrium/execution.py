@@ -76,7 +76,9 @@ class Execution(Value):
         """
         from scipy.spatial.transform import Rotation
 
-        known = self.states
+        judge, known = Arguments("Execution.interpolated"), self.states
+        times = judge.array("times", times, np.shape(np.atleast_1d(times))[:1], ": times (M,) [s]")
+        judge.finish()
         last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
         span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
         share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
@@ -98,7 +100,9 @@ class Execution(Value):
         """
         from scipy.spatial.transform import Rotation
 
-        aim = np.array(wanted[: len(self.states)])
+        judge = Arguments("Execution.left")
+        aim = np.array(judge.array("wanted", wanted, (len(self.times), 6), ", one for each time")[: len(self.states)])
+        judge.finish()
         turn = Rotation.from_rotvec(aim[:, 3:]) * Rotation.from_matrix(np.array(self.states.rotation)).inv()
         return frozen(np.hstack([aim[:, :3] - self.du[:, :3], turn.as_rotvec()]))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.linalg import Array
+from synergrip.linalg import Array, gram
 
 SMALL = 8
 """Triangles up to this size are inverted entry by entry, larger ones in halves."""
@@ -31,15 +31,11 @@ def inverse_by_factors(C: Array, G: Array) -> Array:
     n = C.shape[-1]
     T = _inverse_root(C)
     yields = T @ G.mT
-    W = _inverse_root(yields.mT @ yields)
-    V = (yields @ W.mT).mT @ T
-    inverse = np.empty((*C.shape[:-2], n + G.shape[-2], n + G.shape[-2]))
-    np.matmul(T.mT, T, out=inverse[..., :n, :n])
-    inverse[..., :n, :n] -= V.mT @ V
-    inverse[..., n:, :n] = motions = W.mT @ V
-    inverse[..., :n, n:] = motions.mT
-    np.negative(W.mT @ W, out=inverse[..., n:, n:])
-    return inverse
+    W = _inverse_root(gram(yields))
+    of_wrench = np.concatenate([W @ (yields.mT @ T), -W], axis=-1)  # (V, -W)
+    inverse = of_wrench.mT @ -of_wrench
+    inverse[..., :n, :n] += gram(T)
+    return np.asarray(inverse)
 
 
 def _inverse_root(C: Array) -> Array:
