@@ -47,7 +47,7 @@ def human() -> Problem:
     """Return a ball of 36 mm radius in the human hand, between thumb, middle and ring finger.
 
     Its thumb is short (25, 15 and 10 mm): its tip alone, from the best place that there is and without any turn,
-    follows 29 of the 100 motions.
+    follows about 29 of the 100 motions.
     """
     fingers = ("thumb", "middle", "ring")
     values = ((8.8, 40.15, -9.83, 11.56), (2.4, -12.74, 27.19, 24.92), (-1.41, -7.78, 20.17, 50.22))

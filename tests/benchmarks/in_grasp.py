@@ -157,8 +157,9 @@ def table(results: Iterable[Result]) -> Iterator[str]:
     """Yield the lines of the table, a hand each, and of the shares by size."""
     results = list(results)
     hands = [hand for hand in GRASPS if any(result.hand == hand for result in results)]
-    yield "| hand | motions | reached (by the search, too) | off their poses: median, largest | least margin, second " \
-          "execution | not reached | by the search neither | infeasible | other | time, median |"  # fmt: skip
+    yield "| hand | motions | reached (by the search, too) | off their places: median, largest " \
+          "| least margin, second execution | not reached | by the search neither | infeasible | other " \
+          "| time, median |"  # fmt: skip
     yield "| --- " * 10 + "|"
     for hand in hands:
         yield _row(hand, [result for result in results if result.hand == hand])
