@@ -25,7 +25,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from second_execution import Executed, executed
+from second_execution import Executed, between_knots, executed
 
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
@@ -61,6 +61,8 @@ class Compared:
     reached: float
     """Share of the knots."""
     ended: str | None
+    between: float
+    """The least true margin at the knots and between them [N]."""
 
     @property
     def same(self) -> bool:
@@ -69,17 +71,24 @@ class Compared:
 
     def keeps(self, margin: float) -> bool:
         """Tell whether the true state keeps an asked margin [N]."""
-        return self.ended is None and self.true >= margin - max(MISSED, MISSED_SHARE * self.largest_force)
+        return self.ended is None and self.between >= margin - max(MISSED, MISSED_SHARE * self.largest_force)
 
 
-def compared(promised: np.ndarray, execution: Executed) -> Compared:
-    """Return promised margins (T, n_c) [N] beside the true ones of an execution, of as many knots as it reached."""
+def compared(promised: np.ndarray, execution: Executed, finer: Executed) -> Compared:
+    """Return promised margins (T, n_c) [N] beside the true ones of an execution, of as many knots as it reached.
+
+    Args:
+        promised: at the knots.
+        execution: at the knots.
+        finer: between the knots, too.
+    """
     count = len(execution.times)
     off = np.abs(promised[:count] - execution.margins) if count else np.full(1, np.nan)
     largest = np.abs(execution.forces).max() if count else 0.0
+    least, between = (float(one.margins.min()) if len(one.times) else np.nan for one in (execution, finer))
     return Compared(
-        float(promised.min()), float(execution.margins.min()) if count else np.nan, float(off.max()), float(largest),
-        count / len(promised), execution.ended,
+        float(promised.min()), least, float(off.max()), float(largest), count / len(promised),
+        execution.ended or finer.ended, between,
     )  # fmt: skip
 
 
@@ -148,10 +157,11 @@ def judged(problem: Problem, seed: int, model: str) -> Judged:
     if not isinstance(answer, Plan):
         return Judged(title, verdict_of(answer), seconds, answer.why)
     document: dict[str, Any] = json.loads(json.dumps(outcome_document(problem.title, problem.grasp, answer)))
-    execution = executed(document, REPOSITORY, document.get("true", {}).get("contact_model", model))
+    model = document.get("true", {}).get("contact_model", model)
+    execution, finer = executed(document, REPOSITORY, model), executed(between_knots(document, 2), REPOSITORY, model)
     length = document["structure"]["characteristic_length_m"]
     size = float(np.linalg.norm(answer.motion.du * [1, 1, 1, length, length, length], axis=1).max())
-    return Judged(title, "feasible", seconds, "", answer.task.margin, size, compared(answer.margins, execution))
+    return Judged(title, "feasible", seconds, "", answer.task.margin, size, compared(answer.margins, execution, finer))
 
 
 def verdict_of(answer: Outcome) -> str:
@@ -189,8 +199,8 @@ def main(count: int = 100, model: str = "rolling", first: int = 0) -> int:
         results.append(result := judged(problems[seed % len(problems)], seed, model))
         found = result.found
         figures = result.why if found is None else (
-            f"promised {found.promised:.4f}, true {found.true:.4f} N, of {found.largest_force:.1f} N; off by "
-            f"{found.difference:.4f} N at most; {found.ended or ''}"
+            f"promised {found.promised:.4f}, true {found.true:.4f} N, between {found.between:.4f} N, of "
+            f"{found.largest_force:.1f} N; off by {found.difference:.4f} N at most; {found.ended or ''}"
         )  # fmt: skip
         judge = "" if found is None or (found.same and found.keeps(result.asked)) else " WRONG"
         print(f"{result.title}: {result.verdict}{judge} in {result.seconds:.1f} s: {figures}", flush=True)

@@ -68,6 +68,28 @@ def executed(
     return _told(document, equilibrium, reached, ended)
 
 
+def between_knots(document: dict[str, Any], parts: int) -> dict[str, Any]:
+    """Return a plan.json at every line of its load, and at the ends of so many parts of each piece between two."""
+    load = document["execution"]["load"]
+    lines, shares = np.array(load["times_s"], dtype=float), np.arange(parts) / parts
+    pieces = [(i, s) for i, wide in enumerate(np.diff(lines)) for s in (shares if wide > 0 else [0.0])]
+    first, share = (np.array(column) for column in zip(*pieces, strict=True)) if pieces else (np.zeros(0, int), [])
+
+    def inside(rows: list[Any]) -> list[Any]:
+        values = np.array(rows, dtype=float)
+        along = values[first] + np.reshape(share, (-1, *[1] * (values.ndim - 1))) * np.diff(values, axis=0)[first]
+        return [*along.tolist(), values[-1].tolist()]
+
+    times = inside(lines.tolist())
+    references = np.array(document["dz_r"], dtype=float).T
+    forces = [push | {"force": inside(push["force"])} for push in load.get("forces", [])]
+    finer = load | {"times_s": times, "wrench": inside(load["wrench"]), "forces": forces}
+    return document | {
+        "time_s": times, "wrench": finer["wrench"], "execution": document["execution"] | {"load": finer},
+        "dz_r": np.transpose([np.interp(times, document["time_s"], column) for column in references]).tolist(),
+    }  # fmt: skip
+
+
 def load_at(document: dict[str, Any], knot: int) -> Load:
     """Return the load of a knot: its wrench, and the forces of it whose points go with the object."""
     wrench, stated = np.array(document["wrench"][knot], dtype=float), document["execution"]["load"]

@@ -236,14 +236,14 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         "beta",
     ),
     "points that moved without G": (lambda: sg.GraspStack.varied(grasp, points=np.zeros((2, 3, 3))), "G"),
-    "a simulation of nothing": (lambda: any_call.Simulation(), "Simulation.title"),
+    "a simulation of nothing": (lambda: any_call.Simulation(), "Simulation"),
     "references of other synergies": (lambda: PLAN.analysis.coordinates.coordinates(np.zeros(3)), "dz_r"),
     "references of other grasps": (
         lambda: sg.analyse_many([grasp] * 2).groups[0].coordinates.coordinates(np.zeros((3, 5, 4))),
         "dz_r",
     ),
-    "an analysis of nothing": (lambda: any_call.Analysis(), "Analysis.grasp"),
-    "a plan of nothing": (lambda: any_call.Plan(), "Plan.task"),
+    "an analysis of nothing": (lambda: any_call.Analysis(), "Analysis"),
+    "a plan of nothing": (lambda: any_call.Plan(), "Plan"),
     "a stack of nothing": (lambda: any_call.GraspStack(), "GraspStack.matrices"),
     "argument of save misspelt": (lambda: any_call.Plan.save(PLAN, "out", format="json"), "format"),
 }

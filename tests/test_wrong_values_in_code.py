@@ -14,6 +14,7 @@ from held_ball import at, ball, grasp, hand, hard, task
 import synergrip as sg
 from synergrip.conic.limits.registry import LIMITS
 from synergrip.grasps.shapes.shapes import SHAPES
+from synergrip.planning.executing import Executor
 
 
 class Odd:
@@ -155,3 +156,61 @@ def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str)
         getattr(sg, name)(**RIGHT.get(name, {}), zzz=1)
     with pytest.raises(sg.InputError, match=r"without a name|takes"):
         getattr(sg, name)(*[1] * 30)
+
+
+MADE_BY = {
+    "Analysis": "analyse(", "Analyses": "analyse_many(", "Execution": "execute(", "Problem": "load_problem(",
+    "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MADE_BY)
+def test_what_is_not_made_by_hand_says_what_makes_it(name: str) -> None:
+    for arguments in ((), (1.0,)):
+        with pytest.raises(sg.InputError, match="is not made by hand") as error:
+            getattr(sg, name)(*arguments)
+        assert error.value.issues[0].key == name
+        assert MADE_BY[name] in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "example"),
+    [("Shape", "Sphere"), ("ContactKind", "HardFinger"), ("Limit", "SlipMargin"), ("Goal", "LeastEffort")],
+)
+def test_what_kinds_share_names_one_and_what_one_of_ones_own_needs(name: str, example: str) -> None:
+    base = getattr(sg, name)
+    with pytest.raises(sg.InputError, match=rf"^{name}: .* such as {example}\(") as error:
+        base()
+    left_out = sorted(base.__abstractmethods__)
+    assert str(error.value).endswith(", ".join(left_out))
+    own: Any = type("Own", (base,), {})
+    with pytest.raises(sg.InputError, match=f"Own: has no method .*'{left_out[-1]}'; write it"):
+        own()
+
+
+@pytest.mark.parametrize("ranged", [sg.JointRange, sg.CentredJoints])
+@pytest.mark.parametrize(("values", "named"), [((1.0,), {}), ((-1.0, 1.0), {}), ((0.0,), {"upper": 1.0})])
+def test_ends_of_a_joint_range_need_their_names(
+    ranged: Any, values: tuple[float, ...], named: dict[str, float]
+) -> None:
+    with pytest.raises(sg.InputError, match=rf"^{ranged.__name__}: .*lower=\.\.\., upper="):
+        ranged(*values, **named)
+    assert ranged(0.0, -1.0, 1.0) == ranged(0.0, lower=-1.0, upper=1.0) == ranged(start=0.0, lower=-1.0, upper=1.0)
+
+
+@pytest.mark.parametrize(("times", "told"), [([1.0, 0.0], "times must increase: 0 s comes after 1 s"),
+                                             ([1.0, 1.0], "1 s stands twice with two references")])  # fmt: skip
+def test_times_of_an_execution_increase(times: list[float], told: str) -> None:
+    references = np.linspace(0, 1e-3, 2)[:, None] * np.ones(4)
+    with pytest.raises(sg.InputError, match=f"^times: {told}"):
+        sg.execute(**{**RIGHT["execute"], "times": times, "references": references})
+    executor = Executor.of(sg.analyse(grasp), task.timed(grasp))
+    with pytest.raises(sg.InputError, match=f"^times: {told}"):
+        executor.run(np.array(times), references, still, executor.setting.start)
+
+
+def test_an_instant_at_which_a_load_jumps_stands_twice_in_an_execution() -> None:
+    loads = sg.Loads.of(np.outer([0.0, 0.0, 0.1], np.eye(6)[2]))
+    executed = sg.execute(**{**RIGHT["execute"], "times": [0, 1, 1], "references": np.zeros((3, 4)), "loads": loads})
+    assert executed.whole
+    assert executed.du[2, 2] > executed.du[1, 2] == executed.du[0, 2]

@@ -10,7 +10,7 @@ import pytest
 
 from synergrip.planning.executing import Executor
 from synergrip.planning.growing import LONGEST, Way
-from synergrip.planning.outcome import Plan, Unknown
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.reach import reached_by
 from synergrip.planning.solvers import SOLVERS
@@ -132,3 +132,32 @@ def test_a_squeeze_that_the_motors_cannot_give_is_not_blamed_on_joints_that_a_sh
     assert "does not hold the object within its limits at t = 0 s" in answer.why
     assert "limits.margin (middle/tip) and limits.actuator_effort (motor1) cannot both be kept there" in answer.why
     assert "joint '" not in answer.why
+
+
+def test_a_contact_that_leaves_its_face_is_what_is_told_of_shorter_pieces_too() -> None:
+    """The last pieces before the edge are not taken for other reasons; the edge is why there is no more."""
+    problem = load_problem({
+        "schema": 1,
+        "hand": {"model": "gripper", "posture": "box"},
+        "object": {
+            "shape": {"box": {"size": ["40 mm", "30 mm", "4 mm"]}},
+            "position": ["0 mm", "0 mm", "120 mm"],
+            "mass": "100 g",
+        },
+        "contacts": {
+            "model": "soft", "friction": 0.6, "spin_friction": "5 mm", "stiffness": "8 N/mm",
+            "spin_stiffness": "2 N m/rad", "at": ["left/tip", "right/tip"],
+        },
+        "task": {
+            "duration": "2 s", "knots": 11, "gravity": [0, 0, 9.81], "move": [{"axis": "z", "lift": "-10 mm"}],
+        },
+        "limits": {"margin": "0.3 N", "normal_force": "40 N"},
+        "goal": {"minimise": "peak_force"},
+    })  # fmt: skip
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Unknown)
+    assert answer.reached is not None
+    assert "runs over the edge of its face" in answer.reached.because
+    once = plan(problem.grasp, problem.task.replace(linearise="once"))
+    assert isinstance(once, Unknown | Infeasible)
+    assert 'task.linearise = "along"' in " ".join([once.why, *getattr(once, "hints", ())])

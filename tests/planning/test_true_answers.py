@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from second_execution import between_knots
 from second_execution import executed as executed_otherwise
 
 from synergrip import Infeasible, Plan, Unknown, load_problem, plan
@@ -58,6 +59,23 @@ def test_a_plan_of_the_start_posture_that_holds_says_what_its_promise_was_worth(
     other = executed_otherwise(document, REPOSITORY, document["true"]["contact_model"])
     assert np.abs(answer.margins - other.margins).max() <= 0.01 * np.abs(answer.forces).max()
     assert document["certificate"]["scope"] == "start"
+
+
+@pytest.mark.parametrize(("name", "knots"), [("barrett-ball-hold", 2), ("gripper-box", 2), ("human-graspit-ball", 2)])
+def test_a_plan_of_few_knots_keeps_its_margin_at_all_times(name: str, knots: int) -> None:
+    """Half-way of a course that starts and ends smoothly a load is on its straight line, and elsewhere it is not."""
+    problem = load_problem(name, [f"task.knots={knots}"])
+    reported, answer = (plan(problem.grasp, problem.task.replace(between=each)) for each in ("report", None))
+    least = []
+    for each in (reported, answer):
+        assert isinstance(each, Plan), each
+        document = json.loads(json.dumps(outcome_document("", problem.grasp, each)))
+        finer = executed_otherwise(between_knots(document, 4), REPOSITORY, document["true"]["contact_model"], parts=1)
+        assert finer.ended is None
+        least.append(finer.margins.min())
+    room = max(1e-3, 1e-3 * np.abs(answer.forces).max())
+    assert least[0] < answer.task.margin - 2 * room  # so the test can fail
+    assert least[1] >= answer.task.margin - room
 
 
 def test_of_given_matrices_nothing_is_executed() -> None:

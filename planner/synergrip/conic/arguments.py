@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from functools import wraps
 from inspect import isfunction
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.naming import refuse_unfinished
 from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError, SynergripError
 from synergrip.linalg import Array, frozen
@@ -110,15 +111,16 @@ ASKED = ("rows", "usage", "objective", "bounded")
 class Complete:
     """Classes that say at once, and by name, which of their methods are still to be written, or went wrong."""
 
+    _example: ClassVar[str]
+    """One that is finished, for who makes what all have in common."""
+
     def __new__(cls, *_: Any, **__: Any) -> Self:
         """Refuse a class that leaves a method out.
 
         Raises:
             InputError: with the methods.
         """
-        missing = sorted(getattr(cls, "__abstractmethods__", ()))
-        if missing:
-            raise InputError.at(cls.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
+        refuse_unfinished(cls, cls._example)
         return super().__new__(cls)
 
     def __init_subclass__(cls, **others: Any) -> None:

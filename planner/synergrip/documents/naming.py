@@ -1,7 +1,8 @@
-"""Arguments that are missing, misspelt or without a name, told as all other mistakes are."""
+"""Arguments that are missing, misspelt or without a name, and classes not to be made so: told as all mistakes are."""
 
 from __future__ import annotations
 
+from abc import ABC
 from collections.abc import Callable, Iterator, Mapping
 from functools import wraps
 from inspect import Parameter, signature
@@ -12,6 +13,7 @@ from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, suggest
 
 Made = TypeVar("Made", bound=Callable[..., Any])
+C = TypeVar("C", bound=type[Any])
 
 
 def naming_arguments(made: Made) -> Made:
@@ -25,7 +27,39 @@ def naming_arguments(made: Made) -> Made:
     return _naming(made, "")  # type: ignore[return-value]
 
 
-def _naming(function: Callable[..., Any], of: str) -> Callable[..., Any]:
+def made_by(call: str) -> Callable[[C], C]:
+    """Return a decorator of a class that nobody makes by hand: what its arguments lack is told by what makes it.
+
+    Args:
+        call: what does, such as ``load_problem("barrett-ball-hold")``.
+    """
+
+    def decorated(made: C) -> C:
+        made.__init__ = _naming(made.__init__, made.__name__, f"is not made by hand; {call} returns one")
+        return made
+
+    return decorated
+
+
+def refuse_unfinished(made: type, example: str) -> None:
+    """Refuse to make a value of a class that leaves methods to others.
+
+    Args:
+        made: the class.
+        example: of a kind of it, for who makes what all kinds have in common.
+
+    Raises:
+        InputError: with the methods that are left out.
+    """
+    missing = sorted(getattr(made, "__abstractmethods__", ()))
+    if missing and ABC in made.__bases__:
+        message = f"has nothing but what its kinds share; make one, such as {example}, or write one with"
+        raise InputError.at(made.__name__, f"{message} {', '.join(missing)}")
+    if missing:
+        raise InputError.at(made.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
+
+
+def _naming(function: Callable[..., Any], of: str, instead: str = "") -> Callable[..., Any]:
     @wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
         try:
@@ -34,7 +68,7 @@ def _naming(function: Callable[..., Any], of: str) -> Callable[..., Any]:
             issues = list(_misnamed(function, of, args, kwargs))
             if not issues:
                 raise
-            raise InputError(issues) from None
+            raise InputError([Issue(instead, of)] if instead else issues) from None
 
     return called
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from synergrip.documents.judging import Arguments, described
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
 from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
@@ -24,6 +24,7 @@ SHORTEST = Fraction(1, 640)
 """Share of a step from one instant to the next below which it is given up."""
 
 
+@made_by("execute(grasp, times, references, loads)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Execution(Value):
     """The equilibria at those of T instants that were reached, K of them."""
@@ -145,7 +146,7 @@ def execute(
 
     Args:
         grasp: on a hand, as it is before the first reference; or its `setting`, which has a model and forces already.
-        times: (T,) [s].
+        times: (T,) [s], increasing; an instant at which the load jumps may stand twice, with the same references.
         references: (T, n_z) of the synergies, from those at the start [rad, m or as the synergies are scaled].
         loads: (T) on the object.
         contact_model: "rolling" or "fixed", see `setting`.
@@ -179,10 +180,17 @@ def _judged(
     instants = judge.numbers("times", times, "times (T,)")
     if instants is not None and (instants.ndim != 1 or not len(instants)):
         judge.refuse("times", f"expected times (T,) [s], one at least; got {described(times)}")
+    elif instants is not None and np.any(early := np.diff(instants) < 0):
+        before, after = instants[int(np.argmax(early)) :][:2]
+        judge.refuse("times", f"times must increase: {after:g} s comes after {before:g} s; sort them")
     count = len(instants) if instants is not None and not judge.issues else 0
-    if count:
+    if instants is not None and count:
         wanted = (count, own.grasp.n_z)
         references = judge.array("references", references, wanted, ", a row for each time, a column for each synergy")
+        twice = (np.diff(instants) == 0) & np.any(np.diff(references, axis=0) != 0, axis=1)
+        if np.any(twice):
+            at = f"{instants[int(np.argmax(twice))]:g} s stands twice with two references"
+            judge.refuse("times", f"{at}; give each instant one, or move one of them (only loads may jump)")
     else:
         judge.numbers("references", references, "references (T, n_z)")
     if judge.one("loads", loads, Loads, "Loads.of(np.zeros((T, 6)))") is not None and count and len(loads) != count:

@@ -149,7 +149,9 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     walk = walker.executed(linear.dz_r, linear.forces, linear)
     if walk.way is None:
         usages = limit_usages(task, formulation, linear)
-        missed = Check(f"equilibrium: {walk.executed.why}", float("inf"), 0.0)
+        executed = walk.executed
+        lost = f"equilibrium from t = {executed.times[len(executed.states)]:.3g} s on: {executed.why}"
+        missed = Check(f"{lost}; what follows is what the linear model of the start makes of it", float("inf"), 0.0)
         return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.conic.along import AtStates
 from synergrip.conic.formulation import Formulation
-from synergrip.conic.intersample import Looks
+from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
@@ -29,6 +29,9 @@ FORCE, OF_FORCES = 1e-3, 1e-3
 """A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
 LENGTH, ANGLE = 1e-5, 1e-4
 """[m], [rad] to which limits on motions are kept."""
+LOOKS, PARTS = 32, (2, 16)
+"""How many instants between the knots are looked at, at least, and into how many parts a piece is divided for that: a
+middle where there are many pieces; where these are few, or a load is curved, the middle alone says too little."""
 BALANCED = 1e-8
 """Relative error of the equilibrium."""
 
@@ -72,7 +75,7 @@ def _between(
     task = walker.task
     if len(task.times) < 2:
         return None, (), ()
-    looks = _looks(walker)
+    looks = _looks(walker, rooms["N"])
     references = frozen(interpolated(looks.times, task.times, walk.references))
     executed = walker.executor.run(looks.times, references, looks.wrench, walk.executed.interpolated(looks.times))
     if not executed.whole:
@@ -131,21 +134,36 @@ def _room(usage: Usage, rooms: Mapping[str, float]) -> float:
     return rooms.get(usage.unit) or LIMIT * float(np.max(usage.scale, initial=0.0))
 
 
-def _looks(walker: Walker) -> Looks:
-    """Return the instants that are looked at: knots, corners, and the middle of every piece between them."""
+def _looks(walker: Walker, room: float) -> Looks:
+    """Return the instants that are looked at: knots, corners, and some inside every piece between them.
+
+    Args:
+        walker: whose task it is.
+        room: by how much a load may leave its straight line to be looked at no closer [N].
+    """
     task = walker.task
     sampled = intersample_of(task, walker.start)
     known = Looks(task.times, task.wrench, walker.wanted) if sampled is None else sampled.grid
-    middles = frozen((known.times[:-1] + known.times[1:]) / 2)
-    middles = middles[np.diff(known.times) > 0]
-    wrench = None if task.course is None else task.course.load_at(middles)
-    wrench = interpolated(middles, known.times, known.wrench) if wrench is None else wrench
-    target = interpolated(middles, known.times, known.target)
+    first, wide = known.times[:-1], np.diff(known.times)
+    parts = int(np.clip(-(-LOOKS // np.count_nonzero(wide)), *PARTS))
+    inner = (first[:, None] + wide[:, None] * np.arange(1, parts) / parts)[wide > 0].ravel()
+    if sampled is not None:
+        inner = np.unique(np.concatenate([inner, _bent(sampled, walker, room)]))
+    wrench = None if task.course is None else task.course.load_at(inner)
+    wrench = interpolated(inner, known.times, known.wrench) if wrench is None else wrench
+    target = interpolated(inner, known.times, known.target)
     if task.course is not None:
-        target = target_displacement(walker.start, task, task.course.target_at(middles))
-    pairs = ((known.times, middles), (known.wrench, wrench), (known.target, target))
+        target = target_displacement(walker.start, task, task.course.target_at(inner))
+    pairs = ((known.times, inner), (known.wrench, wrench), (known.target, target))
     whole = Looks(*(np.concatenate(pair) for pair in pairs))
     return whole.of(np.argsort(whole.times, kind="stable"))
+
+
+def _bent(sampled: Intersample, walker: Walker, room: float) -> Array:
+    """Return the instants in those curved pieces where the load leaves its straight line by more than `room` [N]."""
+    departure = walker.start.response.scale.wrench(sampled.curved.wrench - sampled.chords.wrench)
+    far = np.linalg.norm(departure, axis=1).reshape(-1, sampled.samples).max(axis=1, initial=0.0) > room
+    return np.asarray(sampled.curved.times[np.repeat(far, sampled.samples)])
 
 
 def _moved(

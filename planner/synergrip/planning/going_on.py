@@ -21,6 +21,9 @@ from synergrip.tasks.profiles import Constant, Profiles
 from synergrip.tasks.timed_task import TimedTask, still
 from synergrip.tasks.tracking import target_displacement
 
+ONCE = 'this is proven of the linear model of the start posture; task.linearise = "along" plans for the hand that moves'
+"""What may help a motion that has no plan at the start posture."""
+
 Planned = Callable[[Analysis, TimedTask], Outcome]
 
 
@@ -36,8 +39,10 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
         answers: the solver.
     """
     task, start = no.task, no.analysis
-    if task.linearise == "once" or start is None or no.stage not in ("direction", "magnitude"):
+    if start is None or no.stage not in ("direction", "magnitude"):
         return no
+    if task.linearise == "once":
+        return replace(no, hints=(*no.hints, ONCE)) if len(_moving(start, task)) else no
     if not len(_moving(start, task)) or (no.stage == "direction" and refused_at_once(start, task)):
         return no
     hold = planned(start, _without_motion(task))

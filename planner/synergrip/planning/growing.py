@@ -95,7 +95,7 @@ def grown(walker: Walker, hold: Array) -> Walk:
             here, piece = Grown(found, to, here.gone), min((1 + (found.passes <= QUICK)) * piece, LONGEST)
             sure = here if _arrived(found, part) else sure
             continue
-        met, piece = found.hindered, piece / 2
+        met, piece = found.hindered or met, piece / 2
         if here is not sure:  # what comes next may be out of reach only because promise and truth are not near enough
             part = way.until(here.gone)
             settled = part.on(here.walk)

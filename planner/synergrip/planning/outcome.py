@@ -13,7 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
@@ -48,7 +48,7 @@ LONG = 200
 """Characters of a reason that are shown."""
 
 
-@naming_arguments
+@made_by("plan(grasp, task)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan(Tabled):
     """A verified answer: references to send, and all that follows from them.
@@ -157,7 +157,7 @@ class Reasoned(Answer):
         return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
 
 
-@naming_arguments
+@made_by("plan(grasp, task)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Infeasible(Reasoned):
     """A proof that no plan exists.
@@ -206,7 +206,7 @@ class Reached(Value):
     because: str
 
 
-@naming_arguments
+@made_by("plan(grasp, task)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Unknown(Reasoned):
     """Nothing could be verified either way.

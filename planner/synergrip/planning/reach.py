@@ -78,7 +78,8 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     elif straight:
         yield "the fingers are near a straight posture"
     elif not others:
-        yield "no step however short comes nearer"
+        apart = f": what it promises and what the hand does differ by {walk.gap:.3g} N"
+        yield f"no step however short comes nearer{'' if walk.true or np.isinf(walk.gap) else apart}"
 
 
 def _binding(limits: Sequence[Conflict]) -> str:
@@ -122,7 +123,8 @@ def notes(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield how far the plan is from what was wanted, where that is more than elastic motion, and ranges let go."""
     yield from ranges_left(walker.task, walker.start.grasp, walk.executed.joint)
     if walk.behind > FOLLOWED:
+        where = "near a straight posture " if _dear(walk, walker) > DEAR else ""
         yield (
-            f"near a singular posture the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
+            f"{where}the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
             f"within the {1e3 * walker.allowed:.2g} mm that count as followed"
         )

@@ -12,7 +12,7 @@ import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, parse, read_document
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
+@made_by("load_problem(name_or_path)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Problem(Value):
     """A problem ready to be analysed or planned."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.judging import Arguments
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, kind_of, one_of
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.outcome import Plan
@@ -28,7 +28,7 @@ SPUN = 0.01
 """[rad] about its normal from which on a contact has slipped."""
 
 
-@naming_arguments
+@made_by("simulate(plan)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Simulation(Value):
     """A plan that was played in MuJoCo, beside what it promised. N instants, on the clock of the plan."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.documents.judging import place_of
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Places, frozen
@@ -50,7 +50,7 @@ class AnalysisGroup(Value):
         return Analysis(response.grasp, response, self.spaces.at(index), own)
 
 
-@naming_arguments
+@made_by("analyse_many(grasps)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Analyses(Value):
     """Everything that is true of many grasps before any task, those of like dimensions together."""

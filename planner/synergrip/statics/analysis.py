@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
 from synergrip.values import Value
 
 
-@naming_arguments
+@made_by("analyse(grasp)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Analysis(Value):
     """Everything that is true of a grasp before any task."""

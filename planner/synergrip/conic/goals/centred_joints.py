@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from synergrip.conic.arguments import OneOrEach
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
-from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.limits.joint_range import JointRange, refuse_some_of
 from synergrip.documents.naming import naming_arguments
 
 if TYPE_CHECKING:
@@ -41,6 +41,11 @@ class CentredJoints(Goal):
     lower: OneOrEach = None
     upper: OneOrEach = None
     name = "centred joints"
+
+    def __new__(cls, *values: OneOrEach, **named: OneOrEach) -> Self:
+        """Refuse one or two numbers without names, the first of which would be the start and not an end."""
+        refuse_some_of(cls, values, named)
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         """Judge the ranges as those of the limit."""

@@ -88,6 +88,8 @@ class Goal(Complete, ByContent, ABC):
                     return Objective((squares_of(formulation.force.after(apart), 1 / formulation.force_unit),))
     """
 
+    _example = "LeastEffort()"
+
     @property
     def name(self) -> str:
         """Name in messages: that of the class in words, unless it says another."""

@@ -5,7 +5,7 @@ On a hand the ranges that it states bind unless a task lets them go, with ``Join
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal, Self
 
@@ -54,6 +54,11 @@ class JointRange(Limit):
     of: str = field(default="JointRange", repr=False)
     """What the ranges are an argument of, in messages."""
     key = "limits.joint_range"
+
+    def __new__(cls, *values: OneOrEach, **named: OneOrEach) -> Self:
+        """Refuse one or two numbers without names, the first of which would be the start and not an end."""
+        refuse_some_of(cls, values, named)
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         """Judge the numbers."""
@@ -131,6 +136,18 @@ class JointRange(Limit):
 def _unit(lower: Array, upper: Array) -> Array:
     half = (upper - lower) / 2
     return np.where(np.isfinite(half) & (half > 0), half, 1.0)
+
+
+def refuse_some_of(ranged: type, values: Sequence[OneOrEach], named: Collection[str]) -> None:
+    """Refuse values without names where not all of `ENDS` are given: few mean the start by the first one.
+
+    Raises:
+        InputError: there are one or two, and names are missing.
+    """
+    if values and not {*ENDS[len(values) :]} <= {*named}:
+        names = f"{ranged.__name__}(lower=..., upper=...)"
+        told = "one value without a name" if len(values) == 1 else "two values without names"
+        raise InputError.at(ranged.__name__, f"{told}; write {names}, or start, lower and upper in this order")
 
 
 def _stated(held: Held) -> dict[str, Array]:

@@ -133,6 +133,8 @@ class Limit(Complete, ByContent, ABC):
                     return Usage("sideways", "N", ("left",), motion.forces[:, [1]], -five, five, five, motion.times)
     """
 
+    _example = "SlipMargin(0.5)"
+
     @property
     def key(self) -> str:
         """What asks for it, in messages and proofs: the key in a problem file, or the name of the class."""

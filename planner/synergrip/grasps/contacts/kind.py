@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import refuse_unfinished
 from synergrip.linalg import Array, frozen
 
 COMPONENTS = ("n", "t", "o", "m", "m_t", "m_o")
@@ -73,6 +74,15 @@ class ContactKind(ABC):
     """The parameters that are smaller where there is less friction than stated."""
     sides: ClassVar[tuple[str, ...]] = ("",)
     """What each cone is about, where there are several."""
+
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """Refuse this class itself, and one that leaves its cones out.
+
+        Raises:
+            InputError: with what there is, or what is left out.
+        """
+        refuse_unfinished(cls, "HardFinger(friction=0.6)")
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         """Judge the parameters.

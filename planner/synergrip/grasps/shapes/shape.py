@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import refuse_unfinished
 from synergrip.linalg import Array
 
 ROUND = 72
@@ -32,6 +33,15 @@ class Shape(ABC):
     """Key in problem files."""
     sizes: ClassVar[tuple[Size, ...]]
     """One for each argument."""
+
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """Refuse this class itself, and one that leaves a method out.
+
+        Raises:
+            InputError: with what there is, or the methods.
+        """
+        refuse_unfinished(cls, "Sphere(radius=0.05)")
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         """Judge the sizes, each of which is a length or lengths greater than 0."""

@@ -8,6 +8,9 @@ from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.simulation.simulation import Simulation
 
+SHORT = 0.05
+"""[N] by how much a margin must be below the promised one to be told of."""
+
 
 def simulation_text(simulation: Simulation, color: bool = False) -> str:
     """Return the answer of ``synergrip simulate``."""
@@ -41,7 +44,9 @@ def _said(simulation: Simulation) -> str:
         return f"no touch at {', '.join(simulation.lost)}"
     if simulation.slipped:
         return f"the object slipped at {', '.join(simulation.slipped)}"
-    return "every contact touched and none slipped"
+    short = simulation.promised_worst - simulation.worst[0]
+    less = f"; the smallest margin is {short:.2g} N below the promised one" if short > SHORT else ""
+    return f"every contact touched and none slipped{less}"
 
 
 def _contacts(simulation: Simulation) -> str:
