@@ -1,4 +1,4 @@
-"""Grasps from which hands take an object far: a small ball between the tips of thumb, index and middle finger.
+"""Grasps from which hands take an object far: a ball between the tips of the thumb and of two fingers.
 
 Posture, place and radius are those from which the tips of the three fingers, as points that stick to the ball, get to
 most of the motions of `in_grasp.py`: drawn at random from the ranges of the joints, and moved on as long as that gains
@@ -47,7 +47,7 @@ def human() -> Problem:
     """Return a ball of 36 mm radius in the human hand, between thumb, middle and ring finger.
 
     Its thumb is short (25, 15 and 10 mm): its tip alone, from the best place that there is and without any turn,
-    follows 29 of the 100 motions.
+    follows about 29 of the 100 motions.
     """
     fingers = ("thumb", "middle", "ring")
     values = ((8.8, 40.15, -9.83, 11.56), (2.4, -12.74, 27.19, 24.92), (-1.41, -7.78, 20.17, 50.22))
@@ -58,7 +58,7 @@ def human() -> Problem:
     return _held(hand, {"at": _tips(fingers), "stiffness": "8 N/mm"}, (-22.28, 116.8, -10.23), 36.0, (0, 0, -9.81))
 
 
-GRASPS: dict[str, Callable[[], Problem]] = {"dlr": dlr, "allegro": allegro, "human": human}
+GRASPS: dict[str, Callable[[], Problem]] = {"dlr": dlr, "human": human, "allegro": allegro}
 
 
 def _tips(fingers: Sequence[str] = FINGERS) -> list[str]:

@@ -156,9 +156,10 @@ def _searched(found: Found) -> str:
 def table(results: Iterable[Result]) -> Iterator[str]:
     """Yield the lines of the table, a hand each, and of the shares by size."""
     results = list(results)
-    hands = list(dict.fromkeys(result.hand for result in results))
-    yield "| hand | motions | reached | off its pose: median, largest | least margin, second execution | not reached " \
-          "| of these the search reaches none | infeasible | other | time, median |"  # fmt: skip
+    hands = [hand for hand in GRASPS if any(result.hand == hand for result in results)]
+    yield "| hand | motions | reached (by the search, too) | off their places: median, largest " \
+          "| least margin, second execution | not reached | by the search neither | infeasible | other " \
+          "| time, median |"  # fmt: skip
     yield "| --- " * 10 + "|"
     for hand in hands:
         yield _row(hand, [result for result in results if result.hand == hand])
@@ -181,7 +182,7 @@ def _row(hand: str, results: list[Result]) -> str:
     no = sum(result.kind == "infeasible" for result in results)
     ends, margins = ([getattr(r, name) for r in reached] or [np.nan] for name in ("off", "margin"))
     cells = [
-        hand, len(results), f"{len(reached)} (search: {sum(r.found for r in reached)})",
+        hand, len(results), f"{len(reached)} ({sum(r.found for r in reached)})",
         f"{1e3 * np.median(ends):.2f}, {1e3 * max(ends):.2f} mm", f"{min(margins):.3f} N", len(short),
         sum(not result.found for result in short), no, len(results) - len(reached) - len(short) - no,
         f"{np.median([result.seconds for result in results]):.1f} s",
