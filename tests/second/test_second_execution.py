@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -19,7 +20,7 @@ from second.jaws import cube, document, written
 from second.surfaces import Ball, Cap, Mantle, Side, face_at
 from second.touching import Rolled, Rolling
 from second.tree import read_tree
-from second_execution import executed
+from second_execution import between_knots, executed
 
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan_of_start_posture as plan
@@ -256,17 +257,22 @@ def test_a_push_keeps_its_point_on_the_object(tmp_path: Path, model: str) -> Non
 def test_a_promise_is_compared_with_all_that_was_reached() -> None:
     document = planned("gripper-box")
     found = executed(document, REPOSITORY, "fixed")
-    same = compared(found.margins, found)
+    finer = executed(between_knots(document, 2), REPOSITORY, "fixed")
+    assert finer.margins[0] == pytest.approx(found.margins[0], abs=1e-9)
+    assert len(finer.times) > 2 * len(found.times)
+    same = compared(found.margins, found, found)
     assert same.same
     assert same.difference == 0.0
     assert same.keeps(found.margins.min())
     assert not same.keeps(found.margins.min() + 0.02)
     promised = found.margins.copy()
     promised[7, 1] -= 0.05  # not the worst one: at most a hundredth of the largest force, some 0.03 N, is the same
-    assert compared(promised, found).promised == same.promised
-    assert not compared(promised, found).same
+    assert compared(promised, found, found).promised == same.promised
+    assert not compared(promised, found, found).same
+    low = replace(finer, margins=finer.margins - 1.0)
+    assert not compared(found.margins, found, low).keeps(found.margins.min())
     part = executed(planned("gripper-box", "task.move[0].lift=500 mm", "limits.joint_range=none"), REPOSITORY, "fixed")
-    ended = compared(np.ones((41, 2)), part)
+    ended = compared(np.ones((41, 2)), part, part)
     assert not ended.same
     assert not ended.keeps(-100.0)
 

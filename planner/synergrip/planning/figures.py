@@ -147,7 +147,7 @@ def _looks(walker: Walker, room: float) -> Looks:
     first, wide = known.times[:-1], np.diff(known.times)
     parts = int(np.clip(-(-LOOKS // np.count_nonzero(wide)), *PARTS))
     inner = (first[:, None] + wide[:, None] * np.arange(1, parts) / parts)[wide > 0].ravel()
-    if sampled is not None:
+    if sampled is not None and not sampled.exact:
         inner = np.unique(np.concatenate([inner, _bent(sampled, walker, room)]))
     wrench = None if task.course is None else task.course.load_at(inner)
     wrench = interpolated(inner, known.times, known.wrench) if wrench is None else wrench
