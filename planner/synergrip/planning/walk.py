@@ -44,7 +44,9 @@ ROUGH = 0.05
 MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
-SHORTER, SHORTEST, TRIES = 1 / 3, 1e-3, 2
+SHORTER, SHORTEST, TRIES, VAIN = 1 / 3, 1e-3, 2, 3
+"""By how much a step is shorter after one in vain, and the shortest; how often a true walk is tried to be brought
+nearer, and how often a first pass is tried: after that there is no way from where it begins."""
 AIMED, SHORTEST_CUT = 0.5, 0.05
 """What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
 BETTER = 0.75
@@ -80,6 +82,8 @@ class Walk(Value):
     there; None for a walk of all knots."""
     stopped: bool = False
     """Whether somebody interrupted it."""
+    left_out: bool = False
+    """Whether goals after the first are left for a later pass."""
 
     @property
     def interrupted(self) -> bool:
@@ -90,6 +94,11 @@ class Walk(Value):
     def true(self) -> bool:
         """Whether what was promised is what happens."""
         return self.way is not None and self.gap <= self.room
+
+    @property
+    def rough(self) -> bool:
+        """Whether what was promised is near what happens."""
+        return self.way is not None and self.gap <= max(TRUE, ROUGH * self.largest)
 
     @property
     def room(self) -> float:
@@ -110,6 +119,8 @@ class Walk(Value):
         """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""
         if self.way is None:
             return False
+        if other.left_out and not self.left_out:
+            return self.rough  # goals that are asked for the first time may go far
         if other.true:
             return self.true and self.behind < NEARER * other.behind
         return self.true or self.gap < BETTER * other.gap
@@ -154,7 +165,7 @@ class Walker:
 
     def near(self, walk: Walk) -> bool:
         """Return whether a walk is as far as wanted, and promise and truth are near each other."""
-        return walk.behind <= self.allowed and walk.gap <= max(TRUE, ROUGH * walk.largest)
+        return walk.behind <= self.allowed and walk.rough
 
     @property
     def allowed(self) -> float:
@@ -168,11 +179,12 @@ class Walker:
             best: where they begin.
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
-        share, tries = 1.0, 0
+        share, tries, stays = 1.0, 0, False
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
-            done = best.true and (best.behind < FOLLOWED or tries == TRIES)
+            near = best.behind < FOLLOWED or tries == TRIES or (stays and best.behind <= self.allowed)
+            done = best.true and not best.left_out and near
             done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
-            if best.way is None or done or share < SHORTEST:
+            if best.way is None or done or share < SHORTEST or (best.stage is None and tries == VAIN):
                 break
             try:
                 answered, limits = self._first(best.way, best, share)
@@ -184,16 +196,24 @@ class Walker:
             tried = (*best.tried, answered.decision)
             met = Hindrance.of(answered.decision, None if found is None else found.executed)
             why = None if good else best.hindered or met  # a shorter step is hindered by being short, too
-            best = replace(found if good and found is not None else best, passes=count, tried=tried, hindered=why)
-            share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
+            tries, share = 0 if good else tries + 1, min(1.0, 2 * share) if good else share * _shorter(found)
+            now = found if good and found is not None else best
+            stays = good and now.behind > NEARER * best.behind
+            best = replace(now, passes=count, tried=tried, hindered=why)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
-        """Return what the goals after the first come to, executed."""
+        """Return what the goals after the first come to, executed; they wait until promises are near what happens."""
         first, *others = self.task.goals
-        stage = through(begun(answered, limits, first), others, unasked_goals(self.task), self.solver)
+        wait = bool(others) and not best.rough and (best.stage is None or best.left_out)
+        stage = begun(answered, limits, first)
+        if wait:
+            names = ", ".join(f"'{goal.name}'" for goal in others)
+            left = f"along the motion there was no plan yet to ask {names} around"
+            stage = replace(stage, notes=(*stage.notes, left))
+        stage = through(stage, () if wait else others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        return replace(self.executed(references, promised, best.executed), stage=stage)
+        return replace(self.executed(references, promised, best.executed), stage=stage, left_out=wait)
 
     def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
@@ -213,12 +233,11 @@ class Walker:
 
     def _first(self, way: Steps, walk: Walk, share: float) -> tuple[Answered, tuple[Limit, ...]]:
         """Return what the first goal comes to around a path, and the limits that it keeps."""
-        beta, moved = way.damped(DAMPING / share)
         first, task = self.task.goal, self.task
         limits = task.kept if isinstance(first, LargestMargin) else task.all_limits
         limits = limits if self.more is None else self.more.asked(limits)
-        limits = (*limits, ShortStep(frozen(STEP * share + 1.5 * moved)))
-        return ask(Question(self.around(way, walk, beta), limits, first), self.solver), limits
+        limits = (*limits, ShortStep())
+        return ask(Question(self.around(way, walk, share), limits, first), self.solver), limits
 
     @cached_property
     def wanted(self) -> Array:
@@ -227,13 +246,14 @@ class Walker:
             return self.aim
         return frozen(target_displacement(self.start, self.task, self.task.target.values))
 
-    def around(self, way: Steps, walk: Walk, beta: Array) -> AlongPath:
-        """Return the task around a path, with a rigid motion (T, dim Gamma_ucs) that follows what is wanted."""
+    def around(self, way: Steps, walk: Walk, share: float) -> AlongPath:
+        """Return the task around a path, with a rigid motion that follows what is wanted as far as is cheap."""
         task, start = self.task, self.start
+        beta, moved = way.damped(DAMPING / share)
         displacement = frozen(self.wanted - walk.executed.left(self.wanted))
         path = Path(
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
-            sag_of(way.each, task.wrench, start),
+            sag_of(way.each, task.wrench, start), frozen(STEP * share + 1.5 * moved),
         )  # fmt: skip
         sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(

@@ -96,10 +96,12 @@ class JointRange(Limit):
         return len(given) == 2 and not any(np.any(np.isfinite(end)) for end in given)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each joint, in units of half its range."""
+        """Return two bounds for each joint, in units of half its range; none where nothing gets as far."""
         names = formulation.response.grasp.joints
         start, lower, upper = self._ends(formulation)
-        return within(self.key, names, formulation.joint.plus(start), lower, upper, _unit(lower, upper))
+        unit, (least, most) = _unit(lower, upper), (start + span for span in formulation.joint_span)
+        lower, upper = np.where(least > lower, -np.inf, lower), np.where(most < upper, np.inf, upper)
+        return within(self.key, names, formulation.joint.plus(start), lower, upper, unit)
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the joint displacements and how far they may go."""
