@@ -156,12 +156,6 @@ class Formulation(Value):
         of_load = self.map_of(lambda at: at.response.dq_dw)
         return self.reference.after(self.map_of(lambda at: at.response.dq_dzr)).plus(product(of_load, self.load_change))
 
-    @property
-    def joint_span(self) -> tuple[Array, Array]:
-        """The least and the largest displacement of each joint (n_q,) that is within reach: any [rad or m]."""
-        reach = np.full(self.response.grasp.n_q, np.inf)
-        return -reach, reach
-
     @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
