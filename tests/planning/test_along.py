@@ -17,11 +17,13 @@ from synergrip.cli.progress import telling
 from synergrip.conic.along import AlongPath
 from synergrip.conic.along import Path as Known
 from synergrip.conic.formulation import Units, formulate
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.linalg import frozen
 from synergrip.planning.check import judge_references
 from synergrip.planning.executing import Executor, analyses_of
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.planning.references import References, read_references
+from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import SOLVERS
 from synergrip.planning.walk import Walker
 from synergrip.planning.walked import answer_of
@@ -58,7 +60,7 @@ def test_around_the_start_it_is_the_formulation_of_the_start() -> None:
     plain = formulate(start.response, start.spaces, start.coordinates, **at_rest)
     around = formulate(start.response, start.spaces, start.coordinates, **at_rest, each=each)
     nothing = [np.zeros((T, n)) for n in (grasp.n_z, grasp.n_q, 6, 6, 6)]
-    found = AlongPath.around_path(around, Known(*nothing))
+    found = AlongPath.around_path(around, Known(*nothing, room=np.ones(T)))
     v = np.random.default_rng(0).normal(size=(T, plain.n_v))
     for name in ("force", "reference", "joint", "displacement", "rigid", "elastic", "torque", "effort"):
         ours, theirs = getattr(found, name).at(v), getattr(plain, name).at(v)
@@ -71,7 +73,7 @@ def test_what_a_pass_promises_is_what_happens_to_the_second_order() -> None:
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), SOLVERS["clarabel"])
     walk = walker.executed(plan.dz_r, plan.forces, plan.motion)
     assert walk.way is not None
-    formulation = walker.around(walk.way, walk, walk.way.beta)
+    formulation = walker.around(walk.way, walk, 1.0)
     assert np.allclose(formulation.reference.constant - walk.references, formulation.change.constant)
     each, states = walk.way.each, walk.executed.states
     for size, share in ((1e-2, 0.03), (1e-3, 0.005), (1e-4, 0.002)):
@@ -248,3 +250,45 @@ def test_every_state_is_an_equilibrium_and_stable() -> None:
     start = answer.analysis
     assert len(analyses_of(answer.executed, start)) == len(answer.time)
     assert np.allclose(answer.motion.torques, frozen(answer.executed.balance.torques))
+
+
+def test_a_range_has_rows_only_for_joints_that_a_pass_can_bring_to_its_ends() -> None:
+    """The rows that are left out are implied by how far joints may go: the same answer with and without them."""
+    plan = once("barrett-ball-lift-joints", SHORT)
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), SOLVERS["clarabel"])
+    walk = walker.executed(plan.dz_r, plan.forces, plan.motion)
+    assert walk.way is not None
+    near, held = walker.around(walk.way, walk, 1.0), plan.analysis.grasp.held
+    assert held is not None
+    q = held.q + walk.executed.joint
+    room = near.known.room[:, None]
+    lower, upper = (np.array([getattr(joint, end) for joint in held.hand.joints]) for end in ("lower", "upper"))
+    rows = {(item.name, item.side) for part in JointRange().rows(near) for item in part.items}
+    names = plan.analysis.grasp.joints
+    reached = {(names[i], "lowest") for i in np.flatnonzero(np.any(q - room < lower, axis=0))}
+    reached |= {(names[i], "highest") for i in np.flatnonzero(np.any(q + room > upper, axis=0))}
+    assert reached <= rows < {(name, side) for name in names for side in ("lowest", "highest")}
+    far = replace(near, path=replace(near.known, room=np.full(len(q), 1e3)))
+    assert sum(len(part.items) for part in JointRange().rows(far)) == 2 * len(names)
+    sizes = [np.linalg.norm(ShortStep().rows(at)[0].matrix, axis=1) for at in (near, far)]
+    assert np.allclose(sizes[0] * room, sizes[1] * 1e3)
+
+
+def test_later_goals_are_asked_once_promises_are_near_what_happens() -> None:
+    """Passes before that leave them out; the answer has them all."""
+    plan = once("human-glass-set-down")
+    assert len(plan.task.goals) > 1
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), SOLVERS["clarabel"])
+    walk = walker.executed(plan.dz_r, plan.forces, plan.motion)
+    far, near = replace(walk, gap=walk.largest), replace(walk, gap=0.01 * walk.largest)
+    for begin, left_out in ((far, True), (near, False)):
+        assert begin.way is not None
+        found = walker._after(*walker._first(begin.way, begin, 1.0), begin)
+        assert found.left_out == left_out
+        assert found.stage is not None
+        names = [decision.goal for decision in found.stage.decisions]
+        assert (plan.task.goals[1].name in names) == (not left_out)
+        assert any(plan.task.goals[1].name in note for note in found.stage.notes) == left_out
+    end = walker.on(replace(far, way=far.way))
+    assert end.true
+    assert not end.left_out

@@ -25,6 +25,9 @@ from synergrip.linalg import Array
 from synergrip.statics.motion import forces_at_start
 from synergrip.values import Value
 
+BEYOND = 1.01
+"""How much farther than a pass may go joints are taken to get: limits are loosened by rounding between two goals."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Path(Value):
@@ -38,6 +41,8 @@ class Path(Value):
     """(T, 6) the same, but for what the rigid motions of the knot cannot reach: elastic motion and sag are left out."""
     sag: Array
     """(T, 6) the part of the displacement that the change of the load makes, by the maps of the knot."""
+    room: Array
+    """(T,) how far the joints together may move from the path in one pass [rad or m]."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -99,6 +104,12 @@ class AlongPath(Formulation):
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
         return self.change.after(self.map_of(lambda at: at.response.dq_dzr)).plus(self.known.joint)
+
+    @cached_property
+    def joint_span(self) -> tuple[Array, Array]:
+        """The least and the largest displacement of each joint (n_q,) that this pass can come to [rad or m]."""
+        reach = BEYOND * self.known.room[:, None]
+        return (self.known.joint - reach).min(axis=0), (self.known.joint + reach).max(axis=0)
 
     @cached_property
     def displacement(self) -> Affine:

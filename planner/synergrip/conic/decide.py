@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from synergrip.conic.certificate import TIGHT, Certificate, judge_infeasible, judge_optimal, judge_unbounded
@@ -21,6 +21,8 @@ ATTEMPTS = (
     Settings(tolerance=1e-8, regularisation=1e-12, step=0.9, max_iterations=500),
 )
 """The retry chain. The first nearly always settles it: programs come normalised, equilibration does more harm."""
+ALONG = (ATTEMPTS[1], ATTEMPTS[0], *ATTEMPTS[2:])
+"""The same around a path, where what is solved for to more digits than a promise is kept to is solved for in vain."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,7 +59,9 @@ class Decision(Value):
         return self.certificate.verified and self.certificate.kind == "infeasible"
 
 
-def decide(goal: str, program: Program, solver: Solver, violation: float = TIGHT) -> Decision:
+def decide(
+    goal: str, program: Program, solver: Solver, violation: float = TIGHT, attempts: Sequence[Settings] = ATTEMPTS
+) -> Decision:
     """Solve a program until a claim verifies sharply; else return the best claim of the retry chain.
 
     Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
@@ -65,12 +69,12 @@ def decide(goal: str, program: Program, solver: Solver, violation: float = TIGHT
     row and has the smallest gap.
     """
     best, seconds = None, 0.0
-    for attempt, settings in enumerate(ATTEMPTS, start=1):
+    for attempt, settings in enumerate(attempts, start=1):
         solution = solver(program, settings)
         seconds += solution.seconds
         decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
         LOG.debug(
-            "%s, attempt %d of %d: %s says '%s' after %d iterations; %s %s", goal, attempt, len(ATTEMPTS),
+            "%s, attempt %d of %d: %s says '%s' after %d iterations; %s %s", goal, attempt, len(attempts),
             solution.solver, solution.status, solution.iterations, decision.certificate.kind,
             "verified" if decision.certificate.verified else "not verified",
         )  # fmt: skip

@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
-from synergrip.conic.decide import Decision, decide, rank
+from synergrip.conic.decide import ALONG, ATTEMPTS, Decision, decide, rank
 from synergrip.conic.formulation import Units
 from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -165,8 +165,9 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
 
 def _decided(question: Question, solver: Answerer) -> Answered:
     program = question.program()
+    attempts = ALONG if isinstance(question.formulation, AlongPath) else ATTEMPTS
     decision = decide(
-        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation
+        question.goal.name, program, lambda *asked: solver(question, *asked), question.violation, attempts
     )  # fmt: skip
     return Answered(question, decision)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
@@ -25,6 +26,8 @@ from synergrip.values import Value
 SLACKS = (1e-8, 1e-7)
 """How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
 its program needs an interior."""
+SLACKS_ALONG = (1e-6,)
+"""The same around a path, where promises are kept to less digits than that: the more room, the sooner it is solved."""
 MOST = 1e-6
 """How much of them it may give up at most, relative to the load, however hard the best plans squeeze."""
 LOOSE = 1e-7
@@ -167,7 +170,7 @@ def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...
     """Yield the limits of the next goal, the tightest first."""
     if stage.goal.has_scalar:
         unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.formulation.force_unit
-        for slack in dict.fromkeys(min(slack * unit, MOST * stage.formulation.load_size) for slack in SLACKS):
+        for slack in dict.fromkeys(min(slack * unit, MOST * stage.formulation.load_size) for slack in _slacks(stage)):
             yield (_kept(stage, slack), *stage.limits)
         return
     fixed = not formulation.frees_alpha
@@ -186,7 +189,11 @@ def _kept(stage: Stage, slack: float) -> Limit:
 
 def _violation(stage: Stage) -> float:
     """Return the violation worth another attempt: less than what the next goal may give up of a margin or a peak."""
-    return SLACKS[0] if stage.goal.has_scalar else TIGHT
+    return _slacks(stage)[0] if stage.goal.has_scalar else TIGHT
+
+
+def _slacks(stage: Stage) -> tuple[float, ...]:
+    return SLACKS_ALONG if isinstance(stage.formulation, AlongPath) else SLACKS
 
 
 def _carried(stage: Stage) -> float:

@@ -13,7 +13,6 @@ from functools import cached_property
 import numpy as np
 
 from synergrip.conic.along import AlongPath, Path
-from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Limit
@@ -27,7 +26,10 @@ from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
-from synergrip.planning.stages import Stage, begun, through
+from synergrip.planning.stages import begun, through
+from synergrip.planning.walk_so_far import FOLLOWED as FOLLOWED
+from synergrip.planning.walk_so_far import NEARER
+from synergrip.planning.walk_so_far import Walk as Walk
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -35,84 +37,20 @@ from synergrip.tasks.scaling import expected_units, units_of
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import Steps, steps
-from synergrip.values import Value
 
-TRUE, OF_FORCES = 1e-3, 1e-4
-"""A promise is true when it is to this many newtons, or to this share of the largest force where that is more."""
-ROUGH = 0.05
-"""Share of the largest force up to which promise and truth are near each other."""
 MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
-SHORTER, SHORTEST, TRIES = 1 / 3, 1e-3, 2
+SHORTER, SHORTEST, TRIES, VAIN = 1 / 3, 1e-3, 2, 3
+"""By how much a step is shorter after one in vain, and the shortest; how often a true walk is tried to be brought
+nearer, and how often a first pass is tried: after that there is no way from where it begins."""
 AIMED, SHORTEST_CUT = 0.5, 0.05
 """What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
-BETTER = 0.75
-"""Share of the last difference between promise and truth that a step must get below."""
 OF_PATH = 1e-3
 """Share of the largest force on a path that the unit of force in a program around it is at least."""
 REACHED = 0.01
 """How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
 the grasp."""
-FOLLOWED, NEARER = 1e-5, 0.9
-"""[m] How near the object is brought to where it is wanted, as long as a pass brings it nearer by this factor."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Walk(Value):
-    """References, what they really do, and what led to them."""
-
-    references: Array  # (T, n_z)
-    executed: Execution
-    gap: float
-    """[N] largest difference between the contact forces promised and the true ones."""
-    way: Steps | None
-    """What is left of the way; None when some knots were not reached."""
-    stage: Stage | None = None
-    """What the goals of the last pass came to; None before the first."""
-    passes: int = 0
-    tried: tuple[Decision, ...] = ()
-    """On the first goal, of every pass; of those taken back, too."""
-    hindered: Hindrance | None = None
-    """What kept the last pass from being taken; None when it was."""
-    until: float | None = None
-    """[s] until when the object is brought where it is wanted, by a walk of the first knots that does not go on from
-    there; None for a walk of all knots."""
-    stopped: bool = False
-    """Whether somebody interrupted it."""
-
-    @property
-    def interrupted(self) -> bool:
-        """Whether somebody interrupted it, or the goals of its last pass."""
-        return self.stopped or (self.stage is not None and self.stage.interrupted)
-
-    @property
-    def true(self) -> bool:
-        """Whether what was promised is what happens."""
-        return self.way is not None and self.gap <= self.room
-
-    @property
-    def room(self) -> float:
-        """[N] difference up to which a promise counts as what happens."""
-        return max(TRUE, OF_FORCES * self.largest)
-
-    @property
-    def largest(self) -> float:
-        """[N] The largest component of the true forces."""
-        return float(np.abs(self.executed.states.forces).max(initial=0.0))
-
-    @property
-    def behind(self) -> float:
-        """How far the rigid motion is behind the wanted one [m], at most; infinitely where knots were not reached."""
-        return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
-
-    def better_than(self, other: Walk) -> bool:
-        """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""
-        if self.way is None:
-            return False
-        if other.true:
-            return self.true and self.behind < NEARER * other.behind
-        return self.true or self.gap < BETTER * other.gap
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +92,7 @@ class Walker:
 
     def near(self, walk: Walk) -> bool:
         """Return whether a walk is as far as wanted, and promise and truth are near each other."""
-        return walk.behind <= self.allowed and walk.gap <= max(TRUE, ROUGH * walk.largest)
+        return walk.behind <= self.allowed and walk.rough
 
     @property
     def allowed(self) -> float:
@@ -168,11 +106,12 @@ class Walker:
             best: where they begin.
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
-        share, tries = 1.0, 0
+        share, tries, stays = 1.0, 0, False
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
-            done = best.true and (best.behind < FOLLOWED or tries == TRIES)
+            near = best.behind < FOLLOWED or tries == TRIES or (stays and best.behind <= self.allowed)
+            done = best.true and not best.left_out and near
             done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
-            if best.way is None or done or share < SHORTEST:
+            if best.way is None or done or share < SHORTEST or (best.stage is None and tries == VAIN):
                 break
             try:
                 answered, limits = self._first(best.way, best, share)
@@ -184,16 +123,24 @@ class Walker:
             tried = (*best.tried, answered.decision)
             met = Hindrance.of(answered.decision, None if found is None else found.executed)
             why = None if good else best.hindered or met  # a shorter step is hindered by being short, too
-            best = replace(found if good and found is not None else best, passes=count, tried=tried, hindered=why)
-            share, tries = (min(1.0, 2 * share), 0) if good else (share * _shorter(found), tries + 1)
+            tries, share = 0 if good else tries + 1, min(1.0, 2 * share) if good else share * _shorter(found)
+            now = found if good and found is not None else best
+            stays = good and now.behind > NEARER * best.behind
+            best = replace(now, passes=count, tried=tried, hindered=why)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
-        """Return what the goals after the first come to, executed."""
+        """Return what the goals after the first come to, executed; they wait until promises are near what happens."""
         first, *others = self.task.goals
-        stage = through(begun(answered, limits, first), others, unasked_goals(self.task), self.solver)
+        wait = bool(others) and not best.rough and (best.stage is None or best.left_out)
+        stage = begun(answered, limits, first)
+        if wait:
+            names = ", ".join(f"'{goal.name}'" for goal in others)
+            left = f"along the motion there was no plan yet to ask {names} around"
+            stage = replace(stage, notes=(*stage.notes, left))
+        stage = through(stage, () if wait else others, unasked_goals(self.task), self.solver)
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        return replace(self.executed(references, promised, best.executed), stage=stage)
+        return replace(self.executed(references, promised, best.executed), stage=stage, left_out=wait)
 
     def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
@@ -213,12 +160,11 @@ class Walker:
 
     def _first(self, way: Steps, walk: Walk, share: float) -> tuple[Answered, tuple[Limit, ...]]:
         """Return what the first goal comes to around a path, and the limits that it keeps."""
-        beta, moved = way.damped(DAMPING / share)
         first, task = self.task.goal, self.task
         limits = task.kept if isinstance(first, LargestMargin) else task.all_limits
         limits = limits if self.more is None else self.more.asked(limits)
-        limits = (*limits, ShortStep(frozen(STEP * share + 1.5 * moved)))
-        return ask(Question(self.around(way, walk, beta), limits, first), self.solver), limits
+        limits = (*limits, ShortStep())
+        return ask(Question(self.around(way, walk, share), limits, first), self.solver), limits
 
     @cached_property
     def wanted(self) -> Array:
@@ -227,13 +173,14 @@ class Walker:
             return self.aim
         return frozen(target_displacement(self.start, self.task, self.task.target.values))
 
-    def around(self, way: Steps, walk: Walk, beta: Array) -> AlongPath:
-        """Return the task around a path, with a rigid motion (T, dim Gamma_ucs) that follows what is wanted."""
+    def around(self, way: Steps, walk: Walk, share: float) -> AlongPath:
+        """Return the task around a path, with a rigid motion that follows what is wanted as far as is cheap."""
         task, start = self.task, self.start
+        beta, moved = way.damped(DAMPING / share)
         displacement = frozen(self.wanted - walk.executed.left(self.wanted))
         path = Path(
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
-            sag_of(way.each, task.wrench, start),
+            sag_of(way.each, task.wrench, start), frozen(STEP * share + 1.5 * moved),
         )  # fmt: skip
         sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(

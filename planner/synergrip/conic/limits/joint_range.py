@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
+from synergrip.conic.along import AlongPath
 from synergrip.conic.arguments import OneOrEach, numbers, one_each
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey
@@ -101,10 +102,14 @@ class JointRange(Limit):
         return len(given) == 2 and not any(np.any(np.isfinite(end)) for end in given)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each joint, in units of half its range."""
+        """Return two bounds for each joint, in units of half its range; none where nothing gets as far."""
         names = formulation.response.grasp.joints
         start, lower, upper = self._ends(formulation)
-        return within(self.key, names, formulation.joint.plus(start), lower, upper, _unit(lower, upper))
+        unit = _unit(lower, upper)
+        if isinstance(formulation, AlongPath):
+            least, most = (start + span for span in formulation.joint_span)
+            lower, upper = np.where(least > lower, -np.inf, lower), np.where(most < upper, np.inf, upper)
+        return within(self.key, names, formulation.joint.plus(start), lower, upper, unit)
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:
         """Return the joint displacements and how far they may go."""

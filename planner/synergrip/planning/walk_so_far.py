@@ -1,0 +1,90 @@
+"""What passes along the motion have come to so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.conic.decide import Decision
+from synergrip.equilibrium.execution import Execution
+from synergrip.linalg import Array
+from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.stages import Stage
+from synergrip.tasks.tracking_along import Steps
+from synergrip.values import Value
+
+TRUE, OF_FORCES = 1e-3, 1e-4
+"""A promise is true when it is to this many newtons, or to this share of the largest force where that is more."""
+ROUGH = 0.05
+"""Share of the largest force up to which promise and truth are near each other."""
+BETTER = 0.75
+"""Share of the last difference between promise and truth that a step must get below."""
+FOLLOWED, NEARER = 1e-5, 0.9
+"""[m] How near the object is brought to where it is wanted, as long as a pass brings it nearer by this factor."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Walk(Value):
+    """References, what they really do, and what led to them."""
+
+    references: Array  # (T, n_z)
+    executed: Execution
+    gap: float
+    """[N] largest difference between the contact forces promised and the true ones."""
+    way: Steps | None
+    """What is left of the way; None when some knots were not reached."""
+    stage: Stage | None = None
+    """What the goals of the last pass came to; None before the first."""
+    passes: int = 0
+    tried: tuple[Decision, ...] = ()
+    """On the first goal, of every pass; of those taken back, too."""
+    hindered: Hindrance | None = None
+    """What kept the last pass from being taken; None when it was."""
+    until: float | None = None
+    """[s] until when the object is brought where it is wanted, by a walk of the first knots that does not go on from
+    there; None for a walk of all knots."""
+    stopped: bool = False
+    """Whether somebody interrupted it."""
+    left_out: bool = False
+    """Whether goals after the first are left for a later pass."""
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether somebody interrupted it, or the goals of its last pass."""
+        return self.stopped or (self.stage is not None and self.stage.interrupted)
+
+    @property
+    def true(self) -> bool:
+        """Whether what was promised is what happens."""
+        return self.way is not None and self.gap <= self.room
+
+    @property
+    def rough(self) -> bool:
+        """Whether what was promised is near what happens."""
+        return self.way is not None and self.gap <= max(TRUE, ROUGH * self.largest)
+
+    @property
+    def room(self) -> float:
+        """[N] difference up to which a promise counts as what happens."""
+        return max(TRUE, OF_FORCES * self.largest)
+
+    @property
+    def largest(self) -> float:
+        """[N] The largest component of the true forces."""
+        return float(np.abs(self.executed.states.forces).max(initial=0.0))
+
+    @property
+    def behind(self) -> float:
+        """How far the rigid motion is behind the wanted one [m], at most; infinitely where knots were not reached."""
+        return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
+
+    def better_than(self, other: Walk) -> bool:
+        """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""
+        if self.way is None:
+            return False
+        if other.left_out and not self.left_out:
+            return self.rough  # goals that are asked for the first time may go far
+        if other.true:
+            return self.true and self.behind < NEARER * other.behind
+        return self.true or self.gap < BETTER * other.gap
