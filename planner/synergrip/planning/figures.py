@@ -139,7 +139,7 @@ def _looks(walker: Walker, room: float) -> Looks:
 
     Args:
         walker: whose task it is.
-        room: by how much a load may leave its straight line to be looked at no closer [N].
+        room: by how much more than in the middle of a piece a load may leave its straight line elsewhere in it [N].
     """
     task = walker.task
     sampled = intersample_of(task, walker.start)
@@ -160,9 +160,10 @@ def _looks(walker: Walker, room: float) -> Looks:
 
 
 def _bent(sampled: Intersample, walker: Walker, room: float) -> Array:
-    """Return the instants in those curved pieces where the load leaves its straight line by more than `room` [N]."""
+    """Return the instants in those curved pieces where the load leaves its line by more than in the middle [N]."""
     departure = walker.start.response.scale.wrench(sampled.curved.wrench - sampled.chords.wrench)
-    far = np.linalg.norm(departure, axis=1).reshape(-1, sampled.samples).max(axis=1, initial=0.0) > room
+    sizes = np.linalg.norm(departure, axis=1).reshape(-1, sampled.samples)
+    far = sizes.max(axis=1, initial=0.0) > sizes[:, sampled.samples // 2] + room
     return np.asarray(sampled.curved.times[np.repeat(far, sampled.samples)])
 
 
