@@ -158,7 +158,8 @@ def judged(problem: Problem, seed: int, model: str) -> Judged:
         return Judged(title, verdict_of(answer), seconds, answer.why)
     document: dict[str, Any] = json.loads(json.dumps(outcome_document(problem.title, problem.grasp, answer)))
     model = document.get("true", {}).get("contact_model", model)
-    execution, finer = executed(document, REPOSITORY, model), executed(between_knots(document, 2), REPOSITORY, model)
+    execution = executed(document, REPOSITORY, model)
+    finer = executed(between_knots(document, 2), REPOSITORY, model, parts=1)
     length = document["structure"]["characteristic_length_m"]
     size = float(np.linalg.norm(answer.motion.du * [1, 1, 1, length, length, length], axis=1).max())
     return Judged(title, "feasible", seconds, "", answer.task.margin, size, compared(answer.margins, execution, finer))
