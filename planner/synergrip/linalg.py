@@ -182,7 +182,7 @@ def _from_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
 
 def gram(matrices: Array) -> Array:
     """Return ``A' A`` for matrices A (..., m, n)."""
-    return np.asarray(matrices.mT @ matrices.copy())  # seeing A itself twice, NumPy takes three times as long
+    return np.asarray(matrices.mT @ matrices.copy())  # seeing a small A itself twice, NumPy takes longer
 
 
 def _padded(values: Array, columns: int) -> Array:

@@ -14,7 +14,8 @@ from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.reach import reached_by
 from synergrip.planning.solvers import SOLVERS
-from synergrip.planning.walk import Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import Walk
 from synergrip.problems.problem import load_problem
 from synergrip.tasks.timed_task import still
 

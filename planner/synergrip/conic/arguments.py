@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from functools import wraps
 from inspect import isfunction
-from typing import Any, ClassVar, Self
+from typing import Any
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments, as_numbers, described, is_number
-from synergrip.documents.naming import refuse_unfinished
+from synergrip.documents.naming import Finished
 from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError, SynergripError
 from synergrip.linalg import Array, frozen
@@ -108,20 +108,8 @@ ASKED = ("rows", "usage", "objective", "bounded")
 """Methods of limits and goals of one's own in which errors are theirs."""
 
 
-class Complete:
+class Complete(Finished):
     """Classes that say at once, and by name, which of their methods are still to be written, or went wrong."""
-
-    _example: ClassVar[str]
-    """One that is finished, for who makes what all have in common."""
-
-    def __new__(cls, *_: Any, **__: Any) -> Self:
-        """Refuse a class that leaves a method out.
-
-        Raises:
-            InputError: with the methods.
-        """
-        refuse_unfinished(cls, cls._example)
-        return super().__new__(cls)
 
     def __init_subclass__(cls, **others: Any) -> None:
         """Let the methods of a class outside this package say whose they are when they fail."""

@@ -32,7 +32,11 @@ class Looks(Value):
 
     def of(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Looks:
         """Return some of them."""
-        return Looks(*(frozen(values[chosen]) for values in (self.times, self.wrench, self.target)))
+        return Looks(*(frozen(values[chosen]) for values in _arrays(self)))
+
+    def and_then(self, others: Looks) -> Looks:
+        """Return these, and others behind them."""
+        return Looks(*(np.concatenate(pair) for pair in zip(_arrays(self), _arrays(others), strict=True)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,7 +98,7 @@ class Intersample(Value):
 
     def every(self) -> Intersample:
         """Return the same instants, all of them in the grid: what happens at them is asked, and nothing between."""
-        whole = Looks(*(np.concatenate(pair) for pair in zip(*map(_arrays, (self.grid, self.curved)), strict=True)))
+        whole = self.grid.and_then(self.curved)
         order = np.argsort(whole.times, kind="stable")
         corner = np.concatenate([self.corner, np.ones(len(self.curved.times), dtype=bool)])[order]
         nothing = np.zeros(0, dtype=np.intp)

@@ -6,7 +6,7 @@ from abc import ABC
 from collections.abc import Callable, Iterator, Mapping
 from functools import wraps
 from inspect import Parameter, signature
-from typing import Any, TypeVar
+from typing import Any, ClassVar, Self, TypeVar
 
 from synergrip.documents.judging import article
 from synergrip.documents.validation import shown
@@ -41,22 +41,25 @@ def made_by(call: str) -> Callable[[C], C]:
     return decorated
 
 
-def refuse_unfinished(made: type, example: str) -> None:
-    """Refuse to make a value of a class that leaves methods to others.
+class Finished:
+    """Classes that say at once, and by name, which of their methods are still to be written."""
 
-    Args:
-        made: the class.
-        example: of a kind of it, for who makes what all kinds have in common.
+    _example: ClassVar[str]
+    """One of its kinds, for who makes what all kinds have in common."""
 
-    Raises:
-        InputError: with the methods that are left out.
-    """
-    missing = sorted(getattr(made, "__abstractmethods__", ()))
-    if missing and ABC in made.__bases__:
-        message = f"has nothing but what its kinds share; make one, such as {example}, or write one with"
-        raise InputError.at(made.__name__, f"{message} {', '.join(missing)}")
-    if missing:
-        raise InputError.at(made.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """Refuse to make a value of a class that leaves methods to others.
+
+        Raises:
+            InputError: with the methods that are left out.
+        """
+        missing = sorted(getattr(cls, "__abstractmethods__", ()))
+        if missing and ABC in cls.__bases__:
+            message = f"has nothing but what its kinds share; make one, such as {cls._example}, or write one with"
+            raise InputError.at(cls.__name__, f"{message} {', '.join(missing)}")
+        if missing:
+            raise InputError.at(cls.__name__, f"has no method {' and none '.join(map(repr, missing))}; write it")
+        return super().__new__(cls)
 
 
 def _naming(function: Callable[..., Any], of: str, instead: str = "") -> Callable[..., Any]:

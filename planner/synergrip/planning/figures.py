@@ -15,13 +15,13 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
-from synergrip.planning.instants import intersample_of
+from synergrip.planning.instants import intersample_of, looked_at
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT, limit_usages
-from synergrip.planning.walk import Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import Walk
 from synergrip.statics.motion import Motion
-from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import Steps, steps
 from synergrip.values import Value
 
@@ -149,13 +149,10 @@ def _looks(walker: Walker, room: float) -> Looks:
     inner = (first[:, None] + wide[:, None] * np.arange(1, parts) / parts)[wide > 0].ravel()
     if sampled is not None and not sampled.exact:
         inner = np.unique(np.concatenate([inner, _bent(sampled, walker, room)]))
-    wrench = None if task.course is None else task.course.load_at(inner)
-    wrench = interpolated(inner, known.times, known.wrench) if wrench is None else wrench
-    target = interpolated(inner, known.times, known.target)
+    inside = Looks(inner, *(interpolated(inner, known.times, values) for values in (known.wrench, known.target)))
     if task.course is not None:
-        target = target_displacement(walker.start, task, task.course.target_at(inner))
-    pairs = ((known.times, inner), (known.wrench, wrench), (known.target, target))
-    whole = Looks(*(np.concatenate(pair) for pair in pairs))
+        inside = looked_at(task, task.course, inner, walker.start)
+    whole = known.and_then(inside)
     return whole.of(np.argsort(whole.times, kind="stable"))
 
 

@@ -15,7 +15,8 @@ import numpy as np
 from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.log import LOG
-from synergrip.planning.walk import Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import Walk
 from synergrip.values import Value
 
 PIECE, LONGEST, SHORTEST = 5e-3, 2e-2, 2e-4
@@ -78,7 +79,7 @@ def grown(walker: Walker, hold: Array) -> Walk:
     way, met = Way.of(walker), None
     part = way.until(0.0)
     here = sure = Grown(part.on(part.executed(hold[:1], None, walker.executor.setting.start)), 0.0, 0.0)
-    piece = PIECE if _arrived(here.walk, part) else 0.0
+    piece = PIECE if part.arrived(here.walk) else 0.0
     passes, tried, rough = here.walk.passes, here.walk.tried, True
     while here.gone < way.end and piece >= SHORTEST:
         to = min(here.gone + piece, way.end)
@@ -86,29 +87,25 @@ def grown(walker: Walker, hold: Array) -> Walk:
         found = part.on(_begun(part, here, to, way, hold), roughly=True)
         good = part.near(found)
         found = found if rough or not good else part.on(found)
-        good = good and (rough or _arrived(found, part))
+        good = good and (rough or part.arrived(found))
         LOG.info("%s to %.4g of %.4g m in %d passes", "grown" if good else "not grown", to, way.end, found.passes)
         passes, tried = passes + found.passes, (*tried, *found.tried)
         if found.interrupted:
             break
         if good:
             here, piece = Grown(found, to, here.gone), min((1 + (found.passes <= QUICK)) * piece, LONGEST)
-            sure = here if _arrived(found, part) else sure
+            sure = here if part.arrived(found) else sure
             continue
         met, piece = found.hindered or met, piece / 2
         if here is not sure:  # what comes next may be out of reach only because promise and truth are not near enough
             part = way.until(here.gone)
             settled = part.on(here.walk)
-            rough = _arrived(settled, part)
+            rough = part.arrived(settled)
             here = sure = replace(here, walk=settled) if rough else sure
     if here.gone == way.end:
         return walker.on(replace(here.walk, passes=passes, tried=tried))
     until = float(np.interp(sure.gone, way.gone, walker.task.times))
     return replace(sure.walk, until=until, passes=passes, tried=tried, hindered=met or sure.walk.hindered)
-
-
-def _arrived(walk: Walk, walker: Walker) -> bool:
-    return walk.true and walk.behind <= walker.allowed
 
 
 def _begun(part: Walker, here: Grown, to: float, way: Way, hold: Array) -> Walk:

@@ -32,10 +32,10 @@ def intersample_of(task: TimedTask, analysis: Analysis) -> Intersample | None:
     samples = samples_for(len(pieces))
     first, last = grid.times[pieces], grid.times[pieces + 1]
     inner = (first[:, None] + (last - first)[:, None] * shares(samples)).ravel()
-    return Intersample(grid, corner, pieces, samples, _looked_at(task, task.course, inner, analysis))
+    return Intersample(grid, corner, pieces, samples, looked_at(task, task.course, inner, analysis))
 
 
-def _looked_at(task: TimedTask, course: Course, times: Array, analysis: Analysis) -> Looks:
+def looked_at(task: TimedTask, course: Course, times: Array, analysis: Analysis) -> Looks:
     """Return load and wish at any instants."""
     load = course.load_at(times)
     wrench = interpolated(times, task.times, task.wrench) if load is None else load
@@ -51,7 +51,7 @@ def _corners(task: TimedTask, course: Course, marks: Marks, analysis: Analysis) 
     beside = [(time, side) for time, side in beside if first <= time <= last]
     times = np.concatenate([inside, [time for time, _ in beside]])
     sides = np.concatenate([np.zeros(len(inside)), [side for _, side in beside]]).astype(np.intp)
-    looks = _looked_at(task, course, times, analysis)
+    looks = looked_at(task, course, times, analysis)
     wrench = np.array(looks.wrench)
     for i, (time, side) in enumerate(beside, start=len(inside)):
         for jump in marks.jumps:
@@ -80,8 +80,7 @@ def _off_the_knots(corners: Looks, sides: NDArray[np.intp], knots: Looks) -> NDA
 
 def _grid(knots: Looks, corners: Looks, sides: NDArray[np.intp]) -> tuple[Looks, NDArray[np.bool_]]:
     """Return knots and corners in order, and which of them are corners."""
-    pairs = ((knots.times, corners.times), (knots.wrench, corners.wrench), (knots.target, corners.target))
-    whole = Looks(*(np.concatenate(pair) for pair in pairs))
+    whole = knots.and_then(corners)
     order = np.lexsort((np.concatenate([np.zeros(len(knots.times)), sides]), whole.times))
     return whole.of(order), order >= len(knots.times)
 

@@ -54,7 +54,7 @@ class MoreAtKnots(Value):
         shares = np.array(self.shares)
         of_instants = [i for i, limit in enumerate(task.kept) if not limit.couples_knots]
         for i, usage, over in zip(of_instants, others, short[1:], strict=True):
-            shares[i] += MORE * over * max(float((usage.excess / usage.scale).max(initial=0.0)), 0.0)
+            shares[i] += MORE * over * float((usage.excess / usage.scale).max(initial=0.0))
         if self.rounds == ROUNDS or shares.max(initial=0.0) > MOST_SHARE:
             return None
         return MoreAtKnots(frozen(margin), tuple(shares.tolist()), self.rounds + 1)
@@ -73,7 +73,7 @@ class MoreAtKnots(Value):
 class _MarginAtKnots(FrictionCone):
     """Friction cones with a margin of their own for each knot and contact, and the usage of the one that is asked."""
 
-    at_knots: Array = field(default_factory=lambda: np.zeros((0, 0)))  # (T, n_c) [N]
+    at_knots: Array = field(kw_only=True)  # (T, n_c) [N]
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         return friction_rows(formulation, self.at_knots[: formulation.knots], 0.0, self.key)
@@ -86,6 +86,6 @@ def _beside(knots: Array, usage: Usage) -> Array:
     """Return for each knot (T, m) how much is missing at most in the intervals beside it."""
     missing, found = np.maximum(usage.excess, 0.0), np.zeros((len(knots), usage.value.shape[1]))
     after = np.clip(np.searchsorted(knots, usage.times, side="left"), 1, len(knots) - 1)  # t in (before, after]
-    for row, k in zip(missing, after, strict=True):
-        found[k - 1 : k + 1] = np.maximum(found[k - 1 : k + 1], row)
+    for beside in (after - 1, after):
+        np.maximum.at(found, beside, missing)
     return found

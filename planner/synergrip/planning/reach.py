@@ -16,7 +16,8 @@ from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Reached
 from synergrip.planning.straying import strayed
-from synergrip.planning.walk import FOLLOWED, Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import FOLLOWED, Walk
 from synergrip.statics.twists import describe_displacement
 from synergrip.tasks.tracking_along import joints_of
 
@@ -37,7 +38,7 @@ def off(walk: Walk, walker: Walker) -> Array:
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
-    pose, until = executed.du[-1] if arrived(walk, walker) else np.zeros(6), walk.until
+    pose, until = executed.du[-1] if walker.arrived(walk) else np.zeros(6), walk.until
     astray, far = False, off(walk, walker)
     if until is None:  # a walk of all knots that were reached, some of which are off
         k = len(executed.states) if walk.way is None else int(np.argmax(far > walker.allowed))
@@ -47,11 +48,6 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
     beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
-
-
-def arrived(walk: Walk, walker: Walker) -> bool:
-    """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
-    return walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= walker.allowed
 
 
 def hindrances(walk: Walk, walker: Walker) -> str:

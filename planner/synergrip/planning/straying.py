@@ -6,7 +6,8 @@ import numpy as np
 
 from synergrip.conic.limits.object_error import axis_weights
 from synergrip.linalg import Array, frozen
-from synergrip.planning.walk import Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import Walk
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start

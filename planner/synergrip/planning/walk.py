@@ -27,9 +27,7 @@ from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import begun, through
-from synergrip.planning.walk_so_far import FOLLOWED as FOLLOWED
-from synergrip.planning.walk_so_far import NEARER
-from synergrip.planning.walk_so_far import Walk as Walk
+from synergrip.planning.walk_so_far import FOLLOWED, NEARER, Walk
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -94,6 +92,10 @@ class Walker:
         """Return whether a walk is as far as wanted, and promise and truth are near each other."""
         return walk.behind <= self.allowed and walk.rough
 
+    def arrived(self, walk: Walk) -> bool:
+        """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
+        return walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+
     @property
     def allowed(self) -> float:
         """How far the rigid motion may be behind the wanted one [m]."""
@@ -108,8 +110,8 @@ class Walker:
         """
         share, tries, stays = 1.0, 0, False
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
-            near = best.behind < FOLLOWED or tries == TRIES or (stays and best.behind <= self.allowed)
-            done = best.true and not best.left_out and near
+            there = best.behind < FOLLOWED or tries == TRIES or (stays and best.behind <= self.allowed)
+            done = best.true and not best.left_out and there
             done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
             if best.way is None or done or share < SHORTEST or (best.stage is None and tries == VAIN):
                 break
@@ -121,12 +123,12 @@ class Walker:
             good = found is not None and found.better_than(best)
             LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
             tried = (*best.tried, answered.decision)
-            met = Hindrance.of(answered.decision, None if found is None else found.executed)
-            why = None if good else best.hindered or met  # a shorter step is hindered by being short, too
+            met = best.hindered  # a shorter step is hindered by being short, too
+            met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             tries, share = 0 if good else tries + 1, min(1.0, 2 * share) if good else share * _shorter(found)
             now = found if good and found is not None else best
             stays = good and now.behind > NEARER * best.behind
-            best = replace(now, passes=count, tried=tried, hindered=why)
+            best = replace(now, passes=count, tried=tried, hindered=met)
         return best
 
     def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:

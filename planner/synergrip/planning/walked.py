@@ -14,10 +14,11 @@ from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
-from synergrip.planning.reach import arrived, hindrances, notes, off, reached_by
+from synergrip.planning.reach import hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over
-from synergrip.planning.walk import Walk, Walker
+from synergrip.planning.walk import Walker
+from synergrip.planning.walk_so_far import Walk
 
 
 def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
@@ -76,7 +77,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if float(off(walk, walker).max()) > walker.allowed:
         reached = reached_by(walk, walker)
         if not np.any(walker.wanted):
-            when = f"{'after' if arrived(walk, walker) else 'at'} t = {reached.until_s:.3g} s"
+            when = f"{'after' if walker.arrived(walk) else 'at'} t = {reached.until_s:.3g} s"
             held = f"the hand that moves does not hold the object within its limits {when}"
             return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)

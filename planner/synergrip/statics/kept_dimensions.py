@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.grasps.scale import Metric, metric_of
-from synergrip.linalg import Array, canonical, frozen
+from synergrip.linalg import Array, canonical, frozen, gram
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each, EachGrasp, EachResponse
 from synergrip.statics.response import Maps
@@ -59,7 +59,7 @@ def _directions(matrices: Array) -> Array:
 
     As eigenvectors of the squares: sooner, and as good as it takes, for they choose coordinates and decide no rank.
     """
-    return np.linalg.eigh(matrices.mT @ matrices)[1][..., ::-1]
+    return np.linalg.eigh(gram(matrices))[1][..., ::-1]
 
 
 def _bases(maps: EachResponse, metric: Metric, dimensions: tuple[int, int, int]) -> Bases:

@@ -96,9 +96,7 @@ class Task(ByContent):
             *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),
             *(_axis_issues(axes, self.drift) if is_list(self.axes) else ()),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant"))),
-            *word_issues(linearise=(self.linearise, ("once", "along"))),
-            *([] if self.between is None else word_issues(between=(self.between, ("report", "hold")))),
+            *word_issues(self.tracking, self.linearise, self.between),
         ]  # fmt: skip
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)

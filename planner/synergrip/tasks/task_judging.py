@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -81,8 +81,11 @@ def limit_issues(limits: Any) -> Iterator[Issue]:
             yield Issue(f"expected a limit, got {shown(limit)}; {LIMITS}", f"Task.limits[{index}]")
 
 
-def word_issues(**words: tuple[object, Sequence[str]]) -> Iterator[Issue]:
-    """Yield an issue for each argument that is none of its words."""
+def word_issues(tracking: object, linearise: object, between: object) -> Iterator[Issue]:
+    """Yield an issue for each argument that is none of its words; `between` may be None."""
+    words = {"tracking": (tracking, ("rigid", "compliant")), "linearise": (linearise, ("once", "along"))}
+    if between is not None:
+        words["between"] = between, ("report", "hold")
     for name, (word, valid) in words.items():
         if not isinstance(word, str) or word not in valid:
             yield Issue(one_of(word, valid), f"Task.{name}")

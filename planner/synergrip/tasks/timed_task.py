@@ -108,9 +108,7 @@ class TimedTask(Value):
             *judge.issues,
             *size_issues(self.margin, self.tolerance, self.drift, compliant=is_word(self.tracking, ("compliant",))),
             *goal_issues(self.goals),
-            *word_issues(tracking=(self.tracking, ("rigid", "compliant"))),
-            *word_issues(linearise=(self.linearise, ("once", "along"))),
-            *([] if self.between is None else word_issues(between=(self.between, ("report", "hold")))),
+            *word_issues(self.tracking, self.linearise, self.between),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
             *limit_issues(self.limits),
         ])  # fmt: skip

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from synergrip.documents.judging import Arguments
-from synergrip.documents.naming import refuse_unfinished
+from synergrip.documents.naming import Finished
 from synergrip.linalg import Array, frozen
 
 COMPONENTS = ("n", "t", "o", "m", "m_t", "m_o")
@@ -59,7 +59,7 @@ SPIN_FRICTION = Parameter("spin_friction", "moment about the normal per normal f
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactKind(ABC):
+class ContactKind(Finished, ABC):
     """A kind of contact with its parameters, each greater than 0: what it transmits and withstands."""
 
     name: ClassVar[str]
@@ -75,14 +75,7 @@ class ContactKind(ABC):
     sides: ClassVar[tuple[str, ...]] = ("",)
     """What each cone is about, where there are several."""
 
-    def __new__(cls, *_: Any, **__: Any) -> Self:
-        """Refuse this class itself, and one that leaves its cones out.
-
-        Raises:
-            InputError: with what there is, or what is left out.
-        """
-        refuse_unfinished(cls, "HardFinger(friction=0.6)")
-        return super().__new__(cls)
+    _example = "HardFinger(friction=0.6)"
 
     def __post_init__(self) -> None:
         """Judge the parameters.

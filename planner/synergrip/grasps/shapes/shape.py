@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
 from synergrip.documents.judging import Arguments
-from synergrip.documents.naming import refuse_unfinished
+from synergrip.documents.naming import Finished
 from synergrip.linalg import Array
 
 ROUND = 72
@@ -26,7 +26,7 @@ class Size:
     """Lengths that it is made of."""
 
 
-class Shape(ABC):
+class Shape(Finished, ABC):
     """A convex solid of uniform density, centred on the object frame B, with its axes."""
 
     name: ClassVar[str]
@@ -34,14 +34,7 @@ class Shape(ABC):
     sizes: ClassVar[tuple[Size, ...]]
     """One for each argument."""
 
-    def __new__(cls, *_: Any, **__: Any) -> Self:
-        """Refuse this class itself, and one that leaves a method out.
-
-        Raises:
-            InputError: with what there is, or the methods.
-        """
-        refuse_unfinished(cls, "Sphere(radius=0.05)")
-        return super().__new__(cls)
+    _example = "Sphere(radius=0.05)"
 
     def __post_init__(self) -> None:
         """Judge the sizes, each of which is a length or lengths greater than 0."""
