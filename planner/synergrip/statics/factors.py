@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.linalg import Array, gram
 
-SMALL = 8
+SMALL = 16
 """Triangles up to this size are inverted entry by entry, larger ones in halves."""
 
 

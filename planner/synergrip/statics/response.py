@@ -36,8 +36,8 @@ class Accuracy:
 
     size: float
     """Of the map."""
-    terms: float
-    """Of the terms that its entries are sums of."""
+    whole: float
+    """What a share is a share of: `size`, or the terms that the entries are sums of where the map may be 0."""
     lost: float
     """What the arithmetic may have lost."""
     changed: float
@@ -64,8 +64,7 @@ class Accuracy:
         return self._share(self.unknown)
 
     def _share(self, amount: float) -> float:
-        whole = self.size if self.size > self.unknown else self.terms  # as `shares` has it
-        return amount / whole if whole > 0 else 0.0 if amount == 0 else np.inf
+        return amount / self.whole if self.whole > 0 else 0.0 if amount == 0 else np.inf
 
 
 def accuracies(known: Array) -> ByName[Accuracy]:
@@ -74,14 +73,13 @@ def accuracies(known: Array) -> ByName[Accuracy]:
 
 
 def shares(amounts: Array, figures: Array) -> Array:
-    """Return amounts (...) as shares of their maps; of their terms where a map is 0 as far as anyone can tell.
+    """Return amounts (...) as shares of their maps; of their terms where a map may be 0.
 
     Args:
         amounts: in the units of the maps.
         figures: (..., 4) the fields of `Accuracy`.
     """
-    size, terms, lost, changed = np.moveaxis(figures, -1, 0)
-    whole = np.where(size > np.maximum(lost, changed), size, terms)
+    whole = figures[..., 1]
     none = np.where(amounts == 0, 0.0, np.inf)
     return np.where(whole > 0, amounts / np.where(whole > 0, whole, 1.0), none)
 
@@ -207,15 +205,23 @@ def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
 
 def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
+    size, lost = _largest(found, found.maps, metric), _largest(found, found.errors, metric)
+    changed = lost if found.changes is found.errors else _largest(found, found.changes, metric)
+    whole, zero = size.copy(), size <= np.maximum(lost, changed)  # 0 as far as anyone can tell
+    some = np.any(zero, axis=-1)
+    if np.any(some):
+        terms = _largest(found, found.terms(some), metric.taken(some))
+        whole[some] = np.where(zero[some], terms, size[some])
+    return np.stack([size, whole, lost, changed], axis=-1)
+
+
+def _largest(found: Answer, entries: Array, metric: Metric) -> Array:
+    """Return the largest (..., 12) of the entries (..., n, n_z + 6) of every map, in scaled coordinates."""
     force, motion = np.moveaxis(metric.force, -1, 0), np.moveaxis(metric.motion_sizes, -1, 0)
-    parts = [found.maps, found.terms, found.errors, *([] if found.errors is found.changes else [found.changes])]
-    entries, columns = np.empty((*found.maps.shape[-2:], *force.shape[1:])), []  # many grasps last: quick to compare
-    for part in parts:
-        np.abs(np.moveaxis(part, (-2, -1), (0, 1)), out=entries)
-        entries[found.rows["lambda"]] *= force[:, None]
-        entries[found.rows["u"]] *= motion[:, None]
-        columns.append(np.stack([entries[rows].max(axis=0, initial=0.0) for rows in found.rows.values()]))
-    each = np.stack(columns)  # (3 or 4, 6, n_z + 6, ...)
-    largest = [each[:, :, :-6].max(axis=2, initial=0.0), (each[:, :, -6:] * motion).max(axis=2)]
-    known = np.stack(largest, axis=2).reshape(len(parts), len(FIGURES), *force.shape[1:])
-    return np.moveaxis(known[[0, 1, 2, -1]], (0, 1), (-1, -2))
+    sizes = np.empty((*entries.shape[-2:], *force.shape[1:]))  # many grasps last: quick to compare
+    np.abs(np.moveaxis(entries, (-2, -1), (0, 1)), out=sizes)
+    sizes[found.rows["lambda"]] *= force[:, None]
+    sizes[found.rows["u"]] *= motion[:, None]
+    columns = np.stack([sizes[rows].max(axis=0, initial=0.0) for rows in found.rows.values()])  # (6, n_z + 6, ...)
+    largest = [columns[:, :-6].max(axis=1, initial=0.0), (columns[:, -6:] * motion).max(axis=1)]
+    return np.moveaxis(np.stack(largest, axis=1).reshape(len(FIGURES), *force.shape[1:]), 0, -1)

@@ -148,7 +148,7 @@ def _answered_as_alone(matrices: Matrices, metric: Metric, places: Places) -> It
 def _part(place: int, response: Response) -> Part:
     maps = {field.name: getattr(response, field.name)[None] for field in fields(Maps)}
     accuracy = [response.accuracy[name] for name in FIGURES]
-    return np.array([place]), maps, np.array([[[a.size, a.terms, a.lost, a.changed] for a in accuracy]])
+    return np.array([place]), maps, np.array([[[a.size, a.whole, a.lost, a.changed] for a in accuracy]])
 
 
 def _joined(parts: Sequence[Part], answered: Places) -> tuple[dict[str, Array], Array]:

@@ -118,8 +118,22 @@ class Answer:
     """Estimates of what the arithmetic has lost in each entry."""
     changes: Array
     """Estimates of what changes with the digits that the data do not have."""
-    terms: Array
-    """Sizes of the terms that each entry is the sum of."""
+    matrices: Matrices
+    """Of the grasp, or grasps."""
+    inverse: Array
+    """Of the system."""
+
+    def terms(self, of: Any) -> Array:
+        """Return sizes (..., n, n_z + 6) of the terms that each entry is the sum of, of some grasps of the stack."""
+        J, S = np.abs(self.matrices.J[of]), np.abs(self.matrices.S[of])
+        inverse, n_z = np.abs(self.inverse[of]), S.shape[-1]
+        less = (-np.abs(self.matrices.C_q[of]), -np.abs(self.matrices.C_z[of]))
+        added = _System(self.matrices.G[of], J, S, self.matrices.C_s[of], *less, FLOAT64)
+        answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
+        result = added.followed(answers, np.eye(n_z, n_z + 6))
+        for name in ("z", "q"):  # synergies and joints answer to references always, however little: no 0 here
+            result[..., self.rows[name], :n_z] = np.abs(self.maps[of][..., self.rows[name], :n_z])
+        return result
 
 
 def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Answer:
@@ -136,26 +150,27 @@ def answer(matrices: Matrices, metric: Metric, arithmetic: Arithmetic[N]) -> Ans
     inverse = arithmetic.inverse(C, turned @ system.G)
     still, load = number(np.eye(n_z, n_z + 6)), number(np.eye(6, n_z + 6, n_z))
 
-    def correction(system: _System[N], solution: N) -> N:
+    def left_over(system: _System[N], solution: N) -> N:
         gap, balanced = system.left_over(solution[..., :n_l, :], turned.mT @ solution[..., n_l:, :], still)
-        return inverse @ arithmetic.block([[gap], [turned @ balanced - load]])
+        return arithmetic.block([[gap], [turned @ balanced - load]])
 
     solution = arithmetic.block([[inverse[..., :n_l] @ JS, -inverse[..., n_l:]]])
-    for _ in range(arithmetic.corrections):
-        last = correction(system, solution)
-        solution += last
+    for _ in range(arithmetic.corrections - 1):
+        solution += inverse @ left_over(system, solution)
+    others = _System.of(matrices, arithmetic, arithmetic.other)
+    both = inverse @ arithmetic.block([[left_over(system, solution), left_over(others, solution)]])
+    last, of_others = both[..., : n_z + 6], both[..., n_z + 6 :]
+    other = others.followed(solution + of_others, still)
+    solution += last
     maps = system.followed(solution, still)
     values, lost = rounded(maps), rounded(system.followed(last, number(np.zeros((n_z, n_z + 6)))))
-    others = _System.of(matrices, arithmetic, arithmetic.other)
-    other = others.followed(solution + correction(others, solution), still)
     other -= maps
     changes = _to_sizes(rounded(other), CAUTION / arithmetic.apart)
     errors = _to_sizes(lost, CAUTION)
     errors += ROUNDOFF * np.abs(values)
     if arithmetic.apart > 1:  # float64: what is left over is rounded as the data are, even where it looks like 0
         changes = errors = np.maximum(changes, errors, out=errors)
-    rows = _rows(matrices)
-    return Answer(rows, values, errors, changes, _terms(matrices, rounded(inverse), values, rows))
+    return Answer(_rows(matrices), values, errors, changes, matrices, rounded(inverse))
 
 
 def _to_sizes(values: Array, times: float) -> Array:
@@ -169,18 +184,6 @@ def _rows(matrices: Matrices) -> dict[str, slice]:
     n_l, n_q, n_z = matrices.G.shape[-1], *matrices.S.shape[-2:]
     ends = np.cumsum([n_l, 6, n_q, n_z, n_z, n_q]).tolist()
     return {name: slice(start, end) for name, start, end in zip(NAMES, [0, *ends], ends, strict=False)}
-
-
-def _terms(matrices: Matrices, inverse: Array, values: Array, rows: Mapping[str, slice]) -> Array:
-    """Return the sizes of the terms of every map; `inverse`, that of the system, is used up."""
-    J, S, n_z = np.abs(matrices.J), np.abs(matrices.S), matrices.S.shape[-1]
-    np.abs(inverse, out=inverse)
-    added = _System(matrices.G, J, S, matrices.C_s, -np.abs(matrices.C_q), -np.abs(matrices.C_z), FLOAT64)
-    answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
-    result = added.followed(answers, np.eye(n_z, n_z + 6))
-    for name in ("z", "q"):  # synergies and joints answer to references always, however little: there is no 0 here
-        result[..., rows[name], :n_z] = np.abs(values[..., rows[name], :n_z])
-    return result
 
 
 def about_centroid(metric: Metric) -> Array:

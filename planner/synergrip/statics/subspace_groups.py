@@ -106,7 +106,7 @@ def _by_rank(ranks: Places) -> list[tuple[int, Any]]:
 
 
 def _group(responses: Responses, moved: ContactMotions, moving: Moving, rank: int, moves: int) -> SubspaceGroup:
-    metric, known = responses.grasps.metric, responses.figures[:, 0]  # of the force map, size terms lost changed
+    metric, known = responses.grasps.metric, responses.figures[:, 0]  # of the force map: size, whole, lost, changed
     unknown = known[:, 2:].max(axis=-1)
     E_s, forces = controllable_forces(responses.dlambda_dzr, unknown, moved, metric, rank)
     Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, metric, moves)
