@@ -130,52 +130,58 @@ def singular_values(matrices: Array) -> Array:
     """Return the n singular values (..., n) of matrices (..., m, n), descending; 0 where m is less than n."""
     values, clear = _from_squares(matrices)
     if matrices.size and not np.all(clear):
-        own = np.asarray(np.linalg.svd(matrices[~clear], compute_uv=False), dtype=np.float64)
-        values[~clear] = _padded(own, values.shape[-1])
-    return values
+        values[~clear] = np.linalg.svd(matrices[~clear], compute_uv=False)
+    return _padded(values, matrices.shape[-1])
 
 
 def right_singular(matrices: Array, references: Array) -> tuple[Array, Array]:
-    """Return the n singular values (..., n) of matrices (..., m, n), and their directions as columns (..., n, n).
+    """Return the n singular values (..., n) of matrices (..., m, n), and directions as orthonormal columns (..., n, n).
 
-    Directions are those of the singular values only where one of these is small beside `references` (...): elsewhere
-    the rank is n, and there is nothing to tell apart.
+    Directions are those of the singular values where one of these is small beside `references` (...). Elsewhere the
+    rank is the smaller of m and n, and all that is told apart is the null space: the last columns, where m is less.
     """
+    rows, columns = matrices.shape[-2:]
     values, clear = _from_squares(matrices)
-    directions = np.zeros((*values.shape, values.shape[-1]))
-    directions[..., range(values.shape[-1]), range(values.shape[-1])] = 1.0
     clear &= values.min(axis=-1, initial=np.inf) > CLEAR * references
+    directions = np.zeros((*matrices.shape[:-2], columns, columns))
+    if 0 < rows < columns:
+        directions[clear] = np.linalg.qr(matrices[clear].mT, mode="complete")[0]
+    else:
+        directions[..., range(columns), range(columns)] = 1.0
     if matrices.size and not np.all(clear):
-        _, own, transposed = np.linalg.svd(matrices[~clear], full_matrices=matrices.shape[-2] < matrices.shape[-1])
-        values[~clear], directions[~clear] = _padded(own, values.shape[-1]), transposed.mT
-    return values, directions
+        _, own, transposed = np.linalg.svd(matrices[~clear], full_matrices=rows < columns)
+        values[~clear], directions[~clear] = own, transposed.mT
+    return _padded(values, columns), directions
 
 
 def left_singular(matrices: Array, rank: int) -> tuple[Array, Array]:
     """Return the singular values (..., min(m, n)) of matrices (..., m, n), and the space of the first `rank`.
 
-    Columns (..., m, rank) span it; they are the matrix's own where all its columns count and are far from dependent.
+    Columns (..., m, rank) span it: any that do where that is all of m, the matrix's own where all its columns count
+    and are far from dependent.
     """
+    rows, columns = matrices.shape[-2:]
     values, clear = _from_squares(matrices)
-    values = values[..., : matrices.shape[-2]]
-    clear &= rank == values.shape[-1]
-    columns = np.array(matrices[..., :rank])
+    clear &= rank == min(rows, columns)
+    spanning = np.array(matrices[..., :rank]) if columns <= rows else np.zeros((*matrices.shape[:-1], rank))
+    if rows < columns and rank == rows:
+        spanning[...] = np.eye(rows)
     if matrices.size and not np.all(clear):
         vectors, own, _ = np.linalg.svd(matrices[~clear], full_matrices=False)
-        values[~clear], columns[~clear] = own, vectors[..., :rank]
-    return values, columns
+        values[~clear], spanning[~clear] = own, vectors[..., :rank]
+    return values, spanning
 
 
 def _from_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return singular values (..., n) as roots of the eigenvalues of ``A' A``, and where (...) these tell them.
+    """Return singular values (..., min(m, n)) as roots of eigenvalues of ``A' A`` or ``A A'``, and where these do.
 
     Several times as fast as the singular values themselves, and as good to 1e-14 of the largest, unless the smallest
     is small beside it.
     """
     *leading, rows, columns = matrices.shape
-    if rows < columns or columns == 0:  # the smallest is 0, or there is none
-        return np.zeros((*leading, columns)), np.full(leading, columns == 0)
-    squares = np.linalg.eigvalsh(gram(matrices))[..., ::-1]
+    if min(rows, columns) == 0:
+        return np.zeros((*leading, 0)), np.full(leading, True)
+    squares = np.linalg.eigvalsh(gram(matrices.mT if rows < columns else matrices))[..., ::-1]
     clear = squares[..., -1] > CLEAR**2 * squares[..., 0]
     return np.sqrt(np.maximum(squares, 0.0)), np.array(clear)
 

@@ -130,7 +130,7 @@ class Answer:
         less = (-np.abs(self.matrices.C_q[of]), -np.abs(self.matrices.C_z[of]))
         added = _System(self.matrices.G[of], J, S, self.matrices.C_s[of], *less, FLOAT64)
         answers = _block([[inverse[..., :-6] @ (J @ S), inverse[..., -6:]]])
-        result = added.followed(answers, np.eye(n_z, n_z + 6))
+        result: Array = added.followed(answers, np.eye(n_z, n_z + 6))
         for name in ("z", "q"):  # synergies and joints answer to references always, however little: no 0 here
             result[..., self.rows[name], :n_z] = np.abs(self.maps[of][..., self.rows[name], :n_z])
         return result

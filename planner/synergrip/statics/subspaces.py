@@ -113,12 +113,14 @@ class Moving(Value):
 class ContactMotions(Value):
     """How object and synergies move the contacts, in scaled coordinates; leading axes (...) for many grasps."""
 
-    of_object: Array  # (..., n_l, 6) = G'
-    of_synergies: Array  # (..., n_l, n_z) = J S
+    along: Array
+    """(..., 6, n_z) contact motion of synergies that a rigid object motion follows, in the basis of the range of G'."""
+    triangle: Array
+    """(..., 6, 6) contact motion of object motions in that basis."""
+    internal: Array
+    """(..., n_l, n_l - 6) orthonormal basis of the null space of G: internal forces."""
     sizes: Array
     """(...) The largest singular value of J S, or 0 where J S is nothing but rounding."""
-    held: Array
-    """(..., n_l, 6) orthonormal basis of the range of G'."""
     redundancy: Decisions
     """On J S."""
     rigid: Decisions
@@ -135,21 +137,22 @@ class ContactMotions(Value):
         largest = values.max(axis=-1, initial=0.0)
         rounding = SINGULAR * np.linalg.norm(J, axis=(-2, -1)) * np.linalg.norm(matrices.S, axis=(-2, -1))
         sizes = np.where(largest > rounding, largest, 0.0)
-        held = np.linalg.qr(of_object)[0]
-        against, directions = right_singular(of_synergies - held @ (held.mT @ of_synergies), sizes)
+        basis, triangle = np.linalg.qr(of_object, mode="complete")
+        internal, both = basis[..., 6:], basis.mT @ of_synergies
+        against, directions = right_singular(both[..., 6:, :], sizes)
         redundancy, rigid = Decisions.of(values, sizes), Decisions.of(against, sizes)
-        return cls(of_object, of_synergies, sizes, held, redundancy, rigid, directions)
+        return cls(both[..., :6, :], triangle[..., :6, :], internal, sizes, redundancy, rigid, directions)
 
     def taken(self, places: Any) -> ContactMotions:
         """Return those of some grasps of a stack."""
-        arrays = (self.of_object[places], self.of_synergies[places], self.sizes[places], self.held[places])
+        arrays = (self.along[places], self.triangle[places], self.internal[places], self.sizes[places])
         decisions = (self.redundancy.taken(places), self.rigid.taken(places))
         return ContactMotions(*arrays, *decisions, self.directions[places])
 
     def moving(self, rank: int) -> Moving:
         """Split what costs no force; `rank` synergy motions do, in every grasp of the stack."""
         free = self.directions[..., rank:]  # (..., n_z, dim Gamma_zcs + dim Gamma_zr)
-        values, directions = right_singular(self.of_synergies @ free, self.sizes)
+        values, directions = right_singular(self.along @ free, self.sizes)
         return Moving(Decisions.of(values, self.sizes).ranks, free @ directions)
 
 
@@ -158,7 +161,7 @@ def free_motions(moved: ContactMotions, moving: Moving, metric: Metric, rank: in
     synergies, Gamma_zr = moving.directions[..., :rank], canonical(moving.directions[..., rank:])
     if rank == 0:
         return frozen(np.zeros((*metric.motion.shape[:-1], 0))), frozen(synergies), Gamma_zr
-    motions = _least_squares(moved.of_object, moved.of_synergies @ synergies)
+    motions = np.asarray(np.linalg.solve(moved.triangle, moved.along @ synergies), dtype=np.float64)
     basis = canonical(motions)
     coordinates = _least_squares(motions, basis)  # basis = motions @ coordinates
     return frozen(np.linalg.solve(metric.motion, basis)), frozen(synergies @ coordinates), Gamma_zr
@@ -186,12 +189,11 @@ def controllable_forces(
         rank: dimension of E_s, in every grasp of the stack.
     """
     scaled = metric.force[..., None] * dlambda_dzr
-    values, internal = left_singular(scaled, rank)
+    values, spanning = left_singular(moved.internal.mT @ scaled, rank)
     size = np.abs(scaled).max(axis=(-2, -1), initial=0.0)
     noise = np.maximum(unknown, np.finfo(float).eps * size) * np.sqrt(scaled.shape[-2] * scaled.shape[-1])
     counted = np.sum(values > noise[..., None], axis=-1)
     relative = np.where(counted[..., None] > 0, values / np.where(values[..., :1] > 0, values[..., :1], 1.0), 0.0)
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
     decision = Decisions(counted, relative, counted != rank)
-    internal = internal - moved.held @ (moved.held.mT @ internal)  # G E_s = 0 to the last digit
-    return frozen(canonical(internal) / metric.force[..., None]), decision
+    return frozen(canonical(moved.internal @ spanning) / metric.force[..., None]), decision
