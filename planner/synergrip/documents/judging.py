@@ -144,6 +144,25 @@ def place_of(key: str, value: Any, count: int) -> int:
     return int(value) % count
 
 
+def places_of(key: str, value: Any, count: int) -> Any:
+    """Return some places among `count`: a slice as it is, yes or no for each as the places of the yes.
+
+    Raises:
+        UnknownPlaceError: no places, or one that there is not.
+    """
+    if isinstance(value, slice) and all(
+        each is None or is_whole(each) for each in (value.start, value.stop, value.step)
+    ):
+        return value
+    found = np.asarray(value) if isinstance(value, list | tuple | range | np.ndarray) else np.zeros((0, 0))
+    if found.dtype.kind == "b" and found.shape == (count,):
+        return np.flatnonzero(found)
+    if found.ndim == 1 and (found.dtype.kind in "iu" or not found.size) and np.all((found >= -count) & (found < count)):
+        return found.astype(np.intp)
+    wanted = f"a slice, a list of places from 0 to {count - 1}, or True or False for each of {count}"
+    raise UnknownPlaceError([Issue(f"expected {wanted}; got {described(value)}", key=key)])
+
+
 def described(value: object) -> str:
     """Return what came, for a message: a number or a text itself, of anything else what it is."""
     if isinstance(value, np.number) and not np.iscomplexobj(value) and not isinstance(value, np.timedelta64):
