@@ -203,6 +203,9 @@ def _bounds(limit: object, names: object, value: object, **given: object) -> tup
             found[name] = array if array.ndim else np.full(m, float(array))
     if np.any(~(found.get("unit", np.ones(1)) > 0) | np.isinf(found.get("unit", np.ones(1)))):
         judge.refuse("unit", "expected sizes greater than 0, finite ones")
+    for name, side, no_bound in (("lower", np.inf, "-math.inf"), ("upper", -np.inf, "math.inf")):
+        if name in found and np.any(found[name] == side):
+            judge.refuse(name, f"no quantity is beyond {side:g}; {no_bound} stands for no bound")
     judge.finish()
     if np.any(found["lower"] > found["upper"]):
         raise InputError.at("within.lower", "some lower bounds are above the upper ones; swap them")

@@ -164,7 +164,7 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
         weights: (m,), or a number for all: 1 over the size at which each quantity matters.
 
     Raises:
-        InputError: no affine quantities, or weights that are none or not as many.
+        InputError: no affine quantities, or weights that are none, not as many, or less than 0.
     """
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")
@@ -174,5 +174,8 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     if each is None or each.shape not in ((), (count,)):
         wanted = f"a number, or {count} numbers, one for each quantity"
         raise InputError.at("squares_of.weights", f"expected {wanted}; got {described(weights)}")
+    if np.any(each < 0):
+        message = f"expected weights of at least 0, got {float(each.min()):g}: squares can only be made small"
+        raise InputError.at("squares_of.weights", message)
     each = np.broadcast_to(each, (count,))
     return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))

@@ -71,6 +71,9 @@ class JointRange(Limit):
             if np.any(np.isnan(found)) or (end == "start" and not np.all(np.isfinite(found))):
                 worst = found[~np.isfinite(found)].ravel()[0]
                 raise InputError.at(name, f"expected finite numbers{' or infinity' * (end != 'start')}, got {worst:g}")
+            if np.any(found == {"lower": np.inf, "upper": -np.inf}.get(end, np.nan)):
+                free = "-math.inf" if end == "lower" else "math.inf"
+                raise InputError.at(name, f"no joint gets as far as {found.ravel()[0]:g}; {free} stands for no bound")
             object.__setattr__(self, end, found)
         low, high = (np.atleast_1d(0.0 if end is None else end) for end in (self.lower, self.upper))
         given = self.lower is not None and self.upper is not None
