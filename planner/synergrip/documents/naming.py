@@ -87,7 +87,8 @@ def _misnamed(
     given, known = set(places[: len(args)]), [each.name for each in every]
     before, unnamed = f"{of}." if of else "", max(len(args) - len(places), 0)
     if unnamed:
-        yield Issue(_too_many(args, unnamed, every), of)
+        left = [each.name for each in every if each.name not in given and each.name not in kwargs]
+        yield Issue(_too_many(args, unnamed, every, left), of)
     meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in kwargs:
         if name not in known:
@@ -102,8 +103,8 @@ def _misnamed(
         yield Issue(f"missing{_within(args, needed)}", f"{before}{name}", on_key=True)
 
 
-def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter]) -> str:
-    """Return what to do with values that have no place."""
+def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter], left: list[str]) -> str:
+    """Return what to do with values that have no place; `left` are the names that no value has yet."""
     if not every:
         return f"it takes no arguments, got {len(values)}"
     first, names = every[0], ", ".join(each.name for each in every)
@@ -111,6 +112,11 @@ def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter]) -> 
         several = any(word in str(first.annotation) for word in ("tuple", "Numbers", "Sequence", "Array"))
         together = f"; put them into one: {first.name}=({', '.join(map(shown, values))})" if several else ""
         return f"it takes one value, {first.name}, got {len(values)}{together}"
+    if len(values) > unnamed and len(left) >= unnamed:  # some had their place, and most people go on in the order
+        named = ", ".join(f"{name}={shown(value)}" for name, value in zip(left, values[-unnamed:], strict=False))
+        return f"{'a value' if unnamed == 1 else f'{unnamed} values'} without a name; write for example {named}"
+    if not left:
+        return f"it takes {len(every)} values, {names}, got {len(values)}"
     what = "a value" if unnamed == 1 else f"{unnamed} values"
     return f"{what} without a name; write {first.name}=...{f' and so on: {names}' if len(every) > 1 else ''}"
 

@@ -22,6 +22,8 @@ from synergrip.vectors import skews
 ROTATION = 1e-9
 """How far the products of the columns of a rotation may be from those of unit vectors normal to each other."""
 
+SCIPY = 'scipy.spatial.transform.Rotation.from_euler("x", 90, degrees=True).as_matrix()'
+
 
 @naming_arguments
 @dataclass(frozen=True, eq=False)
@@ -30,7 +32,8 @@ class Turned(Shape, ByContent):
 
     Args:
         shape: what is turned.
-        rotation: (3, 3) columns: the shape's own axes in those of B.
+        rotation: (3, 3) columns: the shape's own axes in those of B, such as
+            ``scipy.spatial.transform.Rotation.from_euler("x", 90, degrees=True).as_matrix()``.
 
     Raises:
         InputError: a shape that is none, a matrix that is no rotation.
@@ -50,9 +53,9 @@ class Turned(Shape, ByContent):
         """Judge shape and rotation."""
         judge = Arguments("Turned")
         judge.one("shape", self.shape, Shape, "Box(size=(0.04, 0.06, 0.1))")
-        R = judge.array("rotation", self.rotation, (3, 3))
+        R = judge.array("rotation", self.rotation, (3, 3), f" of a rotation matrix, such as {SCIPY} makes")
         if not judge.issues and (not np.allclose(R.T @ R, np.eye(3), rtol=0, atol=ROTATION) or np.linalg.det(R) < 0):
-            judge.refuse("rotation", "is no rotation matrix; turn(axis, angle) makes one")
+            judge.refuse("rotation", f"is no rotation matrix; {SCIPY} makes one")
         judge.finish()
         object.__setattr__(self, "rotation", R)
 

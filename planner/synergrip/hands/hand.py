@@ -14,7 +14,7 @@ from synergrip.errors import InputError, one_of
 from synergrip.hands.drives import Drives
 from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array
-from synergrip.values import ByContent, ByName, same
+from synergrip.values import ByContent, ByName, Kept, same
 
 UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
@@ -22,7 +22,7 @@ UNIT = 1e-6
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class Joint:
+class Joint(Kept):
     """One joint, in the order of q."""
 
     name: str

@@ -16,6 +16,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import Finished
 from synergrip.linalg import Array, frozen
+from synergrip.values import Kept
 
 COMPONENTS = ("n", "t", "o", "m", "m_t", "m_o")
 """All that a contact can transmit, in row order: forces along n, t, o [N], moments about n, t, o [N m]."""
@@ -59,7 +60,7 @@ SPIN_FRICTION = Parameter("spin_friction", "moment about the normal per normal f
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactKind(Finished, ABC):
+class ContactKind(Finished, Kept, ABC):
     """A kind of contact with its parameters, each greater than 0: what it transmits and withstands."""
 
     name: ClassVar[str]

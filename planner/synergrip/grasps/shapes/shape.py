@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import Finished
 from synergrip.linalg import Array
+from synergrip.values import Kept
 
 ROUND = 72
 """Points of a circle that is drawn."""
@@ -26,7 +27,7 @@ class Size:
     """Lengths that it is made of."""
 
 
-class Shape(Finished, ABC):
+class Shape(Finished, Kept, ABC):
     """A convex solid of uniform density, centred on the object frame B, with its axes."""
 
     name: ClassVar[str]
