@@ -126,6 +126,10 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
 
     Raises:
         InputError: a name that is none, no affine quantities, or a bound that is none.
+
+    Example:
+        >>> norm_within("all", "contacts", formulation.force, 30.0).dim
+        10
     """
     judge = Arguments("norm_within")
     judge.text("limit", limit, empty=False)
@@ -168,6 +172,11 @@ def within(
 
     Raises:
         InputError: names, bounds or units that are none, do not fit the quantities, or contradict each other.
+
+    Example:
+        >>> names = grasp.joints
+        >>> [rows.items[0] for rows in within("torque", names, formulation.torque, -2.0, math.inf, 2.0)]
+        [Item(name='finger1_inner', side='lowest')]
     """
     lower, upper, unit = _bounds(limit, names, value, lower=lower, upper=upper, unit=unit)
     result = []

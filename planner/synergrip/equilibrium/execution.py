@@ -28,7 +28,13 @@ SHORTEST = Fraction(1, 640)
 @made_by("execute(grasp, times, references, loads)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Execution(Value):
-    """The equilibria at those of T instants that were reached, K of them."""
+    """The equilibria at those of T instants that were reached, K of them.
+
+    Example:
+        >>> executed = execute(grasp, [0.0], [[0.0, 0.01, 0.01, 0.01]], Loads.of(np.zeros((1, 6))))
+        >>> executed.whole, executed.du.shape, executed.states.forces.shape
+        (True, (1, 6), (1, 9))
+    """
 
     times: Array  # (T,) [s]
     references: Array  # (T, n_z)
@@ -163,6 +169,10 @@ def execute(
 
     Raises:
         InputError: a grasp given as matrices, no such contact model, arguments that do not fit each other.
+
+    Example:
+        >>> execute(grasp, [0.0], [[0.0, 0.01, 0.01, 0.01]], Loads.of(np.zeros((1, 6)))).margins.shape
+        (1, 3)
     """
     own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
     times, references = _judged(own, times, references, loads, guess)

@@ -63,6 +63,11 @@ class Loads(Value):
 
     Raises:
         InputError: values that are none, or shapes that do not fit each other.
+
+    Example:
+        >>> weight = Loads.of(np.tile([0, 0, -2.0, 0, 0, 0], (5, 1)))
+        >>> len(weight), weight.points.shape
+        (5, (0, 3))
     """
 
     wrench: Array

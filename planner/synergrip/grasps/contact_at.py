@@ -32,6 +32,10 @@ class LinkPlace(Kept):
 
     Raises:
         InputError: a value that is none.
+
+    Example:
+        >>> LinkPlace("finger1_tip", point=(0.0, 0.0, 0.002), normal=(0, 0, 2)).normal
+        (0.0, 0.0, 1.0)
     """
 
     link: str

@@ -39,7 +39,7 @@ class Turned(Shape, ByContent):
         InputError: a shape that is none, a matrix that is no rotation.
 
     Example:
-        >>> Turned(Cylinder(radius=0.02, height=0.08), turn((1, 0, 0), np.pi / 2)).title
+        >>> Turned(Cylinder(radius=0.02, height=0.08), np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])).title
         'cylinder r 20 x 80 mm (turned)'
     """
 

@@ -145,7 +145,13 @@ class Coupling(ByContent):
 @naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Hand(ByContent):
-    """A robot hand as data; `load_hand` makes one."""
+    """A robot hand as data; `load_hand` makes one.
+
+    Example:
+        >>> hand = load_hand("barrett")
+        >>> len(hand.joints), hand.synergy_sets["motors"].synergies
+        (8, ('spread', 'finger1', 'finger2', 'finger3'))
+    """
 
     name: str
     title: str = ""

@@ -84,6 +84,7 @@ def respond_many(grasps: Sequence[Grasp]) -> Responses:
     Example:
         >>> responses = respond_many([grasp, softer])
         >>> responses.dlambda_dzr.shape  # (2, n_l, n_z)
+        (2, 9, 4)
     """
     stack = GraspStack.of(grasps)
     restraint = decided(stack.of_object)

@@ -45,19 +45,25 @@ class Squares(Value):
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Objective(Value):
-    """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
+    """The squares of a goal, plus ``epigraph`` times its scalar s when it has one.
+
+    Args:
+        squares: what `squares_of` returns, one or more of it.
+        epigraph: factor before the scalar of a goal that has one: 1 when it is to be small, -1 when large.
+
+    Raises:
+        InputError: something else than a list of `Squares`, or a factor that is no number.
+
+    Example:
+        >>> Objective((squares_of(formulation.force),)).empty
+        False
+    """
 
     squares: tuple[Squares, ...] = ()
-    """What `squares_of` returns, one or more of it."""
     epigraph: float | None = None
-    """Factor before the scalar of a goal that has one: 1 when it is to be small, -1 when large."""
 
     def __post_init__(self) -> None:
-        """Judge the values.
-
-        Raises:
-            InputError: something else than a list of `Squares`, or a factor that is no number.
-        """
+        """Judge the values."""
         judge = Arguments("Objective")
         squares = judge.several("squares", self.squares, Squares, "squares_of(...)")
         if self.epigraph is not None:
@@ -165,6 +171,10 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
 
     Raises:
         InputError: no affine quantities, or weights that are none, not as many, or less than 0.
+
+    Example:
+        >>> squares_of(formulation.force, 1 / formulation.force_unit).matrix.shape[0]
+        9
     """
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")

@@ -39,6 +39,7 @@ class JointRange(Limit):
         start: joint values (n_q,) at the start [rad or m], or one for all.
         lower: ends of their ranges (n_q,), or one for all; minus infinity for none.
         upper: the same; infinity for none.
+        of: what the ranges are an argument of, in messages.
 
     Raises:
         InputError: no numbers, or a lower end above an upper one.
@@ -53,7 +54,6 @@ class JointRange(Limit):
     lower: OneOrEach = None
     upper: OneOrEach = None
     of: str = field(default="JointRange", repr=False)
-    """What the ranges are an argument of, in messages."""
     key = "limits.joint_range"
 
     def __new__(cls, *values: OneOrEach, **named: OneOrEach) -> Self:

@@ -46,6 +46,11 @@ class Usage(Value):
 
     Raises:
         InputError: names that are none, or arrays that are none or do not fit items and times.
+
+    Example:
+        >>> usage = Usage("force", "N", ("thumb",), [[3.0], [4.5]], [0.0], [5.0], [5.0], [0.0, 1.0])
+        >>> usage.excess.tolist()
+        [[-2.0], [-0.5]]
     """
 
     title: str

@@ -61,7 +61,12 @@ SPIN_FRICTION = Parameter("spin_friction", "moment about the normal per normal f
 
 @dataclass(frozen=True, kw_only=True)
 class ContactKind(Finished, Kept, ABC):
-    """A kind of contact with its parameters, each greater than 0: what it transmits and withstands."""
+    """A kind of contact with its parameters, each greater than 0: what it transmits and withstands.
+
+    Example:
+        >>> isinstance(HardFinger(friction=0.6), ContactKind), HardFinger(friction=0.6).components
+        (True, ('n', 't', 'o'))
+    """
 
     name: ClassVar[str]
     """Name in files."""

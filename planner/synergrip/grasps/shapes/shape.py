@@ -28,7 +28,12 @@ class Size:
 
 
 class Shape(Finished, Kept, ABC):
-    """A convex solid of uniform density, centred on the object frame B, with its axes."""
+    """A convex solid of uniform density, centred on the object frame B, with its axes.
+
+    Example:
+        >>> isinstance(Sphere(radius=0.05), Shape)
+        True
+    """
 
     name: ClassVar[str]
     """Key in problem files."""
