@@ -37,6 +37,26 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: sg.GraspStack(PAIR.matrices, np.zeros((1, 3, 3)), np.zeros((2, 6)), grasp),
         "GraspStack.points",
     ),
+    "a goal that asks for nothing": (
+        lambda: sg.plan(grasp, task.replace(goals=[sg.CentredJoints(lower=-np.inf, upper=np.inf)])),
+        "CentredJoints.lower",
+    ),
+    "a limit whose class leaves out what it inherits": (
+        lambda: sg.Task(limits=[type("Half", (sg.JointTorque,), {"__init__": lambda _: None})()]),
+        "Task.limits[0]",
+    ),
+    "a goal whose class leaves out what it inherits": (
+        lambda: sg.Task(goals=[type("Half", (sg.WeightedSum,), {"__init__": lambda _: None})()]),
+        "Task.goals[0]",
+    ),
+    "a load whose class leaves out what it inherits": (
+        lambda: sg.Task(loads=[type("Half", (sg.Gravity,), {"__init__": lambda _: None})()]),
+        "Task.loads[0]",
+    ),
+    "a kind whose class leaves out what it inherits": (
+        lambda: sg.ContactAt("a", type("Half", (sg.HardFinger,), {"__init__": lambda _: None})(), stiffness=1.0),
+        "ContactAt.kind",
+    ),
     "a lower end of infinity": (lambda: sg.JointRange(lower=np.inf, upper=np.inf), "JointRange.lower"),
     "an upper end of less": (lambda: sg.CentredJoints(upper=[0.0, -np.inf]), "CentredJoints.upper"),
     "a reserve given up thrice": (lambda: sg.FrictionReserve(factor=2.0, given_up=3.0), "FrictionReserve.given_up"),
@@ -67,6 +87,7 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
 }
 SAID = {
     "a stiffness without a name": "write for example stiffness=8000.0",
+    "a limit whose class leaves out what it inherits": "a Half without limit; call super().__init__(...)",
     "a value too many": "it takes 2 values, problem, overrides, got 3",
     "a pad of the hand as a place": "expected the name of a pad or a LinkPlace, got a Pad",
     "an angle as rotation": "Rotation.from_euler",
