@@ -37,6 +37,17 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: sg.GraspStack(PAIR.matrices, np.zeros((1, 3, 3)), np.zeros((2, 6)), grasp),
         "GraspStack.points",
     ),
+    "a stack of huge numbers": (lambda: sg.GraspStack.varied(grasp, G=np.full((2, 6, 9), 1e250)), "G"),
+    "a response of another grasp": (
+        lambda: sg.execute(
+            grasp,
+            [0.0],
+            np.zeros((1, 4)),
+            sg.Loads.of(np.zeros((1, 6))),
+            response=sg.respond(grasp.replace(C_s=2 * grasp.C_s)),
+        ),
+        "response",
+    ),
     "a goal that asks for nothing": (
         lambda: sg.plan(grasp, task.replace(goals=[sg.CentredJoints(lower=-np.inf, upper=np.inf)])),
         "CentredJoints.lower",

@@ -12,6 +12,7 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments, as_numbers, described, place_of, places_of
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
@@ -227,6 +228,8 @@ def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
         raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")
     if not np.all(np.isfinite(found)):
         raise InputError.at(name, f"expected finite numbers, got {float(found[~np.isfinite(found)][0])}")
+    if np.abs(found).max() > LARGEST_NUMBER:
+        raise InputError.at(name, f"{np.abs(found).max():g} is too large")
     if name.startswith("C_"):
         _judge_compliances(name, found)
     return found
