@@ -37,6 +37,9 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: sg.GraspStack(PAIR.matrices, np.zeros((1, 3, 3)), np.zeros((2, 6)), grasp),
         "GraspStack.points",
     ),
+    "a rotation of the object": (lambda: any_call.Object(mass=0.2, rotation=np.eye(3)), "Object.rotation"),
+    "friction of a contact": (lambda: any_call.ContactAt("a", hard, stiffness=1, friction=1), "ContactAt.friction"),
+    "stiffness of a kind": (lambda: any_call.HardFinger(friction=1, stiffness=1), "HardFinger.stiffness"),
     "a stack of huge numbers": (lambda: sg.GraspStack.varied(grasp, G=np.full((2, 6, 9), 1e250)), "G"),
     "a response of another grasp": (
         lambda: sg.execute(
@@ -97,6 +100,9 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "friction by contact": (lambda: any_call.Grasp.replace(grasp, friction={"finger1/tip": 0.3}), "friction"),
 }
 SAID = {
+    "a rotation of the object": "no such argument; turn the shape: shape=Turned(",
+    "friction of a contact": "no such argument; it is the kind's: kind=HardFinger(friction=...)",
+    "stiffness of a kind": "no such argument; it is the contact's: ContactAt(..., stiffness=...)",
     "a stiffness without a name": "write for example stiffness=8000.0",
     "a limit whose class leaves out what it inherits": "a Half without limit; call super().__init__(...)",
     "a value too many": "it takes 2 values, problem, overrides, got 3",

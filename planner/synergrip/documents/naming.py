@@ -79,7 +79,11 @@ def _naming(function: Callable[..., Any], of: str, instead: str = "") -> Callabl
 def _misnamed(
     function: Callable[..., Any], of: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> Iterator[Issue]:
-    """Yield what is wrong with the names of arguments, which a method gets after itself."""
+    """Yield what is wrong with the names of arguments, which a method gets after itself.
+
+    A class says in ``_elsewhere`` where arguments belong that people look for in it.
+    """
+    elsewhere: Mapping[str, str] = getattr(args[0], "_elsewhere", {}) if args else {}
     every = [each for each in signature(function).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
     if every and every[0].name in ("self", "cls"):
         every, args = every[1:], args[1:]
@@ -92,7 +96,7 @@ def _misnamed(
     meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in kwargs:
         if name not in known:
-            near = suggest(name, known)
+            near = f"; {elsewhere[name]}" if name in elsewhere else suggest(name, known)
             meant += [each for each in known if f"'{each}'" in near]
             hint = near or (f"; there are {', '.join(known)}" if known else "; it takes none")
             yield Issue(f"no such argument{hint}", f"{before}{name}", on_key=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -92,6 +92,7 @@ class ContactAt(Kept):
     normals: Literal["object", "pad"] | None = None
     tangent: tuple[float, ...] | None = None
     name: str = ""
+    _elsewhere: ClassVar[Mapping[str, str]] = {"friction": "it is the kind's: kind=HardFinger(friction=...)"}
     key: str = field(default="", compare=False)
     normal_at: str = field(default="", compare=False)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -113,6 +113,9 @@ class Object(ByContent):
     shape: Shape | None = None
     position: Array = None  # type: ignore[assignment]  # known wherever a grasp has been made
     title: str = ""
+    _elsewhere: ClassVar[Mapping[str, str]] = {
+        name: "turn the shape: shape=Turned(Box(size=...), rotation)" for name in ("rotation", "orientation")
+    }
 
     def __post_init__(self) -> None:
         """Judge the values."""

@@ -82,6 +82,9 @@ class ContactKind(Finished, Kept, ABC):
     """What each cone is about, where there are several."""
 
     _example = "HardFinger(friction=0.6)"
+    _elsewhere: ClassVar[Mapping[str, str]] = {
+        name: f"it is the contact's: ContactAt(..., {name}=...)" for name in EXAMPLE_OF
+    }
 
     def __post_init__(self) -> None:
         """Judge the parameters.
