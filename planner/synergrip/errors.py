@@ -1,8 +1,7 @@
 """Everything that can be refused, with the place, the reason and what to try.
 
-One root, `SynergripError`. `InputError` carries any number of `Issue`s, so that a
-file is judged as a whole; the refusals of the statics carry the physical object
-that explains them (a free twist, a contact component, a direction).
+One root, `SynergripError`. `InputError` carries any number of `Issue`s, so that a file is judged as a whole; the
+refusals of the statics carry the physical object that explains them (a free twist, a contact component, a direction).
 """
 
 from __future__ import annotations
@@ -50,7 +49,11 @@ class Issue:
 
 
 class SynergripError(Exception):
-    """Root of all errors that synergrip raises on purpose."""
+    """Root of all errors that synergrip raises on purpose.
+
+    Example:
+        ``except SynergripError as error: sys.exit(error.exit_code)``
+    """
 
     exit_code = 2
 
@@ -68,7 +71,11 @@ def _carrying(kind: type[SynergripError], args: tuple[object, ...], carried: dic
 
 
 class InputError(SynergripError):
-    """Bad input: nothing was solved. Carries every issue found, in file order."""
+    """Bad input: nothing was solved. Carries every issue found, in file order.
+
+    Example:
+        ``except InputError as error: print(error.issues[0].key)``
+    """
 
     def __init__(self, issues: Sequence[Issue]) -> None:
         """Carry `issues`, of which there is at least one; of very many the first ones, and how many more there are."""
@@ -116,7 +123,11 @@ class RigidContactError(InputError):
 
 
 class VerdictError(InputError, AttributeError):
-    """An attribute of an answer that only an answer with another verdict has; `hasattr` says no, as of any other."""
+    """An attribute of an answer that only an answer with another verdict has; `hasattr` says no, as of any other.
+
+    Example:
+        ``hasattr(answer, "margins")`` is True of a `Plan` and False of an `Infeasible`
+    """
 
 
 class UnknownNameError(InputError, KeyError):
@@ -130,7 +141,11 @@ class UnknownPlaceError(InputError, IndexError):
 
 
 class Refusal(SynergripError):
-    """A well-posed question whose answer is no, proven before any program is solved."""
+    """A well-posed question whose answer is no, proven before any program is solved.
+
+    Example:
+        ``except Refusal as refusal: print(refusal.stage)`` of what `analyse` raises
+    """
 
     exit_code = 1
     stage = ""
@@ -176,7 +191,11 @@ class InterruptError(SynergripError):
 
 
 class OutputError(SynergripError):
-    """What was found could not be written or printed. What was written before stands."""
+    """What was found could not be written or printed. What was written before stands.
+
+    Example:
+        ``except OutputError as error: print(error)`` of what ``answer.save(folder)`` raises
+    """
 
     exit_code = 5
 
@@ -187,7 +206,11 @@ class OutputError(SynergripError):
 
 
 class SelfCheckError(SynergripError):
-    """The program's own answer failed the program's own check: a defect of synergrip."""
+    """The program's own answer failed the program's own check: a defect of synergrip.
+
+    Example:
+        ``SelfCheckError.exit_code`` is 4
+    """
 
     exit_code = 4
 
@@ -202,8 +225,7 @@ def suggest(word: str, valid: Iterable[str]) -> str:
     """Return ``; did you mean 'x'?`` for the nearest valid word, or an empty string."""
     if len(word) > LONGEST_NAME:
         return ""  # no misspelling of anything, and slow to compare
-    near = [name for name in valid if len(name) <= 2 * LONGEST_NAME]
-    close = get_close_matches(str(word), near, n=1, cutoff=0.6)
+    close = get_close_matches(str(word), [name for name in valid if len(name) <= 2 * LONGEST_NAME], n=1, cutoff=0.6)
     return f"; did you mean '{close[0]}'?" if close else ""
 
 

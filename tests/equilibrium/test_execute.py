@@ -115,6 +115,27 @@ def test_a_finger_is_not_longer_than_it_is() -> None:
     count = len(found.states)
     assert 0 < count < 11
     assert {len(each) for each in (found.du, found.joint, found.margins, found.stiffness, found.balance.G)} == {count}
+    last, lead = found.states.taken([count - 1]), len(found.path.states) - count
+    there = found.interpolated(np.array([shares[count - 1], shares[count], 1.0]))
+    assert len(there) == lead + 3
+    for name in ("q", "position", "rotation", "forces"):
+        assert getattr(there, name)[lead:] == pytest.approx(np.repeat(getattr(last, name), 3, axis=0), abs=1e-12)
+
+
+@pytest.mark.parametrize("reached", [0, 1])
+def test_an_execution_that_reaches_next_to_nothing_says_so(reached: int) -> None:
+    grasp = bundled("gripper-box")
+    references = np.full((reached + 1, grasp.n_z), 1e4)
+    references[:reached] = 0
+    found = execute(grasp, np.arange(reached + 1.0), references, Loads.of(np.tile(grasp.w_0, (reached + 1, 1))))
+    assert (len(found.states), found.whole) == (reached, False)
+    assert {len(each) for each in (found.du, found.joint, found.margins, found.stiffness)} == {reached}
+    assert 0 <= found.residual < 1e-8
+    if reached:
+        assert found.interpolated(np.array([0.0, 5.0])).q[-2:] == pytest.approx(np.repeat(found.states.q, 2, axis=0))
+    else:
+        with pytest.raises(InputError, match=f"no instant was reached, so no state is known: {found.why}"):
+            found.interpolated(np.array([0.0]))
 
 
 def test_the_grasp_at_an_equilibrium_is_one_in_balance() -> None:

@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from names_in_examples import around
 
 import synergrip
 
@@ -20,7 +21,7 @@ WITH_EXAMPLES = sorted(
 
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
 def test_examples(name: str) -> None:
-    assert doctest.testmod(import_module(name)).failed == 0
+    assert doctest.testmod(import_module(name), extraglobs=around()).failed == 0
 
 
 def test_there_are_examples() -> None:

@@ -222,7 +222,11 @@ def test_mistakes_in_make_grasp(changes: dict[str, Any], key: str, fragment: str
         (lambda: sg.Object(mass=1, shape="ball"), "Object.shape", "expected a Shape"),
         (lambda: sg.Object(mass=1, position=(0, 0)), "Object.position", "expected shape (3,)"),
         (lambda: sg.Object(mass=1, position=(0, 0, NAN)), "Object.position", "finite numbers, got nan"),
-        (lambda: sg.ContactAt(3, HARD, stiffness=1e3), "ContactAt.at", "expected a name, got 3"),
+        (
+            lambda: sg.ContactAt(3, HARD, stiffness=1e3),
+            "ContactAt.at",
+            "expected the name of a pad or a LinkPlace, got 3",
+        ),
         (lambda: sg.ContactAt("a", "hard", stiffness=1e3), "ContactAt.kind", "got 'hard'"),
         (lambda: sg.ContactAt("a", sg.HardFinger, stiffness=1e3), "ContactAt.kind", "the class HardFinger itself"),
         (lambda: sg.ContactAt("a", HARD), "ContactAt.stiffness", "missing; a hard contact needs it, in N/m"),

@@ -116,6 +116,70 @@ def test_an_interrupt_and_a_refusal_inside_a_method_stay_what_they_are() -> None
         assert raised.value is error
 
 
+def usage(**changes: Any) -> Callable[..., sg.Usage]:
+    """The `usage` of a limit that bounds nothing, but for some of its arguments."""
+
+    def method(self: sg.Limit, formulation: Formulation, motion: Motion) -> sg.Usage:
+        kept: Any = {
+            "title": "own", "unit": "N", "items": ("first",), "value": motion.forces[:, [0]], "lower": [-np.inf],
+            "upper": [np.inf], "scale": [1.0], "times": motion.times,
+        }  # fmt: skip
+        return sg.Usage(**kept | {name: make(motion) for name, make in changes.items()})
+
+    return method
+
+
+def sideways(self: sg.Limit, formulation: Formulation) -> Sequence[Rows]:
+    return [sg.norm_within(self.key, "all", formulation.force, 1e6)]
+
+
+def twice(motion: Motion) -> Any:
+    return motion.forces[:, [0, 0]]
+
+
+PARTS: dict[str, tuple[dict[str, Any], str, str]] = {
+    "a key that is no text": ({"key": 3}, "Mine.key", "expected a name, got 3"),
+    "a key of nothing": ({"key": ""}, "Mine.key", "expected a name"),
+    "a word misspelt": ({"watches": "force"}, "Mine.watches", "did you mean 'forces'"),
+    "sizes without quantities": ({"bounded": lambda *_, **__: 3}, "Mine.bounded", "expected a pair of quantities"),
+    "sizes of other quantities": ({"bounded": lambda _, f, **__: (f.force, [1.0])}, "Mine.bounded", "(m,)"),
+    "other times": ({"usage": usage(times=lambda motion: motion.times + 1)}, "Mine.usage", "write motion.times"),
+    "an endless size": ({"usage": usage(scale=lambda _: [np.inf])}, "Mine.usage", "as scale, got inf"),
+    "a size of nothing": ({"usage": usage(scale=lambda _: [0])}, "Mine.usage", "as scale, got 0"),
+    "a negative allowance": ({"usage": usage(allowance=lambda motion: np.full((len(motion.times), 1), -1.0))},
+                             "Mine.usage", "as allowance, got -1"),
+    "an item twice": (
+        {"usage": usage(items=lambda _: ("a", "a"), value=twice, lower=lambda _: [0, 0], upper=lambda _: [9, 9],
+                        scale=lambda _: [9, 9])}, "Mine.usage", "a name for each item"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("parts", "key", "told"), PARTS.values(), ids=PARTS)
+def test_what_a_limit_of_ones_own_says_of_itself_is_judged(parts: dict[str, Any], key: str, told: str) -> None:
+    right = {"rows": sideways, "usage": usage()}
+    assert planned(limits=[own(sg.Limit, **right)]).verdict == "feasible"
+    with pytest.raises(sg.InputError) as refused:
+        planned(limits=[own(sg.Limit, **right | parts)])
+    (issue,) = refused.value.issues
+    assert issue.key == key
+    assert told in issue.message
+
+
+def test_rows_may_come_from_a_generator_and_a_goal_has_a_name() -> None:
+    once = own(sg.Limit, rows=lambda self, formulation: iter(sideways(self, formulation)), usage=usage())
+    assert planned(limits=[once]).verdict == "feasible"
+    goal = own(sg.Goal, objective=lambda _, f: sg.Objective((sg.squares_of(f.force),)), name=3)  # type: ignore[arg-type]
+    with pytest.raises(sg.InputError, match=r"^Mine\.name: expected a name, got 3"):
+        planned(goals=[goal])
+
+
+def test_a_solver_of_ones_own_that_fails_is_named_with_what_it_raised() -> None:
+    error = ZeroDivisionError("by 0")
+    with pytest.raises(sg.InputError, match=r"^solver: the function raised ZeroDivisionError: by 0$") as refused:
+        sg.plan(problem.grasp, problem.task, raising(error))
+    assert refused.value.__cause__ is error
+
+
 WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
     "another width": (lambda f: f.force.after(np.eye(2)), "Affine.after.linear"),
     "one row": (lambda f: f.force.after(np.eye(9)[0]), "Affine.after.linear"),
@@ -127,6 +191,12 @@ WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
     "names as a text": (lambda f: sg.within("k", "abcdefghi", f.force, 0, 9, 1), "within.names"),
     "names twice": (lambda f: sg.within("k", ["a"] * 9, f.force, 0, 9, 1), "within.names[1]"),
     "bounds of nan": (lambda f: sg.within("k", list("abcdefghi"), f.force, 0, np.nan, 1), "within.upper"),
+    "a lower bound of infinity": (
+        lambda f: sg.within("k", list("abcdefghi"), f.force, np.inf, np.inf, 1),
+        "within.lower",
+    ),
+    "an upper bound of less": (lambda f: sg.within("k", list("abcdefghi"), f.force, -9, -np.inf, 1), "within.upper"),
+    "a negative weight": (lambda f: sg.squares_of(f.force, -1.0), "squares_of.weights"),
     "no size": (lambda f: sg.within("k", list("abcdefghi"), f.force, 0, 9, 0), "within.unit"),
     "a key that is none": (lambda f: sg.norm_within(3, "a", f.force, 1.0), "norm_within.limit"),  # type: ignore[arg-type]
     "no item": (lambda f: sg.norm_within("k", "", f.force, 1.0), "norm_within.item"),

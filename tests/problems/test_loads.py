@@ -98,7 +98,7 @@ def test_a_csv_file_is_resampled_at_given_knots(tmp_path: Path) -> None:
 def test_a_csv_file_must_cover_the_task(
     key: str, header: str, times: list[float], keys: dict[str, Any], tmp_path: Path
 ) -> None:
-    name = _csv(tmp_path, "table.csv", header, times)
+    name = _csv(tmp_path, "table.csv", header, times, slope=0.1)
     with pytest.raises(InputError) as caught:
         _loads(tmp_path, **{key: name}, **keys)
     (issue,) = caught.value.issues

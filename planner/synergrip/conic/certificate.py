@@ -38,7 +38,12 @@ ROUNDING = 1e-12
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Value):
-    """A claim about a program with the numbers that bear it out, or do not."""
+    """A claim about a program with the numbers that bear it out, or do not.
+
+    Example:
+        >>> refused.certificate.verified  # of an `Infeasible`
+        True
+    """
 
     kind: str
     """"optimal", "infeasible", "unbounded" or "none"."""

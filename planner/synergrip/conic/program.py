@@ -55,6 +55,11 @@ class Program(Value):
 
     The unknowns are the knots' v_k one after the other, or the coefficients of a basis of these, and then the goal's
     scalar when it has one.
+
+    Example:
+        >>> program = refused.program  # of an `Infeasible`
+        >>> program.A.shape[0] == len(program.b)
+        True
     """
 
     P: sparse.csc_matrix  # (n, n) symmetric, whole

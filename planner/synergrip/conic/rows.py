@@ -126,6 +126,10 @@ def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
 
     Raises:
         InputError: a name that is none, no affine quantities, or a bound that is none.
+
+    Example:
+        >>> norm_within("all", "contacts", formulation.force, 30.0).dim
+        10
     """
     judge = Arguments("norm_within")
     judge.text("limit", limit, empty=False)
@@ -168,6 +172,11 @@ def within(
 
     Raises:
         InputError: names, bounds or units that are none, do not fit the quantities, or contradict each other.
+
+    Example:
+        >>> names = grasp.joints
+        >>> [rows.items[0] for rows in within("torque", names, formulation.torque, -2.0, math.inf, 2.0)]
+        [Item(name='finger1_inner', side='lowest')]
     """
     lower, upper, unit = _bounds(limit, names, value, lower=lower, upper=upper, unit=unit)
     result = []
@@ -203,6 +212,9 @@ def _bounds(limit: object, names: object, value: object, **given: object) -> tup
             found[name] = array if array.ndim else np.full(m, float(array))
     if np.any(~(found.get("unit", np.ones(1)) > 0) | np.isinf(found.get("unit", np.ones(1)))):
         judge.refuse("unit", "expected sizes greater than 0, finite ones")
+    for name, side, no_bound in (("lower", np.inf, "-math.inf"), ("upper", -np.inf, "math.inf")):
+        if name in found and np.any(found[name] == side):
+            judge.refuse(name, f"no quantity is beyond {side:g}; {no_bound} stands for no bound")
     judge.finish()
     if np.any(found["lower"] > found["upper"]):
         raise InputError.at("within.lower", "some lower bounds are above the upper ones; swap them")

@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.conic.formulation import Formulation
+from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
-from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.limit import WATCHES, Limit, Usage
 from synergrip.conic.rows import Rows
-from synergrip.errors import InputError
+from synergrip.documents.judging import Arguments, as_numbers, described, is_word
+from synergrip.documents.validation import shown
+from synergrip.errors import InputError, one_of
 from synergrip.statics.motion import Motion
 
 
@@ -27,13 +29,16 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
         InputError: the first one, with the method that returned it.
     """
     for limit in limits:
-        name, rows = type(limit).__name__, limit.rows(formulation)
-        _judge_rows(f"{name}.rows", rows, formulation)
+        name = type(limit).__name__
+        _judge_words(limit, "key", limit.key)
+        rows = _judged_rows(f"{name}.rows", limit.rows(formulation), formulation)
+        _judge_bounded(f"{name}.bounded", limit.bounded(formulation, cones_hold=True))
         if not limit.couples_knots and any(part.earlier for part in rows):
             wanted = "rows that speak of one knot, since the limit says that it couples none"
             raise InputError.at(f"{name}.rows", f"expected {wanted}; write couples_knots = True in the class")
     for goal in goals:
         name = type(goal).__name__
+        _judge_words(goal, "name", goal.name)
         cost = goal.objective(formulation)
         if not isinstance(cost, Objective):
             raise InputError.at(f"{name}.objective", f"expected an Objective, got {type(cost).__name__}")
@@ -43,10 +48,31 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
             is_so = "has a scalar" if goal.has_scalar else "has no scalar"
             wanted = "an epigraph and no squares" if goal.has_scalar else "squares and no epigraph"
             raise InputError.at(f"{name}.objective", f"expected {wanted}, since the goal {is_so} (has_scalar)")
-        _judge_rows(f"{name}.rows", goal.rows(formulation), formulation)
+        _judged_rows(f"{name}.rows", goal.rows(formulation), formulation)
 
 
-def _judge_rows(key: str, given: Any, formulation: Formulation) -> None:
+def _judge_words(part: Limit | Goal, name: str, value: object) -> None:
+    """Refuse a key or name that is none, and a word for what it depends on that is none."""
+    judge = Arguments(type(part).__name__)
+    judge.text(name, value, empty=False)
+    if not is_word(part.watches, WATCHES):
+        judge.refuse("watches", one_of(part.watches, WATCHES))
+    judge.finish()
+
+
+def _judge_bounded(key: str, given: Any) -> None:
+    """Refuse what are no quantities with a size for each."""
+    if given is None:
+        return
+    value, sizes = given if isinstance(given, tuple) and len(given) == 2 else (given, None)
+    found = as_numbers(sizes)
+    if not isinstance(value, Affine) or found is None or found.shape != value.constant.shape[1:]:
+        wanted = "a pair of quantities, such as formulation.force, and their largest sizes (m,), or None"
+        raise InputError.at(key, f"expected {wanted}; got {described(given)}")
+
+
+def _judged_rows(key: str, given: Any, formulation: Formulation) -> list[Rows]:
+    """Return rows as a list, after refusing what are none or do not fit the task."""
     parts = list(given) if isinstance(given, Iterable) else [given]
     if not isinstance(given, Iterable) or not all(isinstance(part, Rows) for part in parts):
         raise InputError.at(key, f"expected a list of Rows, got {type(given).__name__}")
@@ -55,6 +81,7 @@ def _judge_rows(key: str, given: Any, formulation: Formulation) -> None:
         if np.shape(part.epigraph) != (len(part.items) * part.dim,):
             wanted = f"one number for each of the {len(part.items) * part.dim} rows"
             raise InputError.at(key, f"expected {wanted} as epigraph, got shape {np.shape(part.epigraph)}")
+    return parts
 
 
 def _judge_squares(key: str, given: Any, formulation: Formulation) -> None:
@@ -85,12 +112,19 @@ def usage_of(limit: Limit, formulation: Formulation, motion: Motion) -> Usage:
     key, usage = f"{type(limit).__name__}.usage", limit.usage(formulation, motion)
     if not isinstance(usage, Usage):
         raise InputError.at(key, f"expected a Usage, got {type(usage).__name__}")
-    value, scale = np.asarray(usage.value, dtype=np.float64), np.asarray(usage.scale, dtype=np.float64)
+    value, size = np.asarray(usage.value, dtype=np.float64), np.asarray(usage.size, dtype=np.float64)
+    if not np.array_equal(usage.times, motion.times):
+        raise InputError.at(key, "expected the motion's times; write motion.times")
     if not usage.items or value.shape != (len(motion.times), len(usage.items)):
         wanted = f"a value at each of {len(motion.times)} knots for each of its {len(usage.items)} items"
         raise InputError.at(key, f"expected {wanted} (one or more), got shape {value.shape}")
-    if not np.all(scale > 0):
-        raise InputError.at(key, f"expected sizes greater than 0 as scale, got {float(np.min(scale)):g}")
+    if len(set(usage.items)) < len(usage.items):
+        raise InputError.at(key, f"expected a name for each item, got {shown(usage.items)}")
+    for name, sizes in (("scale", usage.scale), ("allowance", size)):
+        bad = ~((sizes > 0) & (sizes < np.inf))
+        if np.any(bad):
+            wanted = f"finite sizes greater than 0 as {name}"
+            raise InputError.at(key, f"expected {wanted}, got {float(sizes[bad][0]):g}")
     if np.any(np.isnan(value)) or np.any(np.isnan(usage.lower)) or np.any(np.isnan(usage.upper)):
         raise InputError.at(key, "expected numbers as value, lower and upper, got nan")
     return usage

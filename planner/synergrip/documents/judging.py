@@ -118,9 +118,12 @@ class Arguments:
 
     def one(self, name: str, value: object, of: type[Any], example: str) -> Any:
         """Return a value of a type; None after noting that it is none."""
-        if isinstance(value, of):
+        if not isinstance(value, of):
+            self.refuse(name, f"expected {article(of.__name__)} such as {example}, got {described(value)}")
+        elif lacking := unfinished(value):
+            self.refuse(name, lacking)
+        else:
             return value
-        self.refuse(name, f"expected {article(of.__name__)} such as {example}, got {described(value)}")
         return None
 
     def several(self, name: str, value: object, of: type[Any], example: str) -> tuple[Any, ...]:
@@ -142,6 +145,32 @@ def place_of(key: str, value: Any, count: int) -> int:
         there = f"expected a place from 0 to {count - 1}" if count else "there is none"
         raise UnknownPlaceError([Issue(f"{there}, got {described(value)}", key=key)])
     return int(value) % count
+
+
+def places_of(key: str, value: Any, count: int) -> Any:
+    """Return some places among `count`: a slice as it is, yes or no for each as the places of the yes.
+
+    Raises:
+        UnknownPlaceError: no places, or one that there is not.
+    """
+    if isinstance(value, slice) and all(
+        each is None or is_whole(each) for each in (value.start, value.stop, value.step)
+    ):
+        return value
+    found = np.asarray(value) if isinstance(value, list | tuple | range | np.ndarray) else np.zeros((0, 0))
+    if found.dtype.kind == "b" and found.shape == (count,):
+        return np.flatnonzero(found)
+    if found.ndim == 1 and (found.dtype.kind in "iu" or not found.size) and np.all((found >= -count) & (found < count)):
+        return found.astype(np.intp)
+    wanted = f"a slice, a list of places from 0 to {count - 1}, or True or False for each of {count}"
+    raise UnknownPlaceError([Issue(f"expected {wanted}; got {described(value)}", key=key)])
+
+
+def unfinished(value: Any) -> str:
+    """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
+    kind, known = type(value), getattr(type(value), "__dataclass_fields__", ())
+    left = next((name for name in known if not hasattr(value, name)), "")
+    return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
 
 
 def described(value: object) -> str:

@@ -79,7 +79,11 @@ def _naming(function: Callable[..., Any], of: str, instead: str = "") -> Callabl
 def _misnamed(
     function: Callable[..., Any], of: str, args: tuple[Any, ...], kwargs: Mapping[str, Any]
 ) -> Iterator[Issue]:
-    """Yield what is wrong with the names of arguments, which a method gets after itself."""
+    """Yield what is wrong with the names of arguments, which a method gets after itself.
+
+    A class says in ``_elsewhere`` where arguments belong that people look for in it.
+    """
+    elsewhere: Mapping[str, str] = getattr(args[0], "_elsewhere", {}) if args else {}
     every = [each for each in signature(function).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
     if every and every[0].name in ("self", "cls"):
         every, args = every[1:], args[1:]
@@ -87,11 +91,12 @@ def _misnamed(
     given, known = set(places[: len(args)]), [each.name for each in every]
     before, unnamed = f"{of}." if of else "", max(len(args) - len(places), 0)
     if unnamed:
-        yield Issue(_too_many(args, unnamed, every), of)
+        left = [each.name for each in every if each.name not in given and each.name not in kwargs]
+        yield Issue(_too_many(args, unnamed, every, left), of)
     meant = [name for name in known if name not in given and name not in kwargs][:unnamed]
     for name in kwargs:
         if name not in known:
-            near = suggest(name, known)
+            near = f"; {elsewhere[name]}" if name in elsewhere else suggest(name, known)
             meant += [each for each in known if f"'{each}'" in near]
             hint = near or (f"; there are {', '.join(known)}" if known else "; it takes none")
             yield Issue(f"no such argument{hint}", f"{before}{name}", on_key=True)
@@ -102,8 +107,8 @@ def _misnamed(
         yield Issue(f"missing{_within(args, needed)}", f"{before}{name}", on_key=True)
 
 
-def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter]) -> str:
-    """Return what to do with values that have no place."""
+def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter], left: list[str]) -> str:
+    """Return what to do with values that have no place; `left` are the names that no value has yet."""
     if not every:
         return f"it takes no arguments, got {len(values)}"
     first, names = every[0], ", ".join(each.name for each in every)
@@ -111,6 +116,11 @@ def _too_many(values: tuple[Any, ...], unnamed: int, every: list[Parameter]) -> 
         several = any(word in str(first.annotation) for word in ("tuple", "Numbers", "Sequence", "Array"))
         together = f"; put them into one: {first.name}=({', '.join(map(shown, values))})" if several else ""
         return f"it takes one value, {first.name}, got {len(values)}{together}"
+    if len(values) > unnamed and len(left) >= unnamed:  # some had their place, and most people go on in the order
+        named = ", ".join(f"{name}={shown(value)}" for name, value in zip(left, values[-unnamed:], strict=False))
+        return f"{'a value' if unnamed == 1 else f'{unnamed} values'} without a name; write for example {named}"
+    if not left:
+        return f"it takes {len(every)} values, {names}, got {len(values)}"
     what = "a value" if unnamed == 1 else f"{unnamed} values"
     return f"{what} without a name; write {first.name}=...{f' and so on: {names}' if len(every) > 1 else ''}"
 

@@ -15,6 +15,7 @@ from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeez
 from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
+from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Maps, Response
@@ -27,7 +28,13 @@ SHORTEST = Fraction(1, 640)
 @made_by("execute(grasp, times, references, loads)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Execution(Value):
-    """The equilibria at those of T instants that were reached, K of them."""
+    """The equilibria at those of T instants that were reached, K of them.
+
+    Example:
+        >>> executed = execute(grasp, [0.0], [[0.0, 0.01, 0.01, 0.01]], Loads.of(np.zeros((1, 6))))
+        >>> executed.whole, executed.du.shape, executed.states.forces.shape
+        (True, (1, 6), (1, 9))
+    """
 
     times: Array  # (T,) [s]
     references: Array  # (T, n_z)
@@ -72,23 +79,22 @@ class Execution(Value):
     def interpolated(self, times: Array) -> States:
         """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
 
-        Where contacts roll, those of the first squeeze come before them.
-        """
-        from scipy.spatial.transform import Rotation
+        Where contacts roll, those of the first squeeze come before them. Beyond the last equilibrium that was reached
+        there is that one.
 
+        Raises:
+            InputError: times that are none, or an execution that reached none of its instants.
+        """
         judge, known = Arguments("Execution.interpolated"), self.states
         times = judge.array("times", times, np.shape(np.atleast_1d(times))[:1], ": times (M,) [s]")
         judge.finish()
-        last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
-        span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
-        share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
-        q, position, forces = (
-            (1 - share) * values[last - 1] + share * values[last] for values in (known.q, known.position, known.forces)
-        )
-        before = Rotation.from_matrix(np.array(known.rotation[last - 1]))
-        turn = (Rotation.from_matrix(np.array(known.rotation[last])) * before.inv()).as_rotvec()
-        rotation = (Rotation.from_rotvec(share * turn) * before).as_matrix()
-        there = States(q, position, rotation, forces)
+        if not len(known):
+            raise InputError.at("Execution.interpolated", f"no instant was reached, so no state is known: {self.why}")
+        reached = self.times[: len(known)]
+        last = np.clip(np.searchsorted(reached, times, side="right"), min(1, len(known) - 1), len(known) - 1)
+        first = np.maximum(last - 1, 0)
+        span = np.maximum(reached[last] - reached[first], 1e-300)
+        there = known.between(first, last, np.clip((times - reached[first]) / span, 0.0, 1.0))
         lead = len(self.path.states) - len(known)
         return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
 
@@ -116,7 +122,7 @@ class Execution(Value):
     @cached_property
     def residual(self) -> float:
         """The largest error of the equilibria, relative to lengths and forces of the grasp."""
-        return float(self.balance.error.max(initial=0.0))
+        return float(self.path.error[self.kept].max(initial=0.0))
 
     @cached_property
     def stiffness(self) -> Array:
@@ -129,7 +135,7 @@ class Execution(Value):
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        regular = self.balance.regular
+        regular = self.path.regular[self.kept]
         return frozen(np.where(regular, 1.0 / np.where(regular, soft, 1.0), 0.0))
 
     @cached_property
@@ -163,6 +169,10 @@ def execute(
 
     Raises:
         InputError: a grasp given as matrices, no such contact model, arguments that do not fit each other.
+
+    Example:
+        >>> execute(grasp, [0.0], [[0.0, 0.01, 0.01, 0.01]], Loads.of(np.zeros((1, 6)))).margins.shape
+        (1, 3)
     """
     own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
     times, references = _judged(own, times, references, loads, guess)

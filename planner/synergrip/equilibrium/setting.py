@@ -109,6 +109,8 @@ def setting(grasp: Grasp, contact_model: ContactModel = "rolling", response: Res
     if response is not None:
         judge.one("response", response, Response, "respond(grasp)")
     judge.finish()
+    if response is not None and response.grasp != grasp:
+        raise InputError.at("response", "is of another grasp; write respond(grasp), or leave it out")
     held = grasp.held
     if held is None:
         raise InputError.at("grasp", "a grasp given as matrices has no kinematics; make_grasp makes one on a hand")

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, is_word
+from synergrip.documents.judging import Arguments, described, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import one_of
 from synergrip.grasps.contacts.kind import EXAMPLE_OF, ContactKind
 from synergrip.linalg import Array, frozen
+from synergrip.values import Kept
 
 SOFTEST = 1e-6
 """A contact that yields a kilometre under a millinewton holds nothing [N/m, N m/rad]."""
@@ -20,7 +21,7 @@ SOFTEST = 1e-6
 
 @naming_arguments
 @dataclass(frozen=True)
-class LinkPlace:
+class LinkPlace(Kept):
     """A place on a link, in its frame.
 
     Args:
@@ -31,6 +32,10 @@ class LinkPlace:
 
     Raises:
         InputError: a value that is none.
+
+    Example:
+        >>> LinkPlace("finger1_tip", point=(0.0, 0.0, 0.002), normal=(0, 0, 2)).normal
+        (0.0, 0.0, 1.0)
     """
 
     link: str
@@ -51,7 +56,7 @@ class LinkPlace:
 
 @naming_arguments
 @dataclass(frozen=True)
-class ContactAt:
+class ContactAt(Kept):
     """A contact of a hand: which pad or place touches, of which kind the contact is, how stiff.
 
     Args:
@@ -65,6 +70,8 @@ class ContactAt:
             is one when absent.
         tangent: (3,) direction that the t of the contact frame follows, in the frame of the link; chosen when absent.
         name: of the contact; that of the pad or link when absent.
+        key: of the file that names the pad or link, for errors; empty in code.
+        normal_at: where a file states the normal, for advice; empty in code.
 
     Raises:
         InputError: a value that is none, a stiffness that the kind needs or refuses.
@@ -85,16 +92,17 @@ class ContactAt:
     normals: Literal["object", "pad"] | None = None
     tangent: tuple[float, ...] | None = None
     name: str = ""
+    _elsewhere: ClassVar[Mapping[str, str]] = {"friction": "it is the kind's: kind=HardFinger(friction=...)"}
     key: str = field(default="", compare=False)
-    """Key of the file that names the pad or link, for errors; empty in code."""
     normal_at: str = field(default="", compare=False)
-    """Where a file states the normal, for advice."""
 
     def __post_init__(self) -> None:
         """Judge the values and fill in those that follow from others."""
         judge = Arguments("ContactAt")
-        if not isinstance(self.at, LinkPlace):
-            judge.text("at", self.at, empty=False)
+        if not isinstance(self.at, LinkPlace) and not (isinstance(self.at, str) and self.at):
+            judge.refuse("at", f"expected the name of a pad or a LinkPlace, got {described(self.at)}")
+        for word in ("name", "key", "normal_at"):
+            judge.text(word, getattr(self, word))
         if judge.one("kind", self.kind, ContactKind, "HardFinger(friction=0.6)") is not None:
             for name in EXAMPLE_OF:
                 object.__setattr__(self, name, self._judged(judge, name))
@@ -104,10 +112,8 @@ class ContactAt:
             judge.refuse("normals", one_of(self.normals, ("object", "pad")))
         if self.tangent is not None:
             object.__setattr__(self, "tangent", _direction(judge, "tangent", self.tangent))
-        unnamed = isinstance(self.name, str) and not self.name
-        name = (self.at.link if isinstance(self.at, LinkPlace) else self.at) if unnamed else self.name
-        object.__setattr__(self, "name", judge.text("name", name))
         judge.finish()
+        object.__setattr__(self, "name", self.name or (self.at.link if isinstance(self.at, LinkPlace) else self.at))
 
     @property
     def stiffnesses(self) -> Mapping[str, float]:

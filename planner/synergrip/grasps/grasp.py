@@ -31,6 +31,12 @@ class Grasp(ByContent):
 
     `make_grasp` and `grasp_from_matrices` make one. A number in the place of a compliance stands for that times the
     identity, as in a grasp file.
+
+    Example:
+        >>> grasp.n_l, grasp.n_q, grasp.n_z, [contact.name for contact in grasp.contacts]
+        (9, 8, 4, ['finger1/tip', 'finger2/tip', 'finger3/tip'])
+        >>> grasp.replace(friction=0.4).contacts[0].friction
+        0.4
     """
 
     title: str = ""

@@ -45,7 +45,7 @@ def make_grasp(
     joint_compliance: float | Sequence[float] | Array | None = None,
     synergy_compliance: float | Sequence[float] | Array = 0.0,
     title: str = "",
-    relative_to: Path | None = None,
+    relative_to: str | Path | None = None,
 ) -> Grasp:
     """Return the grasp of an object by a hand in a posture; a problem file can say no more of one.
 
@@ -89,13 +89,15 @@ def make_grasp(
     if not judge.issues and not wanted:
         judge.refuse("contacts", f"no contacts; name the pads that touch the object, such as [{EXAMPLE}]")
     judge.text("title", title)
+    if relative_to is not None and not isinstance(relative_to, str | Path):
+        judge.refuse("relative_to", f"expected the path of a folder, got {described(relative_to)}")
     if judge.issues or body is None:
         raise InputError(judge.issues)
     touches, issues = _touches(hand, wanted, body)
     if close is not None:
         issues += unknown_surface(body)
     try:
-        chosen = _synergies(hand, synergies, relative_to or Path())
+        chosen = _synergies(hand, synergies, Path(relative_to or ""))
         asked = not (synergies is None or isinstance(synergies, int))
         yielding = as_numbers(joint_compliance)
         links = [touch.pad.link for touch in touches]

@@ -41,6 +41,10 @@ class GivenContact(ByContent):
 
     Raises:
         InputError: a value that is none.
+
+    Example:
+        >>> GivenContact(name="left", kind=HardFinger(friction=0.6), point=(-0.02, 0, 0), normal=(1, 0, 0)).friction
+        0.6
     """
 
     name: str
@@ -193,6 +197,10 @@ def read_matrices(path: str | Path, key: str = "") -> Matrices:
 
     Raises:
         InputError: all the issues of the file, each with its place.
+
+    Example:
+        >>> read_matrices("grasp.json").G.shape  # doctest: +SKIP
+        (6, 9)
     """
     if not isinstance(path, str | Path) or not str(path):
         raise InputError.at("path", f"expected the path of a grasp file, such as 'grasp.json', got {described(path)}")

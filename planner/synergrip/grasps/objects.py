@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -22,6 +22,8 @@ from synergrip.vectors import skews
 ROTATION = 1e-9
 """How far the products of the columns of a rotation may be from those of unit vectors normal to each other."""
 
+SCIPY = 'scipy.spatial.transform.Rotation.from_euler("x", 90, degrees=True).as_matrix()'
+
 
 @naming_arguments
 @dataclass(frozen=True, eq=False)
@@ -30,13 +32,14 @@ class Turned(Shape, ByContent):
 
     Args:
         shape: what is turned.
-        rotation: (3, 3) columns: the shape's own axes in those of B.
+        rotation: (3, 3) columns: the shape's own axes in those of B, such as
+            ``scipy.spatial.transform.Rotation.from_euler("x", 90, degrees=True).as_matrix()``.
 
     Raises:
         InputError: a shape that is none, a matrix that is no rotation.
 
     Example:
-        >>> Turned(Cylinder(radius=0.02, height=0.08), turn((1, 0, 0), np.pi / 2)).title
+        >>> Turned(Cylinder(radius=0.02, height=0.08), np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])).title
         'cylinder r 20 x 80 mm (turned)'
     """
 
@@ -50,9 +53,9 @@ class Turned(Shape, ByContent):
         """Judge shape and rotation."""
         judge = Arguments("Turned")
         judge.one("shape", self.shape, Shape, "Box(size=(0.04, 0.06, 0.1))")
-        R = judge.array("rotation", self.rotation, (3, 3))
+        R = judge.array("rotation", self.rotation, (3, 3), f" of a rotation matrix, such as {SCIPY} makes")
         if not judge.issues and (not np.allclose(R.T @ R, np.eye(3), rtol=0, atol=ROTATION) or np.linalg.det(R) < 0):
-            judge.refuse("rotation", "is no rotation matrix; turn(axis, angle) makes one")
+            judge.refuse("rotation", f"is no rotation matrix; {SCIPY} makes one")
         judge.finish()
         object.__setattr__(self, "rotation", R)
 
@@ -110,6 +113,9 @@ class Object(ByContent):
     shape: Shape | None = None
     position: Array = None  # type: ignore[assignment]  # known wherever a grasp has been made
     title: str = ""
+    _elsewhere: ClassVar[Mapping[str, str]] = {
+        name: "turn the shape: shape=Turned(Box(size=...), rotation)" for name in ("rotation", "orientation")
+    }
 
     def __post_init__(self) -> None:
         """Judge the values."""

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import as_numbers, described, place_of
+from synergrip.documents.judging import Arguments, as_numbers, described, place_of, places_of
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
@@ -21,8 +22,6 @@ from synergrip.values import Value
 
 VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
 """What may differ from grasp to grasp."""
-
-
 _COMPONENTS = attrgetter("kind.components")
 Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
 """Components of every contact, and the shape of S."""
@@ -70,6 +69,18 @@ class GraspStack(Value, Sequence[Grasp]):
     """What all are like but for the arrays."""
     given: tuple[Grasp, ...] = ()
     """The N grasps themselves, where the stack was made of some."""
+
+    def __post_init__(self) -> None:
+        """Judge what `of` and `varied` make right."""
+        judge = Arguments("GraspStack")
+        judge.one("matrices", self.matrices, Matrices, "those that GraspStack.varied(grasp, C_s=...) makes")
+        judge.one("like", self.like, Grasp, "the one that make_grasp returns")
+        judge.finish()
+        count = len(self.matrices.G)
+        for name, shape in (("points", (count, self.like.n_c, 3)), ("w_0", (count, 6))):
+            if np.shape(value := getattr(self, name)) != shape:
+                judge.refuse(name, f"expected shape {shape}, for each of {count} grasps; got {described(value)}")
+        judge.finish()
 
     @classmethod
     @naming_arguments
@@ -146,7 +157,12 @@ class GraspStack(Value, Sequence[Grasp]):
         return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **arrays)
 
     def taken(self, places: Any) -> GraspStack:
-        """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""
+        """Return the stack of the grasps at some places, in their order.
+
+        Args:
+            places: a slice, whole numbers, or `True` or `False` for each of the N grasps.
+        """
+        places = places_of("places", places, len(self))
         given: tuple[Grasp, ...] = ()
         if self.given:
             given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
@@ -212,6 +228,8 @@ def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
         raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")
     if not np.all(np.isfinite(found)):
         raise InputError.at(name, f"expected finite numbers, got {float(found[~np.isfinite(found)][0])}")
+    if np.abs(found).max() > LARGEST_NUMBER:
+        raise InputError.at(name, f"{np.abs(found).max():g} is too large")
     if name.startswith("C_"):
         _judge_compliances(name, found)
     return found

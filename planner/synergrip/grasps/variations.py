@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
+from synergrip.documents.judging import Arguments, described, is_number
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
@@ -55,6 +55,10 @@ def _kinds(grasp: Grasp, friction: float | None, wish: Mapping[str, ContactKind]
         else:
             judge.one(f"contact[{name!r}]", kind, ContactKind, "HardFinger(friction=0.6)")
     if friction is not None:
+        each = "; give contacts their own by contact={" + f"{names[0]!r}: HardFinger(friction=0.6)" + "}"
+        if not is_number(friction):
+            judge.refuse("friction", f"expected one number for all contacts, got {described(friction)}{each}")
+            judge.finish()
         friction = judge.number("friction", friction, above=0)
     judge.finish()
     common = [c.kind if friction is None else c.kind.with_friction(friction) for c in grasp.contacts]

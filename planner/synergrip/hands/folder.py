@@ -24,13 +24,7 @@ from synergrip.hands.kinematics import kinematics
 from synergrip.hands.models.foreign_files import XACRO
 from synergrip.hands.models.model_file import SUFFIXES, read_model
 from synergrip.hands.models.tree import LinkTree
-from synergrip.hands.synergies.matrix import (
-    coupling_map,
-    joint_posture,
-    joint_values,
-    outside_limits,
-    override,
-)
+from synergrip.hands.synergies.matrix import coupling_map, joint_posture, joint_values, outside_limits, override
 from synergrip.hands.synergies.sets import each_of, synergy_sets
 from synergrip.hands.units import joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
@@ -69,6 +63,10 @@ def load_hand(
 
     Raises:
         InputError: no such hand, a file that cannot be used (located in it), or a coupling or palm that it has not.
+
+    Example:
+        >>> load_hand("barrett").postures.keys()
+        dict_keys(['open', 'ball'])
     """
     path = _find(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]

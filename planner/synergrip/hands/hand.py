@@ -14,7 +14,7 @@ from synergrip.errors import InputError, one_of
 from synergrip.hands.drives import Drives
 from synergrip.hands.point_motion import Kinematics, PointMotion
 from synergrip.linalg import Array
-from synergrip.values import ByContent, ByName, same
+from synergrip.values import ByContent, ByName, Kept, same
 
 UNIT = 1e-6
 """How far the length of the normal of a pad may be from 1."""
@@ -22,7 +22,7 @@ UNIT = 1e-6
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class Joint:
+class Joint(Kept):
     """One joint, in the order of q."""
 
     name: str
@@ -145,7 +145,13 @@ class Coupling(ByContent):
 @naming_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Hand(ByContent):
-    """A robot hand as data; `load_hand` makes one."""
+    """A robot hand as data; `load_hand` makes one.
+
+    Example:
+        >>> hand = load_hand("barrett")
+        >>> len(hand.joints), hand.synergy_sets["motors"].synergies
+        (8, ('spread', 'finger1', 'finger2', 'finger3'))
+    """
 
     name: str
     title: str = ""

@@ -24,11 +24,11 @@ from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
-from synergrip.values import Value
+from synergrip.values import Kept, Value
 
 
 @dataclass(frozen=True)
-class Check:
+class Check(Kept):
     """One statement about a plan, recomputed from the grasp's matrices in SI units."""
 
     name: str

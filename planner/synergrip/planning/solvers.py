@@ -20,7 +20,7 @@ from synergrip.conic.relaxed import proven
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.documents.judging import described
-from synergrip.errors import InputError, one_of
+from synergrip.errors import InputError, SynergripError, one_of
 from synergrip.linalg import Array
 from synergrip.log import LOG
 from synergrip.values import Value
@@ -66,7 +66,12 @@ def _answering(solve: Answerer, key: str) -> Answerer:
     """Return a user's function as a solver whose answers are looked at."""
 
     def answered(question: Question, program: Program, settings: Settings) -> Solution:
-        found = solve(question, program, settings)
+        try:
+            found = solve(question, program, settings)
+        except SynergripError:
+            raise
+        except Exception as error:
+            raise InputError.at(key, f"the function raised {type(error).__name__}: {error}") from error
         if not isinstance(found, Solution):
             raise InputError.at(key, f"expected a Solution from the function, got {described(found)}")
         return found

@@ -40,7 +40,13 @@ T = TypeVar("T")
 @made_by("load_problem(name_or_path)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Problem(Value):
-    """A problem ready to be analysed or planned."""
+    """A problem ready to be analysed or planned.
+
+    Example:
+        >>> problem = load_problem("tripod")
+        >>> problem.grasp.n_l, len(problem.timed.times)
+        (9, 11)
+    """
 
     name: str
     path: Path

@@ -31,7 +31,12 @@ SPUN = 0.01
 @made_by("simulate(plan)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Simulation(Value):
-    """A plan that was played in MuJoCo, beside what it promised. N instants, on the clock of the plan."""
+    """A plan that was played in MuJoCo, beside what it promised. N instants, on the clock of the plan.
+
+    Example:
+        >>> simulate(answer).verdict  # doctest: +SKIP
+        'holds'
+    """
 
     title: str
     contacts: tuple[str, ...]

@@ -53,7 +53,13 @@ class AnalysisGroup(Value):
 @made_by("analyse_many(grasps)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Analyses(Value):
-    """Everything that is true of many grasps before any task, those of like dimensions together."""
+    """Everything that is true of many grasps before any task, those of like dimensions together.
+
+    Example:
+        >>> many = analyse_many([grasp, softer])
+        >>> [(group.dimensions, group.places.tolist()) for group in many.groups], many.refusals
+        ([((3, 1, 0), [0, 1])], {})
+    """
 
     groups: tuple[AnalysisGroup, ...]
     """One for each triple of dimensions; every grasp that is not refused stands in one."""
@@ -92,7 +98,9 @@ def analyse_many(grasps: Sequence[Grasp]) -> Analyses:
     Example:
         >>> analyses = analyse_many(grasps)
         >>> {group.dimensions: len(group.places) for group in analyses.groups}
+        {(3, 1, 0): 2}
         >>> {place: str(why) for place, why in analyses.refusals.items()}
+        {}
     """
     responses = respond_many(grasps)
     groups = tuple(AnalysisGroup(group, coordinates_many(group)) for group in subspaces_many(responses))

@@ -14,7 +14,13 @@ from synergrip.values import Value
 @made_by("analyse(grasp)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Analysis(Value):
-    """Everything that is true of a grasp before any task."""
+    """Everything that is true of a grasp before any task.
+
+    Example:
+        >>> analysis = analyse(grasp)
+        >>> analysis.response.dlambda_dzr.shape, analysis.spaces.E_s.shape
+        ((9, 4), (9, 3))
+    """
 
     grasp: Grasp
     response: Response
@@ -42,6 +48,10 @@ def analyse(grasp: Grasp, load: Array | None = None) -> Analysis:
         InputError: no grasp, or no wrenches.
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
+
+    Example:
+        >>> analyse(grasp).spaces.dimensions
+        (3, 1, 0)
     """
     response = respond(grasp, load)
     spaces = subspaces(response)

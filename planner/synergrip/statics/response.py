@@ -138,6 +138,10 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
         InputError: no grasp, or no wrenches.
         NotRestrainedError: the contacts leave the object a free motion.
         RigidContactError: some contact direction has no compliance at all.
+
+    Example:
+        >>> respond(grasp).du_dw.shape
+        (6, 6)
     """
     expected("grasp", grasp, Grasp, "make_grasp(...)")
     held = np.atleast_2d(grasp.w_0) if load is None else wrenches("load", load)

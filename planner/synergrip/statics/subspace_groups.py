@@ -69,6 +69,7 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
     Example:
         >>> for group in subspaces_many(respond_many(grasps)):
         ...     print(group.dimensions, group.places, group.E_s.shape)
+        (3, 1, 0) [0 1] (2, 9, 3)
     """
     expected("responses", responses, Responses, "respond_many(grasps)")
     grasps = responses.grasps
@@ -94,6 +95,8 @@ def coordinates_many(group: SubspaceGroup) -> Coordinates:
 
     Example:
         >>> alpha, beta, gamma = coordinates_many(group).coordinates(dz_r)  # dz_r (N, T, n_z)
+        >>> alpha.shape, beta.shape, gamma.shape
+        ((2, 3, 3), (2, 3, 1), (2, 3, 0))
     """
     expected("group", group, SubspaceGroup, "subspaces_many(responses)[0]")
     return coordinates_of(group.responses, group, group.responses.grasps.metric)

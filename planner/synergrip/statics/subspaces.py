@@ -81,8 +81,19 @@ def subspaces(response: Response) -> Subspaces:
     Uses ``J S`` and not the print's ``J X S Y``: for C_s > 0 the null spaces agree, and for C_s = 0
     only ``J S`` gives the force-free motions (docs/theory.md).
 
+    Args:
+        response: of the grasp, from `respond`.
+
+    Returns:
+        bases of the forces that the synergies control, of the motions without a change of forces, and of what moves
+        neither, with the rank decisions behind them.
+
     Raises:
         InputError: no response.
+
+    Example:
+        >>> subspaces(respond(grasp)).dimensions
+        (3, 1, 0)
     """
     expected("response", response, Response, "respond(grasp)")
     matrices, scale = Matrices.of(response.grasp), response.scale

@@ -71,8 +71,20 @@ def _judged(name: str, value: object, M: Array, size: int) -> Array:
 def coordinates(response: Response, spaces: Subspaces) -> Coordinates:
     """Return M of (35) and its inverse; the pseudo-inverses are taken in the scaled metric.
 
+    Args:
+        response: of the grasp, from `respond`.
+        spaces: of the same grasp, from `subspaces`.
+
+    Returns:
+        what tells alpha, beta and gamma of references, and back.
+
     Raises:
         InputError: no response, or no subspaces.
+
+    Example:
+        >>> response = respond(grasp)
+        >>> coordinates(response, subspaces(response)).M.shape
+        (4, 4)
     """
     expected("response", response, Response, "respond(grasp)")
     expected("spaces", spaces, Subspaces, "subspaces(response)")

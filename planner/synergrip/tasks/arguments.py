@@ -45,6 +45,13 @@ class TaskArguments(Judge):
             self.refuse(name, f"{found:g} rad are {what}")
         return found
 
+    def turns(self, name: str, vectors: Array) -> None:
+        """Note rotation vectors (K, 3) [rad] of more than `MOST_TURNS`, which are likely in degrees."""
+        largest = float(np.linalg.norm(vectors, axis=1).max(initial=0.0))
+        if largest > MOST_TURNS * 2 * math.pi:
+            what = f"more than {MOST_TURNS} turns; rotation vectors are in radians: np.radians(90) = 1.57"
+            self.refuse(name, f"a rotation vector of {largest:g} rad is {what}")
+
     def vector(self, name: str, value: Any, count: int, what: str) -> tuple[float, ...]:
         """Return a list of finite numbers."""
         return tuple(map(float, self.rows(name, value, (count,), what)))
@@ -90,8 +97,10 @@ class TaskArguments(Judge):
         if not given.size:
             self.refuse(name, "expected one or more instants in seconds, got none")
             raise_issues(self.issues)  # whatever goes by the times cannot be judged
-        count = len(given) if given.ndim == 1 else 1
-        before = len(self.issues)
+        if given.ndim != 1:
+            self.refuse(name, f"expected shape (T,): one or more instants in seconds, got {described(values)}")
+            raise_issues(self.issues)
+        count, before = len(given), len(self.issues)
         found = self.rows(name, values, (count,), "one or more instants in seconds")
         early = (found[1:] <= found[:-1]) | (found[1:] < found[:-1] + apart)
         if len(self.issues) == before and np.any(early):

@@ -34,6 +34,7 @@ class MotionTable(TimeTable, Motion):
 
     columns = MOTION
     meaning = "x, y, z [m] and a rotation vector [rad] in each row"
+    turning = slice(3, 6)
 
 
 @naming_arguments

@@ -91,6 +91,10 @@ class Stated(ByContent):
             judge.one("object", object, Object, "Object(mass=0.2)")
         instants = judge.times("times", times)
         judge.finish()
+        if self.lines is not None and not self.lines[0] <= instants[0] <= instants[-1] <= self.lines[-1]:
+            span = f"the table covers {self.lines[0]:g} s to {self.lines[-1]:g} s"
+            judge.refuse("times", f"{span}, and these are instants from {instants[0]:g} s to {instants[-1]:g} s")
+            judge.finish()
         body = object if object is None or object.placed else replace(object, position=np.zeros(3))
         try:
             profile = self.over(Setting(float(instants[0]), float(instants[-1]), body))

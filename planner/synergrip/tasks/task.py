@@ -10,7 +10,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.object_error import AXES, AxisName
-from synergrip.documents.judging import described, is_list, is_whole
+from synergrip.documents.judging import described, is_list, is_whole, unfinished
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
@@ -86,6 +86,8 @@ class Task(ByContent):
         if not isinstance(self.target, Motion):
             expected = "where the object is wanted, such as Hold(), Move(...) + Move(...) or Waypoints(...)"
             judge.refuse("target", f"expected {expected}, got {described(self.target)}")
+        elif lacking := unfinished(self.target):
+            judge.refuse("target", lacking)
         loads = _listed(judge, "loads", self.loads, Load, "loads such as Gravity(...), Wrench(...), Push(...)")
         limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(upper=20.0)")
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
@@ -149,6 +151,8 @@ def _listed(judge: TaskArguments, name: str, values: Any, of: type, what: str) -
     for index, value in enumerate(values):
         if not isinstance(value, of):
             judge.refuse(f"{name}[{index}]", f"expected one of {what}; got {described(value)}")
+        elif of is not object and (lacking := unfinished(value)):  # of limits and goals that is told elsewhere
+            judge.refuse(f"{name}[{index}]", lacking)
     return tuple(values)
 
 

@@ -12,7 +12,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import MARGIN
 from synergrip.documents.documents import LARGEST_NUMBER
-from synergrip.documents.judging import as_numbers, described, is_list, is_number
+from synergrip.documents.judging import as_numbers, described, is_list, is_number, unfinished
 from synergrip.documents.validation import shown
 from synergrip.errors import Issue, one_of
 from synergrip.grasps.grasp_judging import Judge
@@ -56,6 +56,8 @@ def goal_issues(goals: Any) -> Iterator[Issue]:
     for index, goal in enumerate(given):
         if not isinstance(goal, Goal):
             yield Issue(f"expected a goal, got {shown(goal)}; {GOALS}", f"Task.goals[{index}]")
+        elif lacking := unfinished(goal):
+            yield Issue(lacking, f"Task.goals[{index}]")
         elif goal in given[:index]:
             yield Issue(f"'{goal.name}' is listed twice", f"Task.goals[{index}]")
 
@@ -79,6 +81,8 @@ def limit_issues(limits: Any) -> Iterator[Issue]:
     for index, limit in enumerate(limits):
         if not isinstance(limit, Limit):
             yield Issue(f"expected a limit, got {shown(limit)}; {LIMITS}", f"Task.limits[{index}]")
+        elif lacking := unfinished(limit):
+            yield Issue(lacking, f"Task.limits[{index}]")
 
 
 def word_issues(tracking: object, linearise: object, between: object) -> Iterator[Issue]:

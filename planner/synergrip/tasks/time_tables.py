@@ -27,13 +27,18 @@ class TimeTable(Stated):
     """Header of a CSV file besides ``t_s``: names, or the beginning of the names of any number of columns."""
     meaning: ClassVar[str]
     """What stands in a row, for errors."""
+    turning: ClassVar[slice | None] = None
+    """The columns of a rotation vector; None when there are none."""
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
         judge = TaskArguments(type(self).__name__)
         times = judge.times("times", self.times)
         width = judge.width(self.values) if isinstance(self.columns, str) else len(self.columns)
-        keep(self, judge, times=times, values=judge.rows("values", self.values, (len(times), width), self.meaning))
+        values = judge.rows("values", self.values, (len(times), width), self.meaning)
+        if self.turning is not None:
+            judge.turns("values", values[:, self.turning])
+        keep(self, judge, times=times, values=values)
 
     def __repr__(self) -> str:
         """Return one line."""

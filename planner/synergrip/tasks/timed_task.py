@@ -60,7 +60,13 @@ class Target(Value):
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedTask(Value):
-    """A task at T knots."""
+    """A task at T knots.
+
+    Example:
+        >>> timed = Task(duration=1.0, knots=5, loads=[Gravity((0, 0, -9.81))]).timed(grasp)
+        >>> timed.times.tolist(), timed.wrench.shape
+        ([0.0, 0.25, 0.5, 0.75, 1.0], (5, 6))
+    """
 
     times: Array  # (T,) [s]
     wrench: Array  # (T, 6), or (6,) for one that stays, external wrench on the object about B, axes of N

@@ -69,7 +69,10 @@ class Waypoints(Motion):
             return None
         width = judge.width(value) if name == "modes" else 3
         what = {"positions": "x, y, z [m] in each row", "rotations": "a rotation vector [rad] in each row"}
-        return judge.rows(name, value, (count, width), what.get(name, "coordinates of Gamma_ucs [m] in each row"))
+        found = judge.rows(name, value, (count, width), what.get(name, "coordinates of Gamma_ucs [m] in each row"))
+        if name == "rotations":
+            judge.turns(name, found)
+        return found
 
     def __repr__(self) -> str:
         """Return one line."""

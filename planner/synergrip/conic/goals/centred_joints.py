@@ -12,6 +12,8 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
 from synergrip.conic.limits.joint_range import JointRange, refuse_some_of
 from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
+from synergrip.linalg import Array
 
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
@@ -56,16 +58,25 @@ class CentredJoints(Goal):
     def on(self, grasp: Grasp) -> CentredJoints:
         """Return it with ranges and posture of the hand where none are given."""
         found = JointRange(self.start, self.lower, self.upper, of="CentredJoints").on(grasp)
+        if not np.any(_half(found) > 0):
+            message = "no joint has two ends to be centred between; give lower and upper, or leave the goal out"
+            raise InputError.at("CentredJoints.lower", message)
         return CentredJoints(found.start, found.lower, found.upper)
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return the squares."""
         own = self.on(formulation.response.grasp)
-        half = (own.upper - own.lower) / 2
-        ends = np.isfinite(half) & (half > 0)
-        middle = np.where(ends, (own.lower + own.upper) / 2, 0.0)
+        half = _half(own)
+        ends = half > 0
+        middle = (np.where(ends, own.lower, 0.0) + np.where(ends, own.upper, 0.0)) / 2
         weights = np.where(ends, 1 / np.where(ends, half, 1.0), 0.0)
         return Objective((squares_of(formulation.joint.plus(own.start - middle), weights),))
+
+
+def _half(own: JointRange | CentredJoints) -> Array:
+    """Return half the range of each joint; 0 where it has none, or no two ends."""
+    whole = np.asarray(own.upper - own.lower)
+    return np.where(np.isfinite(whole), whole / 2, 0.0)
 
 
 IN_FILE = {"centred": CentredJoints()}

@@ -45,19 +45,25 @@ class Squares(Value):
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Objective(Value):
-    """The squares of a goal, plus ``epigraph`` times its scalar s when it has one."""
+    """The squares of a goal, plus ``epigraph`` times its scalar s when it has one.
+
+    Args:
+        squares: what `squares_of` returns, one or more of it.
+        epigraph: factor before the scalar of a goal that has one: 1 when it is to be small, -1 when large.
+
+    Raises:
+        InputError: something else than a list of `Squares`, or a factor that is no number.
+
+    Example:
+        >>> Objective((squares_of(formulation.force),)).empty
+        False
+    """
 
     squares: tuple[Squares, ...] = ()
-    """What `squares_of` returns, one or more of it."""
     epigraph: float | None = None
-    """Factor before the scalar of a goal that has one: 1 when it is to be small, -1 when large."""
 
     def __post_init__(self) -> None:
-        """Judge the values.
-
-        Raises:
-            InputError: something else than a list of `Squares`, or a factor that is no number.
-        """
+        """Judge the values."""
         judge = Arguments("Objective")
         squares = judge.several("squares", self.squares, Squares, "squares_of(...)")
         if self.epigraph is not None:
@@ -164,7 +170,11 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
         weights: (m,), or a number for all: 1 over the size at which each quantity matters.
 
     Raises:
-        InputError: no affine quantities, or weights that are none or not as many.
+        InputError: no affine quantities, or weights that are none, not as many, or less than 0.
+
+    Example:
+        >>> squares_of(formulation.force, 1 / formulation.force_unit).matrix.shape[0]
+        9
     """
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")
@@ -174,5 +184,8 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     if each is None or each.shape not in ((), (count,)):
         wanted = f"a number, or {count} numbers, one for each quantity"
         raise InputError.at("squares_of.weights", f"expected {wanted}; got {described(weights)}")
+    if np.any(each < 0):
+        message = f"expected weights of at least 0, got {float(each.min()):g}: squares can only be made small"
+        raise InputError.at("squares_of.weights", message)
     each = np.broadcast_to(each, (count,))
     return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))

@@ -15,7 +15,12 @@ from synergrip.documents.naming import naming_arguments
 @naming_arguments
 @dataclass(frozen=True)
 class LargestMargin(Goal):
-    """Maximise s with ``slip margin >= s`` everywhere. It stands in the place of the friction-cone limit."""
+    """Maximise s with ``slip margin >= s`` everywhere. It stands in the place of the friction-cone limit.
+
+    Example:
+        >>> Task(duration=1.0, goals=[LargestMargin(), LeastEffort()]).goals[0].name
+        'largest margin'
+    """
 
     name = "largest margin"
     watches = "forces"

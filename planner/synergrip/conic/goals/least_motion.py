@@ -31,9 +31,11 @@ class LeastMotion(Goal):
 
     Args:
         of: "references", "rates" or "accelerations".
+        exact: whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake.
+        stiffest: what that factor makes of the largest entry of the Hessian, at most.
 
     Raises:
-        InputError: `of` is none of these.
+        InputError: `of` is none of these, or another value is none.
 
     Example:
         ``LeastMotion(of="rates")``
@@ -42,9 +44,7 @@ class LeastMotion(Goal):
     in_natural_units = True
     of: Motion = "references"
     exact: bool = field(default=False, repr=False)
-    """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
     stiffest: float = field(default=STIFFEST, repr=False)
-    """What that factor makes of the largest entry of the Hessian, at most."""
 
     def __post_init__(self) -> None:
         """Judge the kind of motion."""

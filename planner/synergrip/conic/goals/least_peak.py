@@ -18,7 +18,12 @@ from synergrip.linalg import frozen
 @naming_arguments
 @dataclass(frozen=True)
 class LeastPeak(Goal):
-    """Minimise s with ``normal force <= s`` at all contacts and knots."""
+    """Minimise s with ``normal force <= s`` at all contacts and knots.
+
+    Example:
+        >>> Task(duration=1.0, goals=[LeastPeak()]).goals[0].has_scalar
+        True
+    """
 
     name = "least peak normal force"
     watches = "forces"

@@ -23,15 +23,20 @@ class SteadyForces(Goal):
     and the sum times the number of knots, so that weights mean the same for any number. It says nothing of a squeeze
     that stays, nor of what moves no force: both are for the next goal.
 
+    Args:
+        exact: whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake.
+        stiffest: what that factor makes of the largest entry of the Hessian, at most.
+
+    Raises:
+        InputError: a value that is none.
+
     Example:
         ``SteadyForces()``
     """
 
     in_natural_units = True
     exact: bool = field(default=False, repr=False)
-    """Whether the factor before the goal counts, as in a weighted sum, or may be chosen for the solver's sake."""
     stiffest: float = field(default=STIFFEST, repr=False)
-    """What that factor makes of the largest entry of the Hessian, at most."""
 
     def __post_init__(self) -> None:
         """Judge how closely it is looked at."""

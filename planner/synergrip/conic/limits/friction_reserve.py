@@ -24,6 +24,8 @@ from synergrip.statics.motion import Motion
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
+SHARE = "a share of the reserve from 0 to 1"
+
 
 @naming_arguments
 @dataclass(frozen=True, eq=False)
@@ -37,6 +39,7 @@ class FrictionReserve(Limit):
         factor: by which friction may be smaller than stated before a contact slips, 1 or more.
         angle: that every contact force keeps to its cone [rad].
         ratios: share of its friction that a contact may use, between 0 and 1: one for all, or one for each.
+        given_up: share of the reserve that is given up, for rounding, between 0 and 1.
 
     Raises:
         InputError: none or several of them, or one that is no such number.
@@ -48,9 +51,7 @@ class FrictionReserve(Limit):
     factor: float | None = None
     angle: float | None = None
     ratios: OneOrEach = None
-
     given_up: float = field(default=0.0, repr=False)
-    """Share of the reserve that is given up, for rounding."""
 
     def __post_init__(self) -> None:
         """Judge what is given."""
@@ -71,6 +72,8 @@ class FrictionReserve(Limit):
                 message = f"expected shares of the friction between 0 and 1, got {float(ratios.max()):g}"
                 raise InputError.at("FrictionReserve.ratios", message)
             object.__setattr__(self, "ratios", ratios)
+        if size("FrictionReserve.given_up", self.given_up, SHARE, at_least=0.0) > 1:
+            raise InputError.at("FrictionReserve.given_up", f"expected {SHARE}, got {self.given_up:g}")
 
     @property
     def key(self) -> str:

@@ -39,6 +39,7 @@ class JointRange(Limit):
         start: joint values (n_q,) at the start [rad or m], or one for all.
         lower: ends of their ranges (n_q,), or one for all; minus infinity for none.
         upper: the same; infinity for none.
+        of: what the ranges are an argument of, in messages.
 
     Raises:
         InputError: no numbers, or a lower end above an upper one.
@@ -53,7 +54,6 @@ class JointRange(Limit):
     lower: OneOrEach = None
     upper: OneOrEach = None
     of: str = field(default="JointRange", repr=False)
-    """What the ranges are an argument of, in messages."""
     key = "limits.joint_range"
 
     def __new__(cls, *values: OneOrEach, **named: OneOrEach) -> Self:
@@ -71,6 +71,9 @@ class JointRange(Limit):
             if np.any(np.isnan(found)) or (end == "start" and not np.all(np.isfinite(found))):
                 worst = found[~np.isfinite(found)].ravel()[0]
                 raise InputError.at(name, f"expected finite numbers{' or infinity' * (end != 'start')}, got {worst:g}")
+            if np.any(found == {"lower": np.inf, "upper": -np.inf}.get(end, np.nan)):
+                free = "-math.inf" if end == "lower" else "math.inf"
+                raise InputError.at(name, f"no joint gets as far as {found.ravel()[0]:g}; {free} stands for no bound")
             object.__setattr__(self, end, found)
         low, high = (np.atleast_1d(0.0 if end is None else end) for end in (self.lower, self.upper))
         given = self.lower is not None and self.upper is not None

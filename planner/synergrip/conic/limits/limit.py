@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 Watches = Literal["forces", "motion", "references"]
 """The internal force alone; that and the rigid motion; or all of the references, so that redundancy matters."""
+WATCHES: tuple[str, ...] = get_args(Watches)
 
 
 @naming_arguments
@@ -45,6 +46,11 @@ class Usage(Value):
 
     Raises:
         InputError: names that are none, or arrays that are none or do not fit items and times.
+
+    Example:
+        >>> usage = Usage("force", "N", ("thumb",), [[3.0], [4.5]], [0.0], [5.0], [5.0], [0.0, 1.0])
+        >>> usage.excess.tolist()
+        [[-2.0], [-0.5]]
     """
 
     title: str

@@ -33,6 +33,7 @@ class NormalForce(Limit):
     Args:
         lower: least normal force [N].
         upper: largest normal force [N]; infinity for none.
+        key: what asks for it, in messages and proofs.
 
     Raises:
         InputError: no forces of at least 0, or a lower bound above the upper one.

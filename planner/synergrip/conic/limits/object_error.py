@@ -38,6 +38,8 @@ class ObjectError(Limit):
         limit: largest distance [m].
         axes: which of "x", "y", "z", "rx", "ry", "rz" count.
         part: "whole" or "rigid".
+        key: what asks for it, in messages and proofs.
+        title: in tables and pictures.
 
     Raises:
         InputError: no length greater than 0, no such axes, no such part.
@@ -61,9 +63,11 @@ class ObjectError(Limit):
         judge.finish()
         found = size("ObjectError.limit", self.limit, "a length in metres greater than 0", above=0.0)
         axes = (self.axes,) if isinstance(self.axes, str) else tuple(self.axes) if is_list(self.axes) else (self.axes,)
-        for axis in axes:
+        for index, axis in enumerate(axes):
             if not is_word(axis, AXES):
                 raise InputError.at("ObjectError.axes", one_of(axis, AXES))
+            if axis in axes[:index]:
+                raise InputError.at("ObjectError.axes", f"'{axis}' is listed twice")
         if not axes:
             raise InputError.at("ObjectError.axes", f"expected one or more of {', '.join(AXES)}, got none")
         if not is_word(self.part, get_args(Part)):

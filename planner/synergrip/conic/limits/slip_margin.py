@@ -22,6 +22,7 @@ class SlipMargin(FrictionCone):
 
     Args:
         margin: [N], 0 or more.
+        key: what asks for it, in messages and proofs.
 
     Raises:
         InputError: no such force.

@@ -16,6 +16,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import Finished
 from synergrip.linalg import Array, frozen
+from synergrip.values import Kept
 
 COMPONENTS = ("n", "t", "o", "m", "m_t", "m_o")
 """All that a contact can transmit, in row order: forces along n, t, o [N], moments about n, t, o [N m]."""
@@ -59,8 +60,13 @@ SPIN_FRICTION = Parameter("spin_friction", "moment about the normal per normal f
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactKind(Finished, ABC):
-    """A kind of contact with its parameters, each greater than 0: what it transmits and withstands."""
+class ContactKind(Finished, Kept, ABC):
+    """A kind of contact with its parameters, each greater than 0: what it transmits and withstands.
+
+    Example:
+        >>> isinstance(HardFinger(friction=0.6), ContactKind), HardFinger(friction=0.6).components
+        (True, ('n', 't', 'o'))
+    """
 
     name: ClassVar[str]
     """Name in files."""
@@ -76,6 +82,9 @@ class ContactKind(Finished, ABC):
     """What each cone is about, where there are several."""
 
     _example = "HardFinger(friction=0.6)"
+    _elsewhere: ClassVar[Mapping[str, str]] = {
+        name: f"it is the contact's: ContactAt(..., {name}=...)" for name in EXAMPLE_OF
+    }
 
     def __post_init__(self) -> None:
         """Judge the parameters.

@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import Finished
 from synergrip.linalg import Array
+from synergrip.values import Kept
 
 ROUND = 72
 """Points of a circle that is drawn."""
@@ -26,8 +27,13 @@ class Size:
     """Lengths that it is made of."""
 
 
-class Shape(Finished, ABC):
-    """A convex solid of uniform density, centred on the object frame B, with its axes."""
+class Shape(Finished, Kept, ABC):
+    """A convex solid of uniform density, centred on the object frame B, with its axes.
+
+    Example:
+        >>> isinstance(Sphere(radius=0.05), Shape)
+        True
+    """
 
     name: ClassVar[str]
     """Key in problem files."""
