@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.between import states_between
 from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
 from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
@@ -65,31 +66,31 @@ class Execution(Value):
         return Maps(**{each.name: getattr(self.path.maps, each.name)[self.kept] for each in fields(Maps)})
 
     @cached_property
+    def regular(self) -> Array:
+        """(K,) whether the tangent of the equilibria has an inverse."""
+        return np.asarray(self.path.regular[self.kept])
+
+    @cached_property
     def joint(self) -> Array:
         """(K, n_q) joint displacement from the start [rad or m]."""
         return frozen(self.states.q - self.setting.held.q)
 
-    def interpolated(self, times: Array) -> States:
-        """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
+    def interpolated(self, times: Array, wrench: Array | None = None) -> States:
+        """Return states between the equilibria, at some times (M,): where Newton's method may begin.
 
         Where contacts roll, those of the first squeeze come before them.
-        """
-        from scipy.spatial.transform import Rotation
 
-        judge, known = Arguments("Execution.interpolated"), self.states
+        Args:
+            times: [s].
+            wrench: (M, 6) on the object there; straight from one instant to the next when it is not given.
+        """
+        judge = Arguments("Execution.interpolated")
         times = judge.array("times", times, np.shape(np.atleast_1d(times))[:1], ": times (M,) [s]")
+        if wrench is not None and not judge.issues:
+            wrench = judge.array("wrench", wrench, (len(times), 6), ", a row for each time")
         judge.finish()
-        last = np.clip(np.searchsorted(self.times, times, side="right"), 1, len(self.times) - 1)
-        span = np.maximum(self.times[last] - self.times[last - 1], 1e-300)
-        share = np.clip((times - self.times[last - 1]) / span, 0.0, 1.0)[:, None]
-        q, position, forces = (
-            (1 - share) * values[last - 1] + share * values[last] for values in (known.q, known.position, known.forces)
-        )
-        before = Rotation.from_matrix(np.array(known.rotation[last - 1]))
-        turn = (Rotation.from_matrix(np.array(known.rotation[last])) * before.inv()).as_rotvec()
-        rotation = (Rotation.from_rotvec(share * turn) * before).as_matrix()
-        there = States(q, position, rotation, forces)
-        lead = len(self.path.states) - len(known)
+        there = states_between(self.times, self.balance, self.maps, self.regular, times, wrench)
+        lead = len(self.path.states) - len(self.states)
         return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
 
     def left(self, wanted: Array) -> Array:
@@ -109,14 +110,12 @@ class Execution(Value):
     @cached_property
     def margins(self) -> Array:
         """(K, n_c) slip margins [N]; contacts stick here whatever it is, and would slip where it is negative."""
-        grasp = self.setting.grasp
-        parts = zip(grasp.contacts, grasp.rows, strict=True)
-        return frozen(np.column_stack([contact.slip_margin(self.states.forces[:, rows]) for contact, rows in parts]))
+        return frozen(self.setting.slip_margins(self.states.forces))
 
     @cached_property
     def residual(self) -> float:
         """The largest error of the equilibria, relative to lengths and forces of the grasp."""
-        return float(self.balance.error.max(initial=0.0))
+        return float(self.path.error[self.kept].max(initial=0.0))
 
     @cached_property
     def stiffness(self) -> Array:
@@ -129,8 +128,7 @@ class Execution(Value):
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        regular = self.balance.regular
-        return frozen(np.where(regular, 1.0 / np.where(regular, soft, 1.0), 0.0))
+        return frozen(np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0))
 
     @cached_property
     def du(self) -> Array:
