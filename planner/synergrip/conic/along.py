@@ -134,11 +134,21 @@ class AlongPath(Formulation):
 class AtStates(Formulation):
     """A formulation at states that are known, for what a motion uses of limits: its rigid part is known, too."""
 
-    known_rigid: Array | None = None
+    known_rigid: Callable[[], Array] | None = None
 
     @classmethod
-    def of(cls, formulation: Formulation, *, times: Array, wrench: Array, target: Array, rigid: Array) -> AtStates:
-        """Return it at some instants (T,), with the target and the rigid part (T, 6) of the motion there."""
+    def of(
+        cls, formulation: Formulation, *, times: Array, wrench: Array, target: Array, rigid: Callable[[], Array]
+    ) -> AtStates:
+        """Return it at some instants (T,).
+
+        Args:
+            formulation: of the task at its knots.
+            times: the instants [s].
+            wrench: (T, 6) on the object.
+            target: (T, 6) where it is wanted [m, rad].
+            rigid: returns the rigid part (T, 6) of the motion, which few limits look at [m, rad].
+        """
         return cls(
             **fields_of(formulation) | {"times": times, "wrench": wrench, "target": target, "each": None},
             known_rigid=rigid,
@@ -146,8 +156,12 @@ class AtStates(Formulation):
 
     def rigid_motion(self, dz_r: Array) -> Array:
         """Return the rigid part (T, 6) of the motion [m, rad]."""
+        return self._rigid_part
+
+    @cached_property
+    def _rigid_part(self) -> Array:
         assert self.known_rigid is not None
-        return self.known_rigid
+        return self.known_rigid()
 
 
 def _each(matrix: Array, knots: int) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.between import states_between
 from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
 from synergrip.equilibrium.newton import at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
@@ -72,30 +73,36 @@ class Execution(Value):
         return Maps(**{each.name: getattr(self.path.maps, each.name)[self.kept] for each in fields(Maps)})
 
     @cached_property
+    def regular(self) -> Array:
+        """(K,) whether the tangent of the equilibria has an inverse."""
+        return np.asarray(self.path.regular[self.kept])
+
+    @cached_property
     def joint(self) -> Array:
         """(K, n_q) joint displacement from the start [rad or m]."""
         return frozen(self.states.q - self.setting.held.q)
 
-    def interpolated(self, times: Array) -> States:
-        """Return states half-way between the equilibria, at some times (M,): where Newton's method may begin.
+    def interpolated(self, times: Array, wrench: Array | None = None) -> States:
+        """Return states between the equilibria, at some times (M,): where Newton's method may begin.
 
-        Where contacts roll, those of the first squeeze come before them. Beyond the last equilibrium that was reached
-        there is that one.
+        Where contacts roll, those of the first squeeze come before them. Beyond the last of them there is that one.
+
+        Args:
+            times: [s].
+            wrench: (M, 6) on the object there; straight from one instant to the next when it is not given.
 
         Raises:
-            InputError: times that are none, or an execution that reached none of its instants.
+            InputError: times or wrenches that are none, or an execution that reached none of its instants.
         """
-        judge, known = Arguments("Execution.interpolated"), self.states
+        judge = Arguments("Execution.interpolated")
         times = judge.array("times", times, np.shape(np.atleast_1d(times))[:1], ": times (M,) [s]")
+        if wrench is not None and not judge.issues:
+            wrench = judge.array("wrench", wrench, (len(times), 6), ", a row for each time")
         judge.finish()
-        if not len(known):
+        if not (count := len(self.states)):
             raise InputError.at("Execution.interpolated", f"no instant was reached, so no state is known: {self.why}")
-        reached = self.times[: len(known)]
-        last = np.clip(np.searchsorted(reached, times, side="right"), min(1, len(known) - 1), len(known) - 1)
-        first = np.maximum(last - 1, 0)
-        span = np.maximum(reached[last] - reached[first], 1e-300)
-        there = known.between(first, last, np.clip((times - reached[first]) / span, 0.0, 1.0))
-        lead = len(self.path.states) - len(known)
+        there = states_between(self.times[:count], self.balance, self.maps, self.regular, times, wrench)
+        lead = len(self.path.states) - count
         return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
 
     def left(self, wanted: Array) -> Array:
@@ -115,9 +122,7 @@ class Execution(Value):
     @cached_property
     def margins(self) -> Array:
         """(K, n_c) slip margins [N]; contacts stick here whatever it is, and would slip where it is negative."""
-        grasp = self.setting.grasp
-        parts = zip(grasp.contacts, grasp.rows, strict=True)
-        return frozen(np.column_stack([contact.slip_margin(self.states.forces[:, rows]) for contact, rows in parts]))
+        return frozen(self.setting.slip_margins(self.states.forces))
 
     @cached_property
     def residual(self) -> float:
@@ -135,8 +140,7 @@ class Execution(Value):
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        regular = self.path.regular[self.kept]
-        return frozen(np.where(regular, 1.0 / np.where(regular, soft, 1.0), 0.0))
+        return frozen(np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0))
 
     @cached_property
     def du(self) -> Array:
@@ -209,12 +213,8 @@ def _judged(
         judge.numbers("references", references, "references (T, n_z)")
     if judge.one("loads", loads, Loads, "Loads.of(np.zeros((T, 6)))") is not None and count and len(loads) != count:
         judge.refuse("loads", f"expected loads at {count} times, got {len(loads)}")
-    states = guess.states if isinstance(guess, Execution) else guess
-    if (
-        states is not None
-        and judge.one("guess", states, States, "another execution, or its states") is not None
-        and count
-    ):
+    states, example = guess.states if isinstance(guess, Execution) else guess, "another execution, or its states"
+    if states is not None and judge.one("guess", states, States, example) is not None and count:
         known, start = [(count, own.grasp.n_q), (squeezes(own) + count, own.grasp.n_q)], own.start
         if states.q.shape not in known or states.forces.shape != (len(states), start.forces.shape[1]):
             judge.refuse("guess", f"expected states of this grasp at {count} times, got joints {states.q.shape}")

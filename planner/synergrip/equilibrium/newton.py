@@ -11,6 +11,8 @@ from synergrip.linalg import Array
 
 AT_REST = 1e-11
 """Error of `Balance.error` that counts as equilibrium."""
+FINE = 1e-12
+"""An error from which another iteration is made, if only one: two ways to the same state then agree to its digits."""
 NEAR = 1e-3
 """An error below which the derivatives of the state before are as good: they leave out as much."""
 MOST = 40
@@ -38,10 +40,15 @@ def settled(
         the equations; whose `error` is above `AT_REST` where the method did not converge.
     """
     balance = Balance.of(setting, states, loads, references, known)
-    inverse = None if known is None else known.inverse
+    inverse, rested = None if known is None else known.inverse, None
     for count in range(MOST):
-        if np.all(at_rest(balance)) or not np.all(balance.error < LOST):
+        if not np.all(at_rest(balance)):
+            if rested is not None or not np.all(balance.error < LOST):
+                return rested or balance, count
+        elif rested is not None or np.all(balance.error <= FINE):
             return balance, count
+        else:
+            rested = balance
         if inverse is None or (count and np.any(balance.error > NEAR)):
             inverse = balance.inverse
         moved = _moved(setting, balance.states, _step(balance, inverse))

@@ -58,6 +58,11 @@ class Setting(Value):
         """Return (1) the load at the start, with the points of other loads."""
         return Loads(np.array(self.grasp.w_0)[None], loads.points, np.zeros((1, *loads.at_points.shape[1:])))
 
+    def slip_margins(self, forces: Array) -> Array:
+        """Return the slip margins (T, n_c) of contact forces (T, n_l) [N]."""
+        parts = zip(self.grasp.contacts, self.grasp.rows, strict=True)
+        return np.column_stack([contact.slip_margin(forces[:, rows]) for contact, rows in parts])
+
     @cached_property
     def compliance(self) -> Array:
         """(n_q, n_q) of the joints with the synergies behind them: C_q + S C_z S'."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
-from synergrip.linalg import Array, Places
+from synergrip.linalg import Array
 from synergrip.values import Value
 
 
@@ -30,18 +30,6 @@ class States(Value):
     def taken(self, places: Any) -> States:
         """Return some of them."""
         return States(*(getattr(self, field.name)[places] for field in fields(self)))
-
-    def between(self, first: Places, last: Places, share: Array) -> States:
-        """Return states between some (M,) and others, which they reach at a share (M,) of 1."""
-        from scipy.spatial.transform import Rotation
-
-        part = share[:, None]
-        q, position, forces = (
-            (1 - part) * values[first] + part * values[last] for values in (self.q, self.position, self.forces)
-        )
-        before = Rotation.from_matrix(np.array(self.rotation[first]))
-        turn = (Rotation.from_matrix(np.array(self.rotation[last])) * before.inv()).as_rotvec()
-        return States(q, position, (Rotation.from_rotvec(part * turn) * before).as_matrix(), forces)
 
     @classmethod
     def joined(cls, parts: Sequence[States]) -> States:

@@ -14,7 +14,7 @@ from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
-from synergrip.statics.response import Response
+from synergrip.statics.response import Maps, Response
 from synergrip.tasks.pushes import pushes_in
 from synergrip.tasks.timed_task import TimedTask
 
@@ -66,10 +66,10 @@ def analyses_of(execution: Execution, start: Analysis) -> Each:
     return analyse_along(start, execution.maps, G=at.G, J=at.J, points=at.arms, forces=at.states.forces)
 
 
-def sag_of(each: Each, wrench: Array, start: Analysis) -> Array:
+def sag_of(maps: Maps, wrench: Array, start: Analysis) -> Array:
     """Return the displacement (T, 6) that the change of the load (T, 6) makes, by the maps of each state [m, rad]."""
     change = wrench - start.grasp.w_0
-    return frozen((each.response.du_dw @ change[:, :, None])[:, :, 0])
+    return frozen((maps.du_dw @ change[:, :, None])[:, :, 0])
 
 
 def loads(task: TimedTask, times: Array, wrench: Array) -> Loads:

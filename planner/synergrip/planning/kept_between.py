@@ -8,17 +8,21 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from synergrip.conic.formulation import Formulation
+from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
-from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows
-from synergrip.linalg import Array, frozen
+from synergrip.equilibrium.execution import Execution
+from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
 
 MORE = 1.2
 """What is asked for at the knots for each newton of margin, or share of another limit, that is missing between them."""
+ENOUGH = 0.5
+"""Share of what a margin may miss and still counts as kept that what bends may be without more being asked for."""
 ROUNDS, MOST_SHARE = 3, 0.5
 """How often this is done, and up to what share of limits other than the margin."""
 
@@ -50,7 +54,7 @@ class MoreAtKnots(Value):
         if not any(short):
             return None
         cones, *others = between.usages
-        margin = self.margin + MORE * _beside(task.times, cones) * short[0]
+        margin = self.margin + MORE * _beside(task.times, cones.times, cones.excess) * short[0]
         shares = np.array(self.shares)
         of_instants = [i for i, limit in enumerate(task.kept) if not limit.couples_knots]
         for i, usage, over in zip(of_instants, others, short[1:], strict=True):
@@ -58,6 +62,20 @@ class MoreAtKnots(Value):
         if self.rounds == ROUNDS or shares.max(initial=0.0) > MOST_SHARE:
             return None
         return MoreAtKnots(frozen(margin), tuple(shares.tolist()), self.rounds + 1)
+
+    def for_what_bends(self, executed: Execution, looks: Looks, room: float) -> MoreAtKnots:
+        """Return more than this, by what margins near a plan will be less between the knots than straight lines say.
+
+        Args:
+            executed: references near those that are looked for, at the knots of the task.
+            looks: instants that count, the knots among them.
+            room: how far below what is asked a margin counts as kept [N].
+        """
+        straight = interpolated(looks.times, executed.times, executed.margins)
+        bend = _beside(executed.times, looks.times, straight - margins_at(executed, looks))
+        if bend.max(initial=0.0) <= ENOUGH * room:
+            return self
+        return replace(self, margin=frozen(self.margin + bend))
 
     def asked(self, limits: Sequence[Limit]) -> tuple[Limit, ...]:
         """Return the limits of a task, with or without its friction cones, as they are asked for at the knots."""
@@ -82,10 +100,16 @@ class _MarginAtKnots(FrictionCone):
         return replace(self, at_knots=frozen(self.at_knots - share * np.abs(self.at_knots)))
 
 
-def _beside(knots: Array, usage: Usage) -> Array:
-    """Return for each knot (T, m) how much is missing at most in the intervals beside it."""
-    missing, found = np.maximum(usage.excess, 0.0), np.zeros((len(knots), usage.value.shape[1]))
-    after = np.clip(np.searchsorted(knots, usage.times, side="left"), 1, len(knots) - 1)  # t in (before, after]
+def margins_at(executed: Execution, looks: Looks) -> Array:
+    """Return the slip margins (M, n_c) that a hand has about at some instants (M) of an execution [N]."""
+    there = executed.interpolated(looks.times, looks.wrench)
+    return executed.setting.slip_margins(there.forces[-len(looks.times) :])
+
+
+def _beside(knots: Array, times: Array, missing: Array) -> Array:
+    """Return for each knot (T, m) how much at most is missing beside it, of what is missing at some times (M, m)."""
+    missing, found = np.maximum(missing, 0.0), np.zeros((len(knots), missing.shape[1]))
+    after = np.clip(np.searchsorted(knots, times, side="left"), 1, len(knots) - 1)  # t in (before, after]
     for beside in (after - 1, after):
         np.maximum.at(found, beside, missing)
     return found

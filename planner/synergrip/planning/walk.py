@@ -15,6 +15,7 @@ import numpy as np
 from synergrip.conic.along import AlongPath, Path
 from synergrip.conic.formulation import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.equilibrium.execution import Execution
@@ -23,11 +24,13 @@ from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
 from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
-from synergrip.planning.kept_between import MoreAtKnots
+from synergrip.planning.kept_between import MoreAtKnots, margins_at
+from synergrip.planning.looks import looks_between
+from synergrip.planning.pace import Pace
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import begun, through
-from synergrip.planning.walk_so_far import FOLLOWED, NEARER, Walk
+from synergrip.planning.walk_so_far import FOLLOWED, Walk
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -39,11 +42,9 @@ from synergrip.tasks.tracking_along import Steps, steps
 MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
-SHORTER, SHORTEST, TRIES, VAIN = 1 / 3, 1e-3, 2, 3
-"""By how much a step is shorter after one in vain, and the shortest; how often a true walk is tried to be brought
-nearer, and how often a first pass is tried: after that there is no way from where it begins."""
-AIMED, SHORTEST_CUT = 0.5, 0.05
-"""What a shorter step aims at, as a share of the difference that is allowed; the least share that a step is cut to."""
+NEAR_BY = 1e-3
+"""[m] How near the object is where it may be brought nearer at as large a joint motion as one that is far: what is as
+dear as joint motions goes with what is left of the way, so that this falls as its square."""
 OF_PATH = 1e-3
 """Share of the largest force on a path that the unit of force in a program around it is at least."""
 REACHED = 0.01
@@ -88,6 +89,16 @@ class Walker:
 
         return grown(self, hold)
 
+    def kept_between(self, walk: Walk) -> Walk:
+        """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
+        if self.task.between == "report" or len(self.task.times) < 2 or isinstance(self.task.goal, LargestMargin):
+            return walk
+        if self.task.margin - margins_at(walk.executed, self._looks(walk)).min() <= walk.kept_to:
+            return walk
+        again = self.on(replace(walk, gap=np.inf))
+        kept = self.arrived(again) or again.interrupted
+        return again if kept else replace(walk, passes=again.passes, tried=again.tried)
+
     def near(self, walk: Walk) -> bool:
         """Return whether a walk is as far as wanted, and promise and truth are near each other."""
         return walk.behind <= self.allowed and walk.rough
@@ -108,26 +119,25 @@ class Walker:
             best: where they begin.
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
-        share, tries, stays = 1.0, 0, False
+        pace = Pace()
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
-            there = best.behind < FOLLOWED or tries == TRIES or (stays and best.behind <= self.allowed)
+            there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
-            done = done or best.interrupted or (roughly and (tries > 0 or self.near(best)))
-            if best.way is None or done or share < SHORTEST or (best.stage is None and tries == VAIN):
+            done = done or best.interrupted or (roughly and (pace.tries > 0 or self.near(best)))
+            if best.way is None or done or pace.ends(begins=best.stage is None):
                 break
             try:
-                answered, limits = self._first(best.way, best, share)
+                answered, limits = self._first(best.way, best, pace)
                 found = self._after(answered, limits, best) if answered.decision.acceptable else None
             except KeyboardInterrupt:
                 return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
-            LOG.info("pass %d, step %.2g: %s", count, share, _told(found, good))
+            LOG.info("pass %d, %s: %s", count, pace, _told(found, good))
             tried = (*best.tried, answered.decision)
             met = best.hindered  # a shorter step is hindered by being short, too
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
-            tries, share = 0 if good else tries + 1, min(1.0, 2 * share) if good else share * _shorter(found)
             now = found if good and found is not None else best
-            stays = good and now.behind > NEARER * best.behind
+            pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
             best = replace(now, passes=count, tried=tried, hindered=met)
         return best
 
@@ -160,13 +170,23 @@ class Walker:
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
-    def _first(self, way: Steps, walk: Walk, share: float) -> tuple[Answered, tuple[Limit, ...]]:
+    def _first(self, way: Steps, walk: Walk, pace: Pace) -> tuple[Answered, tuple[Limit, ...]]:
         """Return what the first goal comes to around a path, and the limits that it keeps."""
         first, task = self.task.goal, self.task
         limits = task.kept if isinstance(first, LargestMargin) else task.all_limits
-        limits = limits if self.more is None else self.more.asked(limits)
-        limits = (*limits, ShortStep())
-        return ask(Question(self.around(way, walk, share), limits, first), self.solver), limits
+        more = self._more_at_knots(walk)
+        limits = (*(limits if more is None else more.asked(limits)), ShortStep())
+        return ask(Question(self.around(way, walk, pace), limits, first), self.solver), limits
+
+    def _more_at_knots(self, walk: Walk) -> MoreAtKnots | None:
+        """Return how much more is asked for at the knots than the task does, for what true forces do between them."""
+        if self.task.between == "report" or len(self.task.times) < 2 or not walk.alike:
+            return self.more
+        more = self.more or MoreAtKnots.none(self.task, self.start.grasp.n_c)
+        return more.for_what_bends(walk.executed, self._looks(walk), walk.kept_to)
+
+    def _looks(self, walk: Walk) -> Looks:
+        return looks_between(self.task, self.start, self.wanted, walk.kept_to)
 
     @cached_property
     def wanted(self) -> Array:
@@ -175,14 +195,15 @@ class Walker:
             return self.aim
         return frozen(target_displacement(self.start, self.task, self.task.target.values))
 
-    def around(self, way: Steps, walk: Walk, share: float) -> AlongPath:
+    def around(self, way: Steps, walk: Walk, pace: Pace) -> AlongPath:
         """Return the task around a path, with a rigid motion that follows what is wanted as far as is cheap."""
         task, start = self.task, self.start
-        beta, moved = way.damped(DAMPING / share)
+        near = min(1.0, walk.behind / NEAR_BY) if pace.way == 1.0 else 1.0
+        beta, moved = way.damped(DAMPING / pace.way * near)
         displacement = frozen(self.wanted - walk.executed.left(self.wanted))
         path = Path(
             walk.references, walk.executed.joint, displacement, frozen(displacement + way.beside),
-            sag_of(way.each, task.wrench, start), frozen(STEP * share + 1.5 * moved),
+            sag_of(way.each.response, task.wrench, start), frozen(STEP * pace.step + 1.5 * moved),
         )  # fmt: skip
         sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(
@@ -191,13 +212,6 @@ class Walker:
             each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(formulation, path)
-
-
-def _shorter(found: Walk | None) -> float:
-    """Return by how much a step is made shorter that was too long: its gap is as the square of it."""
-    if found is None or found.way is None:
-        return SHORTER
-    return float(np.clip(np.sqrt(AIMED * found.room / max(found.gap, 1e-300)), SHORTEST_CUT, SHORTER))
 
 
 def _told(found: Walk | None, good: bool) -> str:

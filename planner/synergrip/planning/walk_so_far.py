@@ -16,8 +16,12 @@ from synergrip.values import Value
 
 TRUE, OF_FORCES = 1e-3, 1e-4
 """A promise is true when it is to this many newtons, or to this share of the largest force where that is more."""
+KEPT, OF_FORCES_KEPT = 1e-3, 1e-3
+"""A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
 ROUGH = 0.05
 """Share of the largest force up to which promise and truth are near each other."""
+ALIKE = 0.3
+"""Share of the largest force up to which forces between the knots bend as they will when promise is truth."""
 BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
 FOLLOWED, NEARER = 1e-5, 0.9
@@ -65,9 +69,20 @@ class Walk(Value):
         return self.way is not None and self.gap <= max(TRUE, ROUGH * self.largest)
 
     @property
+    def alike(self) -> bool:
+        """Whether forces between the knots bend much as they will in the end."""
+        known = self.gap <= ALIKE * self.largest or (np.isinf(self.gap) and self.stage is not None)
+        return self.way is not None and known
+
+    @property
     def room(self) -> float:
         """[N] difference up to which a promise counts as what happens."""
         return max(TRUE, OF_FORCES * self.largest)
+
+    @property
+    def kept_to(self) -> float:
+        """[N] how far beyond a limit forces may be that count as kept."""
+        return max(KEPT, OF_FORCES_KEPT * self.largest)
 
     @property
     def largest(self) -> float:

@@ -84,6 +84,8 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if not walk.true:
         why = f"after {walk.passes} passes what is promised and what the hand does still differ by {walk.gap:.3g} N"
         return _unknown(walker, linear, why, walk, figures(walk, walker, linear.formulation, linear.between))
+    if (walk := walker.kept_between(walk)).interrupted:
+        return _best_so_far(walk, walker, linear)
     found = figures(walk, walker, linear.formulation, linear.between)
     if kept := _kept_between(walk, walker, found):
         return answer_of(*kept, linear)

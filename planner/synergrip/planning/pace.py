@@ -1,0 +1,76 @@
+"""How far a pass along the motion goes, by what became of the one before it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.planning.walk_so_far import NEARER, Walk
+
+SHORTER, SHORTER_WAY, SHORTEST = 1 / 3, 1 / 9, 1e-3
+"""By how much a step is shorter after one in vain, and a way that no program goes; the shortest of both."""
+TRIES, VAIN = 2, 2
+"""How often a true walk is tried to be brought nearer, and how often a first pass is tried: no way leads from where it
+begins then."""
+AIMED, SHORTEST_CUT, LONGER = 0.5, 0.05, 2.0
+"""The difference that a step aims at, as a share of what is allowed; the least and the largest share of itself that a
+step is cut or made longer to."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How far the next pass goes."""
+
+    step: float = 1.0
+    """Share of the step that joints may make beyond what the way takes."""
+    way: float = 1.0
+    """How much dearer joint motions may be on the way that is left: a shorter one takes less of them."""
+    tries: int = 0
+    """Passes in vain since the last good one."""
+    stays: bool = False
+    """Whether the object would hardly be brought nearer any more."""
+
+    def __str__(self) -> str:
+        """Return the shares."""
+        return f"step {self.step:.2g}, way {self.way:.2g}"
+
+    @property
+    def settled(self) -> bool:
+        """Whether nothing is to be gained for a walk that is true."""
+        return self.tries == TRIES
+
+    def ends(self, *, begins: bool) -> bool:
+        """Return whether no further pass is worth it.
+
+        Args:
+            begins: whether none was good so far.
+        """
+        return min(self.step, self.way) < SHORTEST or (begins and self.tries == VAIN)
+
+    def on(self, before: Walk, now: Walk, allowed: float) -> Pace:
+        """Return the pace after a good pass.
+
+        A way that was too long before it goes on being so, except where the object must still be brought nearer.
+
+        Args:
+            before: where the pass began.
+            now: what it came to.
+            allowed: how far the object may be behind [m].
+        """
+        step = min(1.0, self.step * float(np.clip(_fitting(now), SHORTER, LONGER))) if self.step < 1 else self.step
+        stays = now.behind > NEARER * before.behind or self.way < 1
+        return Pace(step, min(1.0, LONGER * self.way) if now.behind > allowed else self.way, 0, stays)
+
+    def back(self, found: Walk | None) -> Pace:
+        """Return the pace after a pass in vain: what it came to, or None when no program goes it."""
+        again = replace(self, tries=self.tries + 1, stays=False)
+        if found is None:
+            return replace(again, way=self.way * SHORTER_WAY)
+        shorter = SHORTER if found.way is None else float(np.clip(_fitting(found), SHORTEST_CUT, SHORTER))
+        return replace(again, step=self.step * shorter)
+
+
+def _fitting(found: Walk) -> float:
+    """Return the share of a step that would be as true as is aimed at: promise and truth differ by its square."""
+    return float(np.sqrt(AIMED * found.room / max(found.gap, 1e-300)))
