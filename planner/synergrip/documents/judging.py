@@ -144,6 +144,29 @@ def place_of(key: str, value: Any, count: int) -> int:
     return int(value) % count
 
 
+def places_of(key: str, value: Any, count: int) -> Any:
+    """Return places among `count` as arrays take them: a slice, whole numbers, or True or False for each.
+
+    Raises:
+        UnknownPlaceError: something else, or a place that is not among them.
+    """
+    found = value if isinstance(value, np.ndarray) and value.ndim == 1 else None
+    if isinstance(value, slice):
+        if all(end is None or is_whole(end) for end in (value.start, value.stop, value.step)) and value.step != 0:
+            return value
+    elif is_list(value) and all(is_whole(each) and -count <= each < count for each in value):
+        found = np.array(value, dtype=np.intp)
+    elif is_list(value) and all(isinstance(each, bool | np.bool_) for each in value):
+        found = np.array(value, dtype=bool)
+    if found is not None and found.dtype.kind == "b" and len(found) == count:
+        return found
+    if found is not None and found.dtype.kind in "iu" and np.all((found >= -count) & (found < count)):
+        return found
+    last = f"from 0 to {count - 1}" if count else "of which there are none"
+    wanted = f"expected places {last}: whole numbers, a slice, or True or False for each of {count}"
+    raise UnknownPlaceError([Issue(f"{wanted}; got {described(value)}", key=key)])
+
+
 def described(value: object) -> str:
     """Return what came, for a message: a number or a text itself, of anything else what it is."""
     if isinstance(value, np.number) and not np.iscomplexobj(value) and not isinstance(value, np.timedelta64):

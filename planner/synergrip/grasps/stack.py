@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import as_numbers, described, place_of
+from synergrip.documents.judging import as_numbers, described, place_of, places_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
@@ -146,10 +146,15 @@ class GraspStack(Value, Sequence[Grasp]):
         return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **arrays)
 
     def taken(self, places: Any) -> GraspStack:
-        """Return the stack of the grasps at some places (whole numbers or a slice), in their order."""
+        """Return the stack of the grasps at some places (whole numbers, a slice, or True or False for each), in order.
+
+        Raises:
+            UnknownPlaceError: there are no such places.
+        """
+        places = places_of("places", places, len(self))
         given: tuple[Grasp, ...] = ()
         if self.given:
-            given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
+            given = tuple(self.given[place] for place in np.arange(len(self))[places])
         stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
         for name in ("metric", "of_object"):  # as cached properties would work them out again
             if name in self.__dict__:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.documents.judging import place_of
+from synergrip.documents.judging import place_of, places_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
@@ -60,7 +60,12 @@ class Responses(Maps):
                         accuracy=accuracies(self.figures[index]))  # fmt: skip
 
     def taken(self, indices: Any) -> Responses:
-        """Return the responses of some of the N grasps (whole numbers or a slice), in their order."""
+        """Return the responses of some of the N grasps (whole numbers, a slice, or True or False for each), in order.
+
+        Raises:
+            UnknownPlaceError: there are no such grasps.
+        """
+        indices = places_of("indices", indices, len(self.places))
         maps = {field.name: getattr(self, field.name)[indices] for field in fields(Maps)}
         return Responses(**maps, grasps=self.grasps.taken(indices), places=self.places[indices],
                          restraint=self.restraint.taken(indices), figures=self.figures[indices],
