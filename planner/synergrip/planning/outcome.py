@@ -125,7 +125,7 @@ class Plan(Tabled):
 
     @property
     def forces(self) -> Array:
-        """(T, n_l) contact forces of the hand on the object, rows (n, t, o [, moment]) of each contact [N, N m]."""
+        """(T, n_l) contact forces of the hand on the object, rows (n, t, o [, moments]) of each contact [N, N m]."""
         return self.motion.forces
 
     def __repr__(self) -> str:
