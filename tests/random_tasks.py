@@ -9,7 +9,7 @@ import numpy as np
 from made_kinds import made_kind
 from named_goals import goals
 
-from synergrip.conic.formulation import formulate
+from synergrip.conic.formulate import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
@@ -199,7 +198,7 @@ def _violation(stage: Stage) -> float:
 
 
 def _slacks(stage: Stage) -> tuple[float, ...]:
-    return SLACKS_ALONG if isinstance(stage.formulation, AlongPath) else SLACKS
+    return SLACKS_ALONG if stage.formulation.along_path else SLACKS
 
 
 def _carried(stage: Stage) -> float:
