@@ -8,20 +8,23 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_formulations import random_formulation
 from small_grasps import tripod
 
+from synergrip.conic.build import build
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.weighted_sum import WeightedSum
+from synergrip.conic.limits.differences import Differences
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.rows import Item, Kind, Rows, below_scalar, nonnegative, norm_within
 from synergrip.errors import InputError
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.pyramids import Request, compare
@@ -171,6 +174,37 @@ def test_what_is_given_up_of_a_scalar_is_a_share_of_it(unit: float) -> None:
     assert not [note for note in found.notes if "not verified" in note]
     least = planned(plan(problem.grasp, problem.task.replace(goals=[LeastPeak()])))
     assert total(found) == pytest.approx(total(least), rel=1e-6)
+
+
+@dataclass(frozen=True, eq=False)
+class JointRate(Differences):
+    """Joints move no faster than this."""
+
+    key = "JointRate"
+    title = "joint rate"
+    of = "joint"
+
+    def value(self, formulation: Formulation) -> Affine:
+        return formulation.joint
+
+    def differences(self, times: Array) -> tuple[Array, Array]:
+        return np.diff(times), -np.ones((len(times) - 1, 1))
+
+    def reached(self, motion: Motion) -> Array:
+        rates = np.diff(motion.dq, axis=0) / np.diff(motion.times)[:, None]
+        return np.vstack([np.zeros_like(rates[:1]), rates])
+
+
+def test_differences_are_those_of_the_quantity_that_a_limit_names() -> None:
+    """Rows of joints, at random unknowns: how far their rates are from the bound, in units of the longest step's."""
+    formulation, v = random_formulation(1)[1], np.random.default_rng(2)
+    unknowns, limit = v.normal(size=(formulation.knots, formulation.n_v)), JointRate(0.3)
+    program = build(formulation, [limit], LeastEffort())
+    slack = program.b - program.A @ program.solution(unknowns)
+    steps = np.diff(formulation.times)[:, None]
+    change, room = np.diff(formulation.joint.at(unknowns), axis=0), 0.3 * steps
+    expected = np.stack([room + change, room - change]) / room.max()
+    assert slack.reshape(expected.shape) == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
 def test_a_loosened_limit_of_ones_own_has_that_much_more_room_in_the_heads_of_its_cones() -> None:

@@ -129,7 +129,7 @@ def _refuse(plan: PlayedPlan) -> None:
     for number, pad in enumerate(plan.pads):
         key, name = f"execution.contacts[{number}]", pad.contact.name
         if pad.contact.kind.name not in _CONDIM:
-            message = f"contact '{name}' is {pad.contact.kind.name}; MuJoCo plays hard, soft and frictionless contacts"
+            message = f"contact '{name}' is {pad.contact.kind.name}; MuJoCo plays {', '.join(_CONDIM)} contacts"
             issues.append(Issue(message, key=f"{key}.kind"))
         linear = pad.compliance[:3, :3]
         if np.linalg.eigvalsh((linear + linear.T) / 2).min() <= 0:
