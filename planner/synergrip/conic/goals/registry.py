@@ -8,7 +8,14 @@ from types import MappingProxyType
 
 from synergrip.conic.goals.goal import Goal
 
-FILES = ("largest_margin", "least_peak", "least_effort", "steady_forces", "least_motion", "centred_joints")
+FILES = (
+    "largest_margin",
+    "least_peak",
+    "least_effort",
+    "steady_forces",
+    "least_motion",
+    "centred_joints",
+)
 """Modules beside this one, in the order in which messages list their goals."""
 
 GOALS: Mapping[str, Goal] = MappingProxyType({
