@@ -6,7 +6,8 @@ import numpy as np
 from random_grasps import random_grasp
 
 import synergrip as sg
-from synergrip.conic.formulation import Formulation, Units, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation, Units
 from synergrip.linalg import frozen
 from synergrip.statics.analysis import analyse
 

@@ -9,7 +9,7 @@ import numpy as np
 from made_kinds import made_kind
 from named_goals import goals
 
-from synergrip.conic.formulation import formulate
+from synergrip.conic.formulate import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -20,6 +20,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.conic.question import Question
 from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.contacts.kind import is_moment
+from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, block_diagonal, frozen
 from synergrip.planning.solvers import SOLVERS, ask
@@ -90,8 +91,8 @@ def _contacts(rng: np.random.Generator, count: int, kinds: Shares) -> tuple[Cont
         name = str(rng.choice(list(kinds), p=list(kinds.values())))
         spin = float(rng.uniform(0.002, 0.01)) if name not in ("hard", "frictionless") else 0.0
         mu = float(rng.uniform(0.5, 1.2))
-        more = {"cross_friction": mu * rng.uniform(0.5, 2.0)} if name == "soft-elliptic" else {}
-        more |= {"patch_radius": rng.uniform(0.003, 0.02)} if name == "patch" else {}
+        more = {each.name: rng.uniform(0.003, 0.02) if each.length else mu * rng.uniform(0.5, 2.0)
+                for each in KINDS[name].parameters if each.name not in ("friction", "spin_friction")}  # fmt: skip
         kind = made_kind(name, mu, spin, **more)
         contacts.append(Contact(name=f"C{i + 1}", kind=kind, point=frozen(point), frame=contact_frame(normal)))
     return tuple(contacts)

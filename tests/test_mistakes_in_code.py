@@ -230,6 +230,19 @@ MISTAKES: dict[str, tuple[Callable[[], Any], str]] = {
     "a place beyond responses": (lambda: sg.respond_many([grasp]).at(1), "index"),
     "a place beyond a group": (lambda: sg.analyse_many([grasp]).groups[0].at(1), "index"),
     "a place beyond subspaces": (lambda: sg.analyse_many([grasp]).groups[0].spaces.at(1), "index"),
+    "a usage misspelt": (lambda: any_call.plan(grasp, task).usages["joint torqe"], "usages"),
+    "a usage between the knots misspelt": (lambda: PLAN.between.usages["nothing"], "usages"),  # type: ignore[union-attr]
+    "a usage beyond all": (lambda: PLAN.usages[99], "usages"),
+    "a usage by a number that is none": (lambda: PLAN.usages[1.0], "usages"),
+    "a check misspelt": (lambda: PLAN.checks["balance"], "checks"),
+    "instants beyond loads": (lambda: sg.Loads.of(np.zeros((2, 6))).taken([7]), "places"),
+    "an instant of loads without a list": (lambda: sg.Loads.of(np.zeros((2, 6))).taken(1), "places"),
+    "instants of loads by words": (lambda: sg.Loads.of(np.zeros((2, 6))).taken(["first"]), "places"),
+    "an odd slice of loads": (lambda: sg.Loads.of(np.zeros((2, 6))).taken(slice(None, None, 0)), "places"),
+    "instants beyond states": (lambda: PLAN.executed.states.taken(np.array([99])), "places"),  # type: ignore[union-attr]
+    "grasps beyond a stack": (lambda: sg.GraspStack.of([grasp] * 2).taken([2]), "places"),
+    "a choice of too many grasps": (lambda: sg.GraspStack.of([grasp] * 2).taken([True] * 3), "places"),
+    "grasps beyond responses": (lambda: sg.respond_many([grasp]).taken([-2]), "indices"),
     "coordinates of other sizes": (lambda: PLAN.analysis.coordinates.references([1], [1], []), "alpha"),  # type: ignore[arg-type]
     "coordinates of other lengths": (
         lambda: PLAN.analysis.coordinates.references(np.zeros((5, 3)), np.zeros((4, 1)), np.zeros((5, 0))),
@@ -310,6 +323,31 @@ def test_tables_by_name_and_sequences_stay_what_python_knows() -> None:
     with pytest.raises(IndexError):
         sg.GraspStack.of([grasp])[1]
     assert [each is grasp for each in sg.GraspStack.of([grasp] * 2)] == [True, True]
+
+
+def test_limits_and_checks_of_a_plan_are_found_by_place_and_by_name() -> None:
+    titles = [usage.title for usage in PLAN.usages]
+    assert PLAN.usages["joint value"] is PLAN.usages[titles.index("joint value")]
+    assert (PLAN.usages[-1], PLAN.usages[:2]) == (list(PLAN.usages)[-1], tuple(PLAN.usages)[:2])
+    assert PLAN.checks["equilibrium"].passed
+    with pytest.raises(KeyError, match="'nothing' is not one of 'slip margin' or 'joint value'"):
+        PLAN.usages["nothing"]
+    with pytest.raises(IndexError, match=f"expected a place from 0 to {len(titles) - 1}, got 99"):
+        PLAN.usages[99]
+    for again in (copy.deepcopy(PLAN.usages), pickle.loads(pickle.dumps(PLAN.usages))):
+        assert again["joint value"].value.tolist() == PLAN.usages["joint value"].value.tolist()
+
+
+@pytest.mark.parametrize("places", [[1, -1], np.array([1, 2]), slice(1, None), [False, True, True], [], slice(-9, 1)])
+def test_some_of_loads_are_those_that_an_array_takes(places: Any) -> None:
+    wrench = np.arange(18.0).reshape(3, 6)
+    same = places if len(np.shape(places)) == 0 else np.array(places, dtype=None if len(places) else int)
+    assert sg.Loads.of(wrench).taken(places).wrench.tolist() == wrench[same].tolist()
+
+
+def test_a_choice_of_grasps_is_those_that_are_true() -> None:
+    two = [grasp, made(title="other")]
+    assert list(sg.GraspStack.of(two).taken([False, True])) == [two[1]]
 
 
 def test_moves_add_up_by_sum_and_one_lower_force_is_enough() -> None:

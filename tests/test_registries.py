@@ -35,6 +35,7 @@ from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.shapes.shapes import SHAPES
 from synergrip.planning.solvers import SOLVERS
 from synergrip.referee import formulas
+from synergrip.simulation.geoms import GEOMS
 
 DOCUMENTED = (Path(__file__).parent.parent / "docs" / "problem-file.md").read_text(encoding="utf-8")
 
@@ -86,6 +87,17 @@ def test_a_kind_of_contact_and_a_shape_have_their_names(part: type) -> None:
     """Their other parts are asked for in tests/grasps."""
     assert getattr(synergrip, part.__name__, None) is part, "its name is not in synergrip/__init__.pyi"
     assert "Example:" in (part.__doc__ or ""), "an Example: is not in its docstring"
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_shape_is_where_plans_are_described(name: str) -> None:
+    answers = (Path(__file__).parent.parent / "docs" / "answers.md").read_text(encoding="utf-8")
+    sizes = ", ".join(f"`{size.name}_m`" for size in SHAPES[name].sizes)
+    assert f"`{name}` {{{sizes}" in answers, f"`{name}` {{{sizes}}} is not in the row `object` of docs/answers.md"
+
+
+def test_what_simulate_plays_are_shapes() -> None:
+    assert GEOMS.keys() <= SHAPES.keys()
 
 
 @pytest.mark.parametrize("name", SOLVERS)

@@ -12,7 +12,9 @@ import pytest
 from held_ball import at, ball, grasp, hand, hard, task
 
 import synergrip as sg
+from synergrip.conic.goals.registry import GOALS
 from synergrip.conic.limits.registry import LIMITS
+from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.grasps.shapes.shapes import SHAPES
 from synergrip.planning.executing import Executor
 
@@ -57,10 +59,8 @@ RIGHT: dict[str, dict[str, Any]] = {
     "Turned": {"shape": sg.Box(size=(0.1, 0.1, 0.1)), "rotation": np.eye(3)},
     **{shape.__name__: {size.name: 0.1 if size.count == 1 else (0.1,) * size.count for size in shape.sizes}
        for shape in SHAPES.values()},
-    "HardFinger": {"friction": 0.5},
-    "SoftFinger": {"friction": 0.5, "spin_friction": 0.01},
-    "EllipticSoftFinger": {"friction": 0.5, "cross_friction": 0.4, "spin_friction": 0.01},
-    "PatchContact": {"friction": 0.5, "spin_friction": 0.01, "patch_radius": 0.01},
+    **{kind.__name__: {each.name: 0.01 if each.length else 0.5 for each in kind.parameters}
+       for kind in KINDS.values() if kind.parameters},
     "Contact": {"name": "a", "kind": hard, "point": (0, 0, 0), "frame": np.eye(3)},
     "ContactAt": {"at": "a", "kind": hard, "stiffness": 1.0, "tangential_stiffness": 1.0, "tangent": (1, 0, 0),
                   "normals": "pad", "name": "a"},
@@ -115,15 +115,18 @@ RIGHT: dict[str, dict[str, Any]] = {
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
 }  # fmt: skip
+MADE_OF_OTHERS = {"within", "norm_within", "squares_of", "below_scalar"}
+"""Of quantities that only a formulation has: their arguments are tried in tests/planning/test_own_mistakes.py."""
 OTHERS = {
     "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses", "Execution",
-    "Limit", "within", "norm_within", "squares_of", "Goal", "LargestMargin", "LeastPeak", "LeastEffort",
+    "Limit", *MADE_OF_OTHERS, "Goal",
     "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
     "simulate", "Simulation",
+    *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
-"""Bases, answers, values that only other functions make, and what takes no arguments or is tried above."""
+"""Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
 PLACES = [(name, argument) for name, arguments in RIGHT.items() for argument in arguments]
 
 
@@ -150,7 +153,7 @@ def refused(make: Callable[[], Any], what: str) -> tuple[Any, ...]:
     pytest.fail(f"accepted {what}: {made!r}")
 
 
-@pytest.mark.parametrize("name", sorted({*RIGHT} | {"Frictionless", "within", "norm_within", "squares_of", "Hold"}))
+@pytest.mark.parametrize("name", sorted({*RIGHT, *MADE_OF_OTHERS, "Frictionless", "Hold"}))
 def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str) -> None:
     with pytest.raises(sg.InputError, match="zzz: no such argument"):
         getattr(sg, name)(**RIGHT.get(name, {}), zzz=1)

@@ -60,6 +60,7 @@ from synergrip.conic.rows import norm_within as norm_within
 from synergrip.conic.goals.goal import Goal as Goal
 from synergrip.conic.goals.goal import Objective as Objective
 from synergrip.conic.goals.goal import squares_of as squares_of
+from synergrip.conic.rows import below_scalar as below_scalar
 from synergrip.conic.goals.largest_margin import LargestMargin as LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
 from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort

@@ -12,7 +12,8 @@ from synergrip.conic.affine import Affine
 from synergrip.conic.beside_knots import beside
 from synergrip.conic.build import build
 from synergrip.conic.decide import decide
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.free_basis import free_basis
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.goal import Goal

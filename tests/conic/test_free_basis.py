@@ -9,7 +9,8 @@ import pytest
 from random_formulations import random_formulation
 from scipy.linalg import null_space
 
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.free_basis import _from_knot_to_knot, _products, free_basis
 from synergrip.conic.goals.goal import Goal, Squares
 from synergrip.conic.goals.least_effort import LeastEffort

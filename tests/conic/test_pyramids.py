@@ -12,7 +12,8 @@ from scipy import sparse
 
 from synergrip.conic.certificate import judge_optimal
 from synergrip.conic.decide import decide
-from synergrip.conic.formulation import Formulation, Units, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation, Units
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.joint_torque import JointTorque

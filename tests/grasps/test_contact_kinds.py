@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -24,13 +25,15 @@ from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS
 from synergrip.grasps.contacts.patch_contact import PatchContact
 from synergrip.grasps.contacts.soft_finger import SoftFinger
-from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
+from synergrip.planning.arrays import ARRAYS
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.referee.friction import FORMULAS
+from synergrip.reports.pictures.forces import contact_forces
 from synergrip.tasks.timed_task import TimedTask, still
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -41,6 +44,20 @@ EACH: list[ContactKind] = [
     EllipticSoftFinger(friction=0.8, cross_friction=0.3, spin_friction=0.004),
     PatchContact(friction=0.6, spin_friction=0.004, patch_radius=0.007),
 ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Leaning(ContactKind):
+    """A kind of one's own whose only moment is one about a tangent, not the one about the normal."""
+
+    name: ClassVar[str] = "leaning"
+    components: ClassVar[tuple[str, ...]] = ("n", "t", "o", "m_o")
+
+    @property
+    def cones(self) -> tuple[Array, ...]:
+        return (frozen(np.diag([0.5, 1.0, 1.0, 100.0])),)
+
+
 TIPS = "'finger1/tip','finger2/tip','finger3/tip'"
 
 
@@ -276,6 +293,25 @@ def test_parameters_are_judged(kind: ContactKind) -> None:
             with pytest.raises(InputError) as caught:
                 replace(kind, **{parameter.name: bad})
             assert caught.value.issues[0].key == f"{type(kind).__name__}.{parameter.name}"
+
+
+@pytest.mark.parametrize("kind", EACH, ids=lambda kind: kind.name)
+def test_columns_of_forces_and_of_moments_have_their_units(kind: ContactKind) -> None:
+    (lambdas,) = (array.columns for array in ARRAYS if array.key == "lambda")
+    assert lambdas is not None
+    units = {"n": "N", "t": "N", "o": "N", "m": "Nm", "m_t": "Nm", "m_o": "Nm"}
+    wanted = [f"lambda_C_{component}_{units[component]}" for component in kind.components]
+    assert list(lambdas.names(driven([contact(kind)]))) == wanted
+
+
+@pytest.mark.parametrize("kind", [*EACH, Leaning()], ids=lambda kind: kind.name)
+def test_forces_and_spins_are_drawn_whatever_the_components(kind: ContactKind) -> None:
+    """Forces are those in the wrench on the object, spins the moment about the normal and none about a tangent."""
+    touch, rows = contact(kind, point=(0.0, 0.0, 0.0)), np.arange(1.0, 1.0 + len(kind.components))
+    drawn = contact_forces([touch], rows)
+    wrench = grasp_matrix([touch]) @ rows
+    assert drawn.forces[0] == pytest.approx(wrench[:3], abs=1e-12)
+    assert drawn.spins[0] == pytest.approx(wrench[3:] @ touch.normal, abs=1e-12)
 
 
 def test_a_kind_takes_numbers_of_any_sort() -> None:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from random_formulations import KNOTS, random_formulation
 
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion

@@ -200,6 +200,13 @@ WRONG: dict[str, tuple[Callable[[Any], Any], str]] = {
     "no size": (lambda f: sg.within("k", list("abcdefghi"), f.force, 0, 9, 0), "within.unit"),
     "a key that is none": (lambda f: sg.norm_within(3, "a", f.force, 1.0), "norm_within.limit"),  # type: ignore[arg-type]
     "no item": (lambda f: sg.norm_within("k", "", f.force, 1.0), "norm_within.item"),
+    "names of a scalar's rows": (lambda f: sg.below_scalar("k", ["a"], f.force), "below_scalar.names"),
+    "no quantities below a scalar": (lambda f: sg.below_scalar("k", ["a"], 3), "below_scalar.value"),  # type: ignore[arg-type]
+    "no key below a scalar": (lambda f: sg.below_scalar("", list("abcdefghi"), f.force), "below_scalar.limit"),
+    "no side below a scalar": (
+        lambda f: sg.below_scalar("k", list("abcdefghi"), f.force, side=3),  # type: ignore[arg-type]
+        "below_scalar.side",
+    ),
     "weights of another length": (lambda f: sg.squares_of(f.force, [1, 2]), "squares_of.weights"),  # type: ignore[arg-type]
 }
 

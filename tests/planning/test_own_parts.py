@@ -8,19 +8,23 @@ from typing import Any
 
 import numpy as np
 import pytest
+from random_formulations import random_formulation
 from small_grasps import tripod
 
+from synergrip.conic.build import build
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal, Objective, squares_of
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.weighted_sum import WeightedSum
+from synergrip.conic.limits.differences import Differences
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.limits.synergy_rate import SynergyRate
-from synergrip.conic.rows import Item, Kind, Rows, nonnegative, norm_within
+from synergrip.conic.rows import Item, Kind, Rows, below_scalar, nonnegative, norm_within
 from synergrip.errors import InputError
-from synergrip.linalg import frozen
+from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.pyramids import Request, compare
@@ -70,9 +74,8 @@ class LeastTotal(Goal):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         grasp, unit = formulation.response.grasp, formulation.force_unit
-        total = formulation.force.after(-np.eye(grasp.n_l)[grasp.normal_rows].sum(axis=0, keepdims=True) / unit)
-        one = frozen(np.ones(1))
-        return [Rows("total", Kind.NONNEGATIVE, 1, (Item("all"),), total.matrix, total.constant, one)]
+        total = formulation.force.after(np.eye(grasp.n_l)[grasp.normal_rows].sum(axis=0, keepdims=True) / unit)
+        return [below_scalar("total", ["all"], total)]
 
     def objective(self, formulation: Formulation) -> Objective:
         return Objective(epigraph=1.0)
@@ -143,6 +146,65 @@ def test_a_scalar_of_ones_own_is_kept_by_the_goals_after_it(load: float, goals: 
     for share, verdict in ((1 - 1e-5, "infeasible"), (1 + 1e-5, "feasible")):
         bounded = replace(task, limits=(TotalSqueeze(share * total(found)),), goals=(LeastEffort(),))
         assert plan(tripod(below=0.2), bounded).verdict == verdict
+
+
+@dataclass(frozen=True)
+class LeastPeakTorque(Goal):
+    """Minimise s with ``|tau| <= s``, s in units of its own [N m]."""
+
+    unit: float
+    has_scalar = True
+
+    def rows(self, formulation: Formulation) -> Sequence[Rows]:
+        names = formulation.response.grasp.joints
+        size = np.eye(len(names)) / self.unit
+        sides = (("highest", size), ("lowest", -size))
+        return [below_scalar("peak", names, formulation.torque.after(signed), side) for side, signed in sides]
+
+    def objective(self, formulation: Formulation) -> Objective:
+        return Objective(epigraph=1.0)
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1e-2, 1.0, 1e2])
+def test_what_is_given_up_of_a_scalar_is_a_share_of_it(unit: float) -> None:
+    """The size of a scalar of one's own is anybody's: the program after it has the room that it needs, and no more."""
+    problem = load_problem("pinch-soft")  # where the least torque is that of one plan only
+    found = planned(plan(problem.grasp, problem.task.replace(goals=[LeastPeakTorque(unit), LeastEffort()])))
+    assert [decision.goal for decision in found.decisions] == ["least peak torque", "least contact effort"]
+    assert not [note for note in found.notes if "not verified" in note]
+    least = planned(plan(problem.grasp, problem.task.replace(goals=[LeastPeak()])))
+    assert total(found) == pytest.approx(total(least), rel=1e-6)
+
+
+@dataclass(frozen=True, eq=False)
+class JointRate(Differences):
+    """Joints move no faster than this."""
+
+    key = "JointRate"
+    title = "joint rate"
+    of = "joint"
+
+    def value(self, formulation: Formulation) -> Affine:
+        return formulation.joint
+
+    def differences(self, times: Array) -> tuple[Array, Array]:
+        return np.diff(times), -np.ones((len(times) - 1, 1))
+
+    def reached(self, motion: Motion) -> Array:
+        rates = np.diff(motion.dq, axis=0) / np.diff(motion.times)[:, None]
+        return np.vstack([np.zeros_like(rates[:1]), rates])
+
+
+def test_differences_are_those_of_the_quantity_that_a_limit_names() -> None:
+    """Rows of joints, at random unknowns: how far their rates are from the bound, in units of the longest step's."""
+    formulation, v = random_formulation(1)[1], np.random.default_rng(2)
+    unknowns, limit = v.normal(size=(formulation.knots, formulation.n_v)), JointRate(0.3)
+    program = build(formulation, [limit], LeastEffort())
+    slack = program.b - program.A @ program.solution(unknowns)
+    steps = np.diff(formulation.times)[:, None]
+    change, room = np.diff(formulation.joint.at(unknowns), axis=0), 0.3 * steps
+    expected = np.stack([room + change, room - change]) / room.max()
+    assert slack.reshape(expected.shape) == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
 def test_a_loosened_limit_of_ones_own_has_that_much_more_room_in_the_heads_of_its_cones() -> None:

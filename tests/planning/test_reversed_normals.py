@@ -17,7 +17,7 @@ from random_tasks import hand_like_grasp
 
 from synergrip.files import bundled
 from synergrip.grasps.contacts.contact import Contact, contact_frame
-from synergrip.grasps.contacts.kinds import KINDS
+from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS
 from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
@@ -240,7 +240,8 @@ def test_a_normal_stated_on_a_link_the_wrong_way_round_is_named_by_its_key() -> 
 
 @pytest.mark.parametrize("name", sorted(KINDS))
 def test_a_normal_the_other_way_reverses_pushing_and_nothing_that_friction_holds(name: str) -> None:
-    kind = made_kind(name, 0.5, 0.004, cross_friction=0.3, patch_radius=0.007)
+    kind = made_kind(name, 0.5, 0.004, **{each.name: 0.007 if each.length else 0.3 for each in PARAMETERS.values()
+                                          if each.name not in ("friction", "spin_friction")})  # fmt: skip
     frame = contact_frame(np.array([1.0, 0.2, 0.1]))
     points = np.vstack([np.zeros(3), 0.02 * np.eye(3)[1:]])
     contacts = [Contact(name=f"C{i}", kind=kind, point=point, frame=frame) for i, point in enumerate(points)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -13,6 +14,7 @@ from synergrip.conic.build import build
 from synergrip.conic.decide import decide
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.registry import GOALS
 from synergrip.conic.intersample import Looks
@@ -23,7 +25,10 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.question import Question
 from synergrip.conic.rows import Item
 from synergrip.linalg import Array, frozen
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS
+from synergrip.problems.problem import load_problem
 from synergrip.referee.formulas import write_goal, write_limit
 from synergrip.referee.judge import _written
 from synergrip.referee.model import Cone, Model
@@ -104,6 +109,33 @@ def test_a_goal_is_worth_what_its_formula_says(name: str, seed: int) -> None:
     direct, second = compared(formulation, [], goal, seed)
     assert bool(second) is goal.has_scalar
     agree(direct, second)
+
+
+SCALARS = [name for name, goal in GOALS.items() if goal.has_scalar]
+
+
+@pytest.mark.parametrize("name", SCALARS)
+@pytest.mark.parametrize("seed", range(3))
+def test_a_scalar_that_is_kept_is_kept_in_the_second_formulation(name: str, seed: int) -> None:
+    """Whatever the units were in which it was found."""
+    formulation = random_formulation(seed)[1]
+    kept = KeptScalar(GOALS[name], SCALAR, replace(formulation.units, force=2.3))
+    agree(*compared(formulation, [kept], LeastEffort(), seed))
+
+
+@pytest.mark.parametrize("name", SCALARS)
+def test_both_solvers_keep_a_scalar_by_its_own_rows(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As those of a goal that has no limit to be kept by."""
+    problem, effort = load_problem("pinch-soft"), []
+    goals = [GOALS[name], LeastEffort()]
+    for kept in (GOALS[name].keeps, lambda best, slack: None):
+        monkeypatch.setattr(type(GOALS[name]), "keeps", lambda _, best, slack, kept=kept: kept(best, slack))
+        for solver in SOLVERS.values():
+            found = plan(problem.grasp, problem.task.replace(goals=goals), solver)
+            assert isinstance(found, Plan)
+            assert len(found.decisions) == 2
+            effort.append(np.sum(found.forces**2))
+    assert effort == pytest.approx([effort[0]] * len(effort), rel=1e-5)
 
 
 @pytest.mark.parametrize("name", SOLVERS)

@@ -13,7 +13,8 @@ from random_tasks import hand_like_grasp, random_task_on_grasp
 from scipy import sparse
 
 from synergrip.conic.decide import decide, judge
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak

@@ -13,9 +13,12 @@ from command_line import document, run
 
 import synergrip
 from synergrip.errors import InputError
+from synergrip.grasps.shapes.shapes import SHAPES
+from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.joint_springs import joint_springs
 from synergrip.simulation.played_plan import read_played_plan
 from synergrip.simulation.timeline import timeline
+from synergrip.simulation.told_values import Told
 
 HELD = ("task.move=[]", "task.knots=21")
 
@@ -92,6 +95,14 @@ def rigid(data: dict[str, Any]) -> None:
     ("change", "said"),
     [
         (lambda data: data["execution"]["object"].update(shape=None), ("object.shape", "bare mass")),
+        (
+            lambda data: data["execution"]["object"].update(shape={"bal": {"radius_m": 0.05}}),
+            ("object.shape", "'bal' is not one of 'sphere'"),
+        ),
+        (
+            lambda data: data["execution"]["object"].update(shape={"sphere": {"radius_m": -0.05}}),
+            ("object.shape.sphere.radius_m", "greater than 0"),
+        ),
         (lambda data: data["execution"].update(sha256="0"), ("execution.sha256", "plan again")),
         (rigid, ("contacts[1].compliance", "right/tip", "rigid")),
         (lambda data: data["execution"]["contacts"][0].update(kind="patch"), ("contacts[0]", "patch_radius_m")),
@@ -108,6 +119,36 @@ def test_refusals_name_what_is_missing(
         synergrip.simulate(changed(held, tmp_path, change), half_step=False)
     for words in said:
         assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("name", GEOMS)
+def test_a_shape_is_played_with_the_surface_and_the_size_that_it_has(name: str) -> None:
+    """From plan.json to the model of MuJoCo: points of the surface are there where our shape says."""
+    import mujoco
+
+    lengths = iter((0.03, 0.05, 0.08))
+    sizes = {size.name: next(lengths) if size.count == 1 else [next(lengths) for _ in range(size.count)]
+             for size in SHAPES[name].sizes}  # fmt: skip
+    told = {f"{key}_m": value for key, value in sizes.items()} | {"rotation": np.eye(3).tolist()}
+    read = sizes_of(name, Told({"shape": told}, "").inside("shape"))
+    spec, ray = mujoco.MjSpec(), np.array([-1], dtype=np.int32)
+    spec.worldbody.add_geom(type=getattr(mujoco.mjtGeom, GEOMS[name].kind), size=GEOMS[name].size(read).tolist())
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    shape = SHAPES[name](**sizes)
+    for direction in np.random.default_rng(5).normal(size=(50, 3)):
+        along = direction / np.linalg.norm(direction)
+        hit = mujoco.mj_ray(model, data, -0.3 * along, along, None, 1, -1, ray)
+        assert shape.surface((hit - 0.3) * along)[0] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_shape_that_is_planned_with_and_not_played_is_refused_as_such(
+    held: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delitem(GEOMS, "box")
+    with pytest.raises(InputError, match=r"MuJoCo does not play the shape 'box'; it plays sphere"):
+        synergrip.simulate(held, half_step=False)
 
 
 def test_bad_plan_files_and_arguments_end_with_2(held: Path, tmp_path: Path) -> None:

@@ -20,7 +20,6 @@ PATIENCE = 2.0
 
 def telling(answer: Answerer) -> Answerer:
     """Return the same solver, which says what it is about to solve when that, or what came before, takes long."""
-    from synergrip.conic.along import AlongPath
     from synergrip.conic.decide import ATTEMPTS
 
     begun = time.monotonic()
@@ -28,7 +27,7 @@ def telling(answer: Answerer) -> Answerer:
     def told(question: Question, program: Program, settings: Settings) -> Solution:
         rows, unknowns = program.A.shape
         if rows >= LONG or time.monotonic() - begun > PATIENCE:
-            where = " along the motion" if isinstance(question.formulation, AlongPath) else ""
+            where = " along the motion" if question.formulation.along_path else ""
             what = f"{question.goal.name}{where}, {program.knots} knots: {unknowns} variables, {rows} rows"
             attempt = ATTEMPTS.index(settings) + 1 if settings in ATTEMPTS else 1
             again = f", attempt {attempt} of {len(ATTEMPTS)}" if attempt > 1 else ""

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -50,6 +51,7 @@ class AlongPath(Formulation):
     """A formulation around a path; it has `each` grasp, with the forces and the load of the path as those at start."""
 
     path: Path | None = None
+    along_path: ClassVar[bool] = True
 
     @classmethod
     def around_path(cls, formulation: Formulation, path: Path) -> AlongPath:

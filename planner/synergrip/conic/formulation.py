@@ -8,22 +8,21 @@ more than forces, beta as far as the wanted motion fixes it. Then
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from synergrip.conic.affine import Affine as Affine
 from synergrip.conic.affine import times as product
 from synergrip.conic.basis import longest, moves
-from synergrip.conic.each_knot import Statics, judge_each, to_beta
+from synergrip.conic.each_knot import Statics, to_beta
 from synergrip.conic.intersample import Intersample
 from synergrip.conic.units import Units as Units
-from synergrip.linalg import Array, block_diagonal, frozen
+from synergrip.linalg import Array, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
-from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
 from synergrip.statics.motion import forces_at_start
 from synergrip.values import Value
@@ -60,6 +59,9 @@ class Formulation(Value):
     """(T) the statics at every knot, where those above tell names and lengths only; None when they tell all."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
+
+    along_path: ClassVar[bool] = False
+    """Whether it is around a path that is known (`conic/along.py`): promises are kept to less digits there."""
 
     @property
     def knots(self) -> int:
@@ -157,6 +159,12 @@ class Formulation(Value):
         return self.reference.after(self.map_of(lambda at: at.response.dq_dzr)).plus(product(of_load, self.load_change))
 
     @cached_property
+    def joint_span(self) -> tuple[Array, Array]:
+        """The least and the largest displacement of each joint (n_q,) that it can come to; infinite, it may be any."""
+        far = frozen(np.full(self.response.grasp.n_q, np.inf))
+        return frozen(-far), far
+
+    @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
         sag, rigid = product(self.map_of(lambda at: at.response.du_dw), self.load_change), self.rigid
@@ -214,47 +222,3 @@ class Formulation(Value):
     @property
     def _parts(self) -> tuple[Affine, Affine, Affine]:
         return self.alpha, self.beta, self.gamma
-
-
-def formulate(
-    response: Response, spaces: Subspaces, coords: Coordinates, *,
-    times: Array, wrench: Array, beta: Array, units: Units, redundancy: bool,
-    beta_basis: Array | None = None, target: Array | None = None, stated: Units | None = None,
-    each: Sequence[Analysis] | Each | None = None,
-) -> Formulation:  # fmt: skip
-    """Write a task as affine functions of its unknowns.
-
-    Args:
-        response: response maps of the grasp.
-        spaces: its subspaces.
-        coords: its M (35).
-        times: (T,) [s].
-        wrench: (T, 6) external wrench on the object.
-        beta: (T, dim Gamma_ucs) rigid motion.
-        units: sizes of the unknowns.
-        redundancy: whether gamma is an unknown (some limit looks at more than forces) or zero.
-        beta_basis: (dim Gamma_ucs, m) orthonormal directions in which beta may differ from what is given; none.
-        target: (T, 6) displacement that limits on the object's motion measure against; Gamma_ucs beta when None.
-        stated: units in which weights are stated; those of the unknowns when None.
-        each: (T,) the grasp at every knot, when it is not the same at all.
-
-    Raises:
-        InputError: `each` do not fit the knots, or the grasp.
-    """
-    judge_each(each, response, spaces, len(times))
-    n_alpha, n_beta, n_gamma = spaces.dimensions
-    basis = np.zeros((n_beta, 0)) if beta_basis is None else beta_basis
-    blocks = (np.eye(n_alpha) * units.force, np.eye(n_gamma)[:, : n_gamma * redundancy] * units.reference,
-              basis * units.motion)  # fmt: skip
-    whole = block_diagonal(blocks)
-    alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
-    zeros = np.zeros((len(times), n_alpha + n_gamma))
-    every = None if each is None else Each.of(each)
-    Gamma_ucs = (spaces if every is None else every.spaces).Gamma_ucs
-    return Formulation(
-        response, spaces, coords, frozen(times), frozen(wrench),
-        Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
-        Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
-        frozen(product(Gamma_ucs, beta) if target is None else target), units, stated or units, units.force,
-        each=every,
-    )  # fmt: skip

@@ -115,6 +115,36 @@ def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tup
 
 
 @naming_arguments
+def below_scalar(limit: str, names: Sequence[str], value: Affine, side: str = "") -> Rows:
+    """Return rows ``value <= s`` for the scalar s of a goal that is to be small, at every knot.
+
+    Args:
+        limit: under which a proof names it: "goal.minimise" for the goals of this package.
+        names: (m) one for each quantity, for people: contacts, joints, synergies or any words.
+        value: m quantities in the units of the scalar, such as ``formulation.torque.after(np.eye(n_q) / size)``.
+        side: tells rows of the same names apart, such as "highest" and "lowest" of a size.
+
+    Raises:
+        InputError: names that are none or do not fit the quantities, or no affine quantities.
+
+    Example:
+        >>> torques = below_scalar("peak torque", grasp.joints, formulation.torque)
+        >>> torques.items[0].name, float(torques.epigraph[0])
+        ('finger1_inner', 1.0)
+    """
+    judge = Arguments("below_scalar")
+    judge.text("limit", limit, empty=False)
+    judge.text("side", side)
+    if not isinstance(value, Affine):
+        judge.one("value", value, Affine, "formulation.force.after(matrix)")
+        raise InputError(judge.issues)
+    judge.named("names", names, value.constant.shape[1], "quantity")
+    judge.finish()
+    ones = frozen(np.ones(len(names)))
+    return Rows(limit, Kind.NONNEGATIVE, 1, items_of(names, side), frozen(-value.matrix), frozen(-value.constant), ones)
+
+
+@naming_arguments
 def norm_within(limit: str, item: str, value: Affine, bound: float) -> Rows:
     """Return the cone ``||value|| <= bound``, divided by the bound: one for each knot.
 

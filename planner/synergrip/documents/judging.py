@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass
 from numbers import Real
 from typing import Any, TypeGuard
 
@@ -148,28 +148,33 @@ def place_of(key: str, value: Any, count: int) -> int:
 
 
 def places_of(key: str, value: Any, count: int) -> Any:
-    """Return some places among `count`: a slice as it is, yes or no for each as the places of the yes.
+    """Return places among `count` as arrays take them: a slice as it is, True or False for each as the places of True.
 
     Raises:
-        UnknownPlaceError: no places, or one that there is not.
+        UnknownPlaceError: something else, or a place that is not among them.
     """
-    if isinstance(value, slice) and all(
-        each is None or is_whole(each) for each in (value.start, value.stop, value.step)
-    ):
-        return value
-    found = np.asarray(value) if isinstance(value, list | tuple | range | np.ndarray) else np.zeros((0, 0))
-    if found.dtype.kind == "b" and found.shape == (count,):
-        return np.flatnonzero(found)
-    if found.ndim == 1 and (found.dtype.kind in "iu" or not found.size) and np.all((found >= -count) & (found < count)):
-        return found.astype(np.intp)
-    wanted = f"a slice, a list of places from 0 to {count - 1}, or True or False for each of {count}"
-    raise UnknownPlaceError([Issue(f"expected {wanted}; got {described(value)}", key=key)])
+    if isinstance(value, slice):
+        if all(end is None or is_whole(end) for end in (value.start, value.stop, value.step)) and value.step != 0:
+            return value
+    elif isinstance(value, np.ndarray) and value.ndim == 1:
+        if value.dtype.kind == "b" and len(value) == count:
+            return np.flatnonzero(value)
+        if value.dtype.kind in "iu" and np.all((value >= -count) & (value < count)):
+            return value
+    elif is_list(value) or isinstance(value, range):
+        if len(value) == count and all(isinstance(each, bool | np.bool_) for each in value):
+            return np.flatnonzero(value)
+        if all(is_whole(each) and -count <= each < count for each in value):
+            return np.array(value, dtype=np.intp)
+    last = f"from 0 to {count - 1}" if count else "of which there are none"
+    wanted = f"expected places {last}: whole numbers, a slice, or True or False for each of {count}"
+    raise UnknownPlaceError([Issue(f"{wanted}; got {described(value)}", key=key)])
 
 
 def unfinished(value: Any) -> str:
     """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
-    kind, known = type(value), getattr(type(value), "__dataclass_fields__", ())
-    left = next((name for name in known if not hasattr(value, name)), "")
+    kind, known = type(value), fields(value) if is_dataclass(value) else ()
+    left = next((each.name for each in known if not hasattr(value, each.name)), "")
     return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
+from synergrip.documents.judging import Arguments, places_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.values import Value
@@ -28,7 +28,12 @@ class States(Value):
         return len(self.q)
 
     def taken(self, places: Any) -> States:
-        """Return some of them."""
+        """Return those at some of the instants: whole numbers, a slice, or True or False for each.
+
+        Raises:
+            UnknownPlaceError: there are no such instants.
+        """
+        places = places_of("places", places, len(self))
         return States(*(getattr(self, field.name)[places] for field in fields(self)))
 
     @classmethod
@@ -99,7 +104,12 @@ class Loads(Value):
         return cls(wrench, np.zeros((0, 3)), np.zeros((count, 0, 3)))
 
     def taken(self, places: Any) -> Loads:
-        """Return those at some of the instants."""
+        """Return those at some of the instants: whole numbers, a slice, or True or False for each.
+
+        Raises:
+            UnknownPlaceError: there are no such instants.
+        """
+        places = places_of("places", places, len(self))
         return Loads(self.wrench[places], self.points, self.at_points[places])
 
     @classmethod

@@ -89,7 +89,7 @@ def metric_of(points: Array, components: Sequence[str]) -> tuple[Metric, Array, 
 
     Args:
         points: (..., n_c, 3) from B [m].
-        components: "n", "t", "o" or "m" of each of the n_l force components.
+        components: which of `COMPONENTS` each of the n_l force components is.
 
     Returns:
         the coordinates, the characteristic lengths (...) [m] and the centroids (..., 3) from B [m].

@@ -157,15 +157,15 @@ class GraspStack(Value, Sequence[Grasp]):
         return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **arrays)
 
     def taken(self, places: Any) -> GraspStack:
-        """Return the stack of the grasps at some places, in their order.
+        """Return the stack of the grasps at some places (whole numbers, a slice, or True or False for each), in order.
 
-        Args:
-            places: a slice, whole numbers, or `True` or `False` for each of the N grasps.
+        Raises:
+            UnknownPlaceError: there are no such places.
         """
         places = places_of("places", places, len(self))
         given: tuple[Grasp, ...] = ()
         if self.given:
-            given = self.given[places] if isinstance(places, slice) else tuple(self.given[place] for place in places)
+            given = tuple(self.given[place] for place in np.arange(len(self))[places])
         stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
         for name in ("metric", "of_object"):  # as cached properties would work them out again
             if name in self.__dict__:

@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from synergrip.documents.time_table import REFERENCES
+from synergrip.grasps.contacts.kind import is_moment
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import SI_UNITS, joint_kinds, synergy_kinds
 from synergrip.linalg import Array
@@ -82,7 +83,7 @@ def _torques(grasp: Grasp) -> Sequence[str]:
 
 
 def _forces(grasp: Grasp) -> Sequence[str]:
-    return [f"lambda_{name}_{c}_{'Nm' if c == 'm' else 'N'}" for name, c in grasp.components]
+    return [f"lambda_{name}_{c}_{'Nm' if is_moment(c) else 'N'}" for name, c in grasp.components]
 
 
 def _elastic(moved: Moved) -> Array:
@@ -105,7 +106,7 @@ ARRAYS = (
     PlanArray("gamma", ("T", "dim Gamma_zr"), "rad or m", "coordinates of the redundancy",
               lambda p: p.gamma, "references"),
     PlanArray("lambda", ("T", "n_l"), "N, N m",
-              "contact forces of the hand on the object, rows (n, t, o [, moment]) of each contact",
+              "contact forces of the hand on the object, rows (n, t, o [, moments]) of each contact",
               lambda p: p.motion.forces, "forces", FORCES),
     PlanArray("wrench", ("T", "6"), "N, N m", "external wrench on the object about B, axes of N",
               lambda p: p.motion.wrench, "wrench"),

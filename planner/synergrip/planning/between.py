@@ -9,6 +9,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.well_formed import usage_of
+from synergrip.documents.in_order import InOrder
 from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
@@ -40,6 +41,10 @@ class Between(Value):
 
     rooms: tuple[float, ...] | None = None
     """For each usage, how far beyond its limit counts as kept where the hand really moves; None in the linear model."""
+
+    def __post_init__(self) -> None:
+        """Let limits be found by their names, too."""
+        object.__setattr__(self, "usages", InOrder("usages", self.usages, "title"))
 
     @property
     def exact(self) -> bool:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from synergrip.conic.formulation import Formulation, formulate
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.scaling import expected_units, units_of
 from synergrip.tasks.timed_task import TimedTask

@@ -13,6 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.program import Program
+from synergrip.documents.in_order import InOrder
 from synergrip.documents.naming import made_by
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
@@ -68,7 +69,7 @@ class Plan(Tabled):
     elastic_motion: Array  # (T, 6) what the references move beyond Gamma_ucs beta, sag excluded
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
-    """What the plan uses of every limit, friction cones first."""
+    """What the plan uses of every limit, friction cones first; `usages["joint torque"]` finds one by its title."""
     checks: tuple[Check, ...]
     decisions: tuple[Decision, ...]
     """The programs solved, in order; the last one is the plan's."""
@@ -88,6 +89,11 @@ class Plan(Tabled):
     """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
+
+    def __post_init__(self) -> None:
+        """Let limits and checks be found by their names, too."""
+        object.__setattr__(self, "usages", InOrder("usages", self.usages, "title"))
+        object.__setattr__(self, "checks", InOrder("checks", self.checks))
 
     verdict: ClassVar[str] = "feasible"
     holds: ClassVar[tuple[str, ...]] = ("dz_r", "forces", "margins", "time", "usages", "checks")
@@ -119,7 +125,7 @@ class Plan(Tabled):
 
     @property
     def forces(self) -> Array:
-        """(T, n_l) contact forces of the hand on the object, rows (n, t, o [, moment]) of each contact [N, N m]."""
+        """(T, n_l) contact forces of the hand on the object, rows (n, t, o [, moments]) of each contact [N, N m]."""
         return self.motion.forces
 
     def __repr__(self) -> str:
@@ -229,6 +235,10 @@ class Unknown(Reasoned):
     """The true states that the references found lead to, at the stages "reach" and "execution"."""
     usages: tuple[Usage, ...] = ()
     """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
+
+    def __post_init__(self) -> None:
+        """Let limits be found by their names, too."""
+        object.__setattr__(self, "usages", InOrder("usages", self.usages, "title"))
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3

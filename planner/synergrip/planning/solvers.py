@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
 from synergrip.conic.decide import ALONG, ATTEMPTS, Decision, decide, rank
 from synergrip.conic.formulation import Units
@@ -35,7 +34,7 @@ def directly(solve: Callable[[Program, Settings], Solution]) -> Answerer:
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:
     """Answer by the second formulation; it writes down the start posture, and leaves what is around a path."""
-    if isinstance(question.formulation, AlongPath):
+    if question.formulation.along_path:
         return SOLVERS["clarabel"](question, program, settings)
     from synergrip.referee import judge as referee
 
@@ -170,7 +169,7 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
 
 def _decided(question: Question, solver: Answerer) -> Answered:
     program = question.program()
-    attempts = ALONG if isinstance(question.formulation, AlongPath) else ATTEMPTS
+    attempts = ALONG if question.formulation.along_path else ATTEMPTS
     decision = decide(
         question.goal.name, program, lambda *asked: solver(question, *asked), question.violation, attempts
     )  # fmt: skip

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.along import AlongPath
 from synergrip.conic.certificate import TIGHT
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
@@ -24,8 +23,8 @@ from synergrip.tasks.timed_task import unbounded
 from synergrip.values import Value
 
 SLACKS = (1e-8, 1e-7)
-"""How much of a margin, relative to the largest force, or of a peak, relative to the load, the next goal may give up:
-its program needs an interior."""
+"""How much of a margin, relative to the largest force, of a peak, relative to the load, or of another scalar, relative
+to itself, the next goal may give up: its program needs an interior."""
 SLACKS_ALONG = (1e-6,)
 """The same around a path, where promises are kept to less digits than that: the more room, the sooner it is solved."""
 MOST = 1e-6
@@ -169,22 +168,28 @@ def _reduced(stage: Stage) -> tuple[Formulation, tuple[Squares, ...]]:
 def _limits(stage: Stage, formulation: Formulation) -> Iterator[tuple[Limit, ...]]:
     """Yield the limits of the next goal, the tightest first."""
     if stage.goal.has_scalar:
-        unit = _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.formulation.force_unit
-        for slack in dict.fromkeys(min(slack * unit, MOST * stage.formulation.load_size) for slack in _slacks(stage)):
-            yield (_kept(stage, slack), *stage.limits)
+        unit, most = _unit(stage), MOST * stage.formulation.load_size
+        for share in dict.fromkeys(min(share, most / unit) for share in _slacks(stage)):
+            yield (_kept(stage, share), *stage.limits)
         return
     fixed = not formulation.frees_alpha
     yield tuple(limit.loosened(LOOSE) for limit in stage.limits if not (fixed and limit.watches == "forces"))
 
 
-def _kept(stage: Stage, slack: float) -> Limit:
-    """Return the limit that keeps the scalar of the last goal but for a slack [N]."""
-    goal, unit = stage.goal, stage.formulation.force_unit
-    kept = goal.keeps(stage.scalar, slack)
+def _kept(stage: Stage, share: float) -> Limit:
+    """Return the limit that keeps the scalar of the last goal but for a share of what it is measured against."""
+    goal, formulation = stage.goal, stage.formulation
+    kept = goal.keeps(stage.scalar, share * _unit(stage))
     if kept is not None:
         return kept
-    direction = np.sign(goal.objective(stage.formulation).epigraph or 0.0)
-    return KeptScalar(goal, stage.scalar / unit + float(direction) * slack / unit, stage.formulation.units)
+    scalar = stage.scalar / formulation.force_unit
+    worse = float(np.sign(goal.objective(formulation).epigraph or 0.0))
+    return KeptScalar(goal, scalar + worse * share * max(1.0, abs(scalar)), formulation.units)
+
+
+def _unit(stage: Stage) -> float:
+    """Return what the scalar of the last goal is measured against [N]."""
+    return _carried(stage) if isinstance(stage.goal, LargestMargin) else stage.formulation.force_unit
 
 
 def _violation(stage: Stage) -> float:
@@ -193,7 +198,7 @@ def _violation(stage: Stage) -> float:
 
 
 def _slacks(stage: Stage) -> tuple[float, ...]:
-    return SLACKS_ALONG if isinstance(stage.formulation, AlongPath) else SLACKS
+    return SLACKS_ALONG if stage.formulation.along_path else SLACKS
 
 
 def _carried(stage: Stage) -> float:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from synergrip.conic.along import AlongPath, Path
-from synergrip.conic.formulation import formulate
+from synergrip.conic.formulate import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Limit

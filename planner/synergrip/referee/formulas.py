@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_motion import LeastMotion
@@ -128,9 +129,7 @@ def _synergy_rate(model: Model, limit: SynergyRate) -> tuple[Cone, ...]:
 
 
 def _largest_margin(model: Model, goal: LargestMargin) -> Written:
-    import cvxpy as cp
-
-    margin = cp.Variable()
+    margin = model.scalar()
     return Written(-margin, friction(model, margin), margin)
 
 
@@ -148,9 +147,7 @@ def _least_effort(model: Model, goal: LeastEffort) -> Written:
 
 
 def _least_peak(model: Model, goal: LeastPeak) -> Written:
-    import cvxpy as cp
-
-    peak = cp.Variable()
+    peak = model.scalar()
     items = items_of(contact.name for contact in model.response.grasp.contacts)
     return Written(peak, (Cone("goal.minimise", items, peak - _normals(model)),), peak)
 
@@ -158,6 +155,10 @@ def _least_peak(model: Model, goal: LeastPeak) -> Written:
 def _weighted_sum(model: Model, goal: WeightedSum) -> Written:
     model = replace(model, units=model.stated)
     return Written(sum(weight * write_goal(model, each).cost for each, weight in goal.goals))
+
+
+def _kept_scalar(model: Model, limit: KeptScalar) -> tuple[Cone, ...]:
+    return write_goal(replace(model, units=limit.units, kept=limit.scalar), limit.goal).cones
 
 
 LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
@@ -173,6 +174,7 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     JointRange: joint_range,
     ElasticMotion: elastic_motion,
     ObjectError: object_error,
+    KeptScalar: _kept_scalar,
 }
 GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LargestMargin: _largest_margin,

@@ -80,6 +80,14 @@ class Model:
     """Of rows and of goals."""
     stated: Units
     """Of goals in a weighted sum."""
+    kept: float | None = None
+    """The scalar of the goal that is written down, when it has been found and is kept; None when it is an unknown."""
+
+    def scalar(self) -> Expression:
+        """Return the scalar of the goal that is written down."""
+        import cvxpy as cp
+
+        return cp.Variable() if self.kept is None else cp.Constant(self.kept)
 
     @property
     def response(self) -> Response:

@@ -14,6 +14,7 @@ import numpy as np
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.hands.kinematics import link_spec
 from synergrip.linalg import Array, frozen
+from synergrip.simulation.geoms import GEOMS
 from synergrip.simulation.joint_springs import NOTHING, JointSprings, joint_springs
 from synergrip.simulation.played_plan import Pad, PlayedPlan
 from synergrip.values import Value
@@ -128,7 +129,7 @@ def _refuse(plan: PlayedPlan) -> None:
     for number, pad in enumerate(plan.pads):
         key, name = f"execution.contacts[{number}]", pad.contact.name
         if pad.contact.kind.name not in _CONDIM:
-            message = f"contact '{name}' is {pad.contact.kind.name}; MuJoCo plays hard, soft and frictionless contacts"
+            message = f"contact '{name}' is {pad.contact.kind.name}; MuJoCo plays {', '.join(_CONDIM)} contacts"
             issues.append(Issue(message, key=f"{key}.kind"))
         linear = pad.compliance[:3, :3]
         if np.linalg.eigvalsh((linear + linear.T) / 2).min() <= 0:
@@ -167,10 +168,7 @@ def _add_object(spec: Any, plan: PlayedPlan, mass: float) -> None:
     import mujoco
 
     (name, sizes), = plan.shape.items()  # fmt: skip
-    half = sizes.get("height_m", 0.0) / 2
-    size = sizes["size_m"] / 2 if name == "box" else np.array([sizes["radius_m"], half, 0.0])
-    kind = {"sphere": mujoco.mjtGeom.mjGEOM_SPHERE, "box": mujoco.mjtGeom.mjGEOM_BOX,
-            "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER}[name]  # fmt: skip
+    size, kind = GEOMS[name].size(sizes), getattr(mujoco.mjtGeom, GEOMS[name].kind)
     inertia = plan.inertia if plan.inertia is not None else mass * (0.4 * float(np.max(size)) ** 2) * np.eye(3)
     body = spec.worldbody.add_body(name="object", pos=plan.position.tolist(), mass=mass, explicitinertial=True)
     body.ipos = [0.0, 0.0, 0.0]  # else MuJoCo takes it to be where the body is

@@ -16,11 +16,13 @@ from synergrip.errors import InputError, one_of
 from synergrip.files import bundled
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kinds import contact_kind
+from synergrip.grasps.shapes.shapes import SHAPES
 from synergrip.hands.kinematics import MujocoKinematics, kinematics
 from synergrip.hands.models.model_file import read_model
 from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import Array, frozen
 from synergrip.plain_file import read_bytes
+from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.told_values import Told
 from synergrip.values import Value
 
@@ -151,21 +153,18 @@ def _tree(told: Told, folder: Path) -> LinkTree:
 
 
 def _shape(shape: Any, told: Told) -> Mapping[str, Any]:
+    *names, last = GEOMS
     if shape is None:
-        message = (
-            "a bare mass has no surface to touch; give the object a shape (sphere, box or cylinder) and plan again"
-        )
+        shapes = f"{', '.join(names)} or {last}"
+        message = f"a bare mass has no surface to touch; give the object a shape ({shapes}) and plan again"
         raise told.refused("object.shape", message)
     name = next(iter(shape), "") if isinstance(shape, dict) else str(shape)
-    if name not in ("sphere", "box", "cylinder"):
-        raise told.refused("object.shape", one_of(name, ("sphere", "box", "cylinder")))
-    sizes = told.inside("object").inside("shape").inside(name)
-    if name == "sphere":
-        return {name: {"radius_m": sizes.positive("radius_m")}}
-    turned = {"rotation": sizes.array("rotation", (3, 3))}
-    if name == "box":
-        return {name: {"size_m": sizes.array("size_m", (3,)), **turned}}
-    return {name: {key: sizes.positive(key) for key in ("radius_m", "height_m")} | turned}
+    if name in SHAPES and name not in GEOMS:
+        message = f"MuJoCo does not play the shape '{name}'; it plays {', '.join(names)} and {last}"
+        raise told.refused("object.shape", message)
+    if name not in GEOMS:
+        raise told.refused("object.shape", one_of(name, GEOMS))
+    return {name: sizes_of(name, told.inside("object").inside("shape").inside(name))}
 
 
 def _pad(told: Told, origin: Array) -> Pad:

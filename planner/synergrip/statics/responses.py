@@ -60,7 +60,11 @@ class Responses(Maps):
                         accuracy=accuracies(self.figures[index]))  # fmt: skip
 
     def taken(self, indices: Any) -> Responses:
-        """Return the responses of some of the N grasps (a slice, whole numbers, or yes or no for each), in order."""
+        """Return the responses of some of the N grasps (whole numbers, a slice, or True or False for each), in order.
+
+        Raises:
+            UnknownPlaceError: there are no such grasps.
+        """
         indices = places_of("indices", indices, len(self.places))
         maps = {field.name: getattr(self, field.name)[indices] for field in fields(Maps)}
         return Responses(**maps, grasps=self.grasps.taken(indices), places=self.places[indices],

@@ -10,9 +10,8 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective
 from synergrip.conic.limits.normal_force import NormalForce, normal_selection
-from synergrip.conic.rows import Kind, Rows, items_of
+from synergrip.conic.rows import Rows, below_scalar
 from synergrip.documents.naming import naming_arguments
-from synergrip.linalg import frozen
 
 
 @naming_arguments
@@ -31,11 +30,9 @@ class LeastPeak(Goal):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return ``s - n >= 0`` for every contact."""
-        contacts = formulation.response.grasp.contacts
-        value = formulation.force.after(-normal_selection(formulation) / formulation.force_unit)
-        items = items_of(contact.name for contact in contacts)
-        ones = frozen(np.ones(len(contacts)))
-        return [Rows("goal.minimise", Kind.NONNEGATIVE, 1, items, value.matrix, value.constant, ones)]
+        names = [contact.name for contact in formulation.response.grasp.contacts]
+        value = formulation.force.after(normal_selection(formulation) / formulation.force_unit)
+        return [below_scalar("goal.minimise", names, value)]
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return s."""

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from types import MappingProxyType
 
-from synergrip.conic.goals import centred_joints, largest_margin, least_effort, least_motion, least_peak, steady_forces
 from synergrip.conic.goals.goal import Goal
 
+FILES = (
+    "largest_margin",
+    "least_peak",
+    "least_effort",
+    "steady_forces",
+    "least_motion",
+    "centred_joints",
+)
+"""Modules beside this one, in the order in which messages list their goals."""
+
 GOALS: Mapping[str, Goal] = MappingProxyType({
-    **largest_margin.IN_FILE,
-    **least_peak.IN_FILE,
-    **least_effort.IN_FILE,
-    **steady_forces.IN_FILE,
-    **least_motion.IN_FILE,
-    **centred_joints.IN_FILE,
+    name: goal
+    for file in FILES
+    for name, goal in import_module(f"synergrip.conic.goals.{file}").IN_FILE.items()
 })  # fmt: skip
-"""Goal by its name in a file, in the order in which messages list them."""
+"""Goal by its name in a file."""

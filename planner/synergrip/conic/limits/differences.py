@@ -1,4 +1,4 @@
-"""What the limits on changes of the references share: first or second differences over knots of any distance."""
+"""What the limits on changes over time share: first or second differences over knots of any distance."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from synergrip.linalg import Array, frozen
 
 @dataclass(frozen=True, eq=False)
 class Differences(Symmetric):
-    """``|z_k + sum of weights times earlier z| <= step_k limit`` for each synergy; `differences` says which."""
+    """``|x_k + sum of weights times earlier x| <= step_k limit`` for each joint or synergy; `differences` says which.
+
+    x are the references, unless `value` says other quantities.
+    """
 
     couples_knots = True
 
@@ -29,17 +32,17 @@ class Differences(Symmetric):
         return formulation.reference
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return two bounds for each synergy and step, in units of the bound of the longest."""
+        """Return two bounds for each joint or synergy and step, in units of the bound of the longest."""
         grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
         keep = np.isfinite(limit)
         step, weights = self.differences(formulation.times)
         if not len(step) or not np.any(keep):
             return []
         room = step[:, None] * limit[keep]
-        unit = room.max(axis=0)  # one matrix serves all steps
-        matrix = formulation.reference.matrix[..., keep, :] / unit[:, None]
-        known = _summed(formulation.reference.constant[:, keep], weights) / unit
-        names = [name for name, kept in zip(grasp.synergies, keep, strict=True) if kept]
+        unit, changing = room.max(axis=0), self.value(formulation)  # one matrix serves all steps
+        matrix = changing.matrix[..., keep, :] / unit[:, None]
+        known = _summed(changing.constant[:, keep], weights) / unit
+        names = [name for name, kept in zip(self.names(grasp), keep, strict=True) if kept]
         result = []
         for side, sign in (("falling", 1.0), ("rising", -1.0)):
             value = Affine(frozen(sign * matrix), frozen(room / unit + sign * known))

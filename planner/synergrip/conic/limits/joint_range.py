@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
 
-from synergrip.conic.along import AlongPath
 from synergrip.conic.arguments import OneOrEach, numbers, one_each
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey
@@ -109,9 +108,8 @@ class JointRange(Limit):
         names = formulation.response.grasp.joints
         start, lower, upper = self._ends(formulation)
         unit = _unit(lower, upper)
-        if isinstance(formulation, AlongPath):
-            least, most = (start + span for span in formulation.joint_span)
-            lower, upper = np.where(least > lower, -np.inf, lower), np.where(most < upper, np.inf, upper)
+        least, most = (start + span for span in formulation.joint_span)
+        lower, upper = np.where(least > lower, -np.inf, lower), np.where(most < upper, np.inf, upper)
         return within(self.key, names, formulation.joint.plus(start), lower, upper, unit)
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array]:

@@ -34,11 +34,11 @@ class ContactForces:
 
 
 def contact_forces(contacts: Sequence[Contact], values: Array) -> ContactForces:
-    """Return the forces of contact-force components `values` (n_l,), rows (n, t, o [, moment]) of each contact."""
+    """Return the forces of contact-force components `values` (n_l,), the rows of each contact those of its kind."""
     parts = np.split(values, np.cumsum([contact.n_rows for contact in contacts])[:-1])
-    forces = [c.frame[:, : min(c.n_rows, 3)] @ part[:3] for c, part in zip(contacts, parts, strict=True)]
-    spins = [part[3] if c.n_rows > 3 else 0.0 for c, part in zip(contacts, parts, strict=True)]
-    return ContactForces(frozen([c.point for c in contacts]), frozen(forces), frozen(spins))
+    every = [part @ contact.kind.selection for contact, part in zip(contacts, parts, strict=True)]
+    forces = [contact.frame @ six[:3] for contact, six in zip(contacts, every, strict=True)]
+    return ContactForces(frozen([c.point for c in contacts]), frozen(forces), frozen([six[3] for six in every]))
 
 
 def places_known(grasp: Grasp) -> bool:
