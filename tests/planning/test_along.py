@@ -286,7 +286,8 @@ def test_later_goals_are_asked_once_promises_are_near_what_happens() -> None:
     far, near = replace(walk, gap=walk.largest), replace(walk, gap=0.01 * walk.largest)
     for begin, left_out in ((far, True), (near, False)):
         assert begin.way is not None
-        found = walker._after(*walker._first(begin.way, begin, Pace()), begin)
+        _, found = walker._passed(begin, Pace())
+        assert found is not None
         assert found.left_out == left_out
         assert found.stage is not None
         names = [decision.goal for decision in found.stage.decisions]

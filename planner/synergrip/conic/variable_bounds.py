@@ -14,7 +14,7 @@ from synergrip.conic.affine import Affine
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
 from synergrip.conic.limits.limit import Limit
-from synergrip.linalg import Array, null_spaces
+from synergrip.linalg import CLEAR, Array, gram, null_spaces
 
 LARGEST = 1e6
 """In normalised units. The bound where no limit gives one, and part of the program's meaning."""
@@ -50,5 +50,18 @@ def _implied(value: Affine, limit: Array) -> Array:
     if not matrices.size:
         return np.full(value.matrix.shape[-1], np.inf)
     normed = matrices / np.where(room > 0, room, 1.0)[:, None]
+    if matrices.ndim > 2 and (left := _left_inverses(normed)) is not None:
+        return np.asarray(np.abs(left) @ (room > 0).astype(float))
     fixed = np.linalg.norm(null_spaces(normed), axis=-1) < 1e-9  # entries that the matrix determines
     return np.where(fixed, np.abs(np.linalg.pinv(matrices, rcond=1e-9)) @ room, np.inf)
+
+
+def _left_inverses(matrices: Array) -> Array | None:
+    """Return left inverses (T, n, m) of matrices (T, m, n) whose columns are far from dependent; None where some are.
+
+    Of each knot one is as good as another: sooner than singular values are those by the squares.
+    """
+    values, vectors = np.linalg.eigh(gram(matrices))
+    if not np.all(values[:, :1] > CLEAR**2 * values[:, -1:]):
+        return None
+    return np.asarray((vectors / values[:, None]) @ vectors.mT @ matrices.mT)

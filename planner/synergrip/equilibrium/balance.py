@@ -136,11 +136,11 @@ class Balance(Value):
         whole[:, :n_l, :n_l], whole[:, :n_l, q], whole[:, :n_l, u] = grasp.C_s, -J, G.mT
         whole[:, q, :n_l], whole[:, q, q], whole[:, q, u] = C @ J.mT, np.eye(n_q) + C @ of_joints, C @ of_pose
         whole[:, u, :n_l], whole[:, u, q], whole[:, u, u] = G, -of_arms.mT, -of_object
-        turns = [*range(n_l, n_l + n_q), *range(n_l + n_q + 3, n_l + n_q + 6)]
         of_springs, of_torques, of_wrench = self._rolling
-        whole[:, :n_l, turns] -= of_springs
-        whole[:, q, turns] += C @ of_torques
-        whole[:, u, turns] += of_wrench
+        for columns, own in ((q, slice(0, n_q)), (slice(n_l + n_q + 3, None), slice(n_q, None))):
+            whole[:, :n_l, columns] -= of_springs[:, :, own]
+            whole[:, q, columns] += C @ of_torques[:, :, own]
+            whole[:, u, columns] += of_wrench[:, :, own]
         return whole
 
     @cached_property
@@ -220,17 +220,18 @@ class Balance(Value):
         """
         T, n_q = self.states.q.shape
         frames, arms = self.setting.model.rolled(self.placed, self.meeting)
-        moving, turning = self.jacobians[:, :, 0], self.jacobians[:, :, 1]
+        turning, contacts = self.jacobians[:, :, 1], len(self.setting.points)
         against = np.concatenate([turning, np.broadcast_to(-np.eye(3), (*turning.shape[:3], 3))], axis=3)
         forces, moments = skews(self._acting[:, :, 0]), skews(self._acting[:, :, 1])
-        turned = frames @ against
-        force = -forces @ turned
-        moment = forces @ skews(self.meeting.place - self.placed.point) @ arms @ against - moments @ turned
+        turned = -forces @ frames
+        moment = forces @ skews(self.meeting.place - self.placed.point) @ arms - moments @ frames
+        acting = np.stack([turned, moment], axis=2).reshape(T, contacts, 6, 3) @ against  # force and moment of each
         apart = skews((self.frames @ self.meeting.stretch[..., :3, None])[..., 0])
-        stretch = np.zeros((T, len(self.setting.points), 2, 3, n_q + 3))
-        stretch[:, :, 0] = self.frames.mT @ apart @ turned
-        of_torques = (moving.mT @ force + turning.mT @ moment).sum(axis=1)
-        of_wrench = np.concatenate([force, skews(self.arms) @ force + moment], axis=2).sum(axis=1)
+        stretch = np.zeros((T, contacts, 2, 3, n_q + 3))
+        stretch[:, :, 0] = self.frames.mT @ apart @ frames @ against
+        of_torques = self.jacobians.reshape(T, -1, n_q).mT @ acting.reshape(T, -1, n_q + 3)
+        of_wrench = acting.sum(axis=1)
+        of_wrench[:, 3:] += (skews(self.arms) @ acting[:, :, :3]).sum(axis=1)
         return stretch.reshape(T, -1, n_q + 3)[:, self.setting.components], of_torques, of_wrench
 
     @cached_property

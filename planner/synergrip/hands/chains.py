@@ -47,26 +47,34 @@ class Chains(Value):
 
     def _poses(self, q: Array) -> tuple[Array, Array]:
         """Return rotations (T, B, 3, 3) and places (T, B, 3) of the bodies."""
-        local, shifted = self._steps(q)
-        rotations, places = local.copy(), shifted.copy()
+        whole = self._steps(q)
         for bodies in self._levels:
-            above = rotations[:, self.parents[bodies]]
-            rotations[:, bodies] = above @ local[:, bodies]
-            places[:, bodies] = places[:, self.parents[bodies]] + (above @ shifted[:, bodies, :, None])[..., 0]
-        return rotations, places
+            above = whole[self.parents[bodies]]
+            there = above[..., :3] @ whole[bodies]
+            there[..., 3] += above[..., 3]
+            whole[bodies] = there
+        whole = whole.swapaxes(0, 1)
+        return whole[..., :3], whole[..., 3]
 
-    def _steps(self, q: Array) -> tuple[Array, Array]:
-        """Return rotations (T, B, 3, 3) and places (T, B, 3) of the bodies in their parents."""
-        angles = q * (1 - self.slides)
-        sines, versines = np.sin(angles)[..., None, None], 2 * np.sin(angles / 2)[..., None, None] ** 2
-        skew, held = skews(self.axes), self.rotations[self.moved]
-        local = np.broadcast_to(self.rotations, (len(q), *self.rotations.shape)).copy()
-        local[:, self.moved] = held + sines * (held @ skew) + versines * (held @ skew @ skew)
-        shifted = np.broadcast_to(self.places, (len(q), *self.places.shape)).copy()
-        slid = (q * self.slides)[..., None] * (held @ self.axes[:, :, None])[..., 0]
-        swung = ((held - local[:, self.moved]) @ self.anchors[:, :, None])[..., 0]  # the anchor stays where it is
-        shifted[:, self.moved] += slid + swung
-        return local, shifted
+    def _steps(self, q: Array) -> Array:
+        """Return rotations and places (B, T, 3, 4) of the bodies in their parents, beside each other."""
+        angles = (q * (1 - self.slides)).T[..., None, None]
+        sines, versines = np.sin(angles), 2 * np.sin(angles / 2) ** 2
+        held, sideways, back = self._turning
+        whole = np.empty((len(self.parents), len(q), 3, 4))
+        whole[..., :3], whole[..., 3] = self.rotations[:, None], self.places[:, None]
+        turned = sines * sideways[:, None] + versines * back[:, None]  # beyond what a body is turned at 0
+        whole[self.moved, :, :, :3] += turned
+        slid = (q * self.slides).T[..., None] * (held @ self.axes[:, :, None])[:, None, :, 0]
+        swung = -(turned @ self.anchors[:, None, :, None])[..., 0]  # the anchor stays where it is
+        whole[self.moved, :, :, 3] += slid + swung
+        return whole
+
+    @cached_property
+    def _turning(self) -> tuple[Array, Array, Array]:
+        """How bodies that joints move (n, 3, 3) are turned with them at 0, and with their sines and versines beyond."""
+        held, skew = self.rotations[self.moved], skews(self.axes)
+        return held, held @ skew, held @ skew @ skew
 
     @cached_property
     def _levels(self) -> tuple[Places, ...]:

@@ -26,10 +26,11 @@ from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
 from synergrip.planning.looks import looks_between
+from synergrip.planning.near_rows import left_out, near_rows
 from synergrip.planning.pace import Pace
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
-from synergrip.planning.stages import begun, through
+from synergrip.planning.stages import Stage, begun, through
 from synergrip.planning.walk_so_far import FOLLOWED, Walk
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
@@ -127,8 +128,7 @@ class Walker:
             if best.way is None or done or pace.ends(begins=best.stage is None):
                 break
             try:
-                answered, limits = self._first(best.way, best, pace)
-                found = self._after(answered, limits, best) if answered.decision.acceptable else None
+                answered, found = self._passed(best, pace)
             except KeyboardInterrupt:
                 return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
@@ -141,18 +141,39 @@ class Walker:
             best = replace(now, passes=count, tried=tried, hindered=met)
         return best
 
-    def _after(self, answered: Answered, limits: tuple[Limit, ...], best: Walk) -> Walk:
-        """Return what the goals after the first come to, executed; they wait until promises are near what happens."""
+    def _passed(self, best: Walk, pace: Pace) -> tuple[Answered, Walk | None]:
+        """Return what the first goal comes to around a path, and what all goals do, executed; None without an answer.
+
+        Bounds that are far from binding on the path are asked for only where the answer then misses them.
+        """
+        limits, wait = self._limits(best), self._wait(best)
+        near = near_rows(limits, self.task.goals)
+        answered, stage = self._asked(best, pace, near, wait=wait)
+        unsure = not answered.decision.infeasible if stage is None else left_out(near, stage)
+        if unsure and near is not limits:
+            answered, stage = self._asked(best, pace, limits, wait=wait)
+        if stage is None:
+            return answered, None
+        references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
+        return answered, replace(self.executed(references, promised, best.executed), stage=stage, left_out=wait)
+
+    def _wait(self, best: Walk) -> bool:
+        """Return whether goals after the first wait until promises are near what happens."""
+        return len(self.task.goals) > 1 and not best.rough and (best.stage is None or best.left_out)
+
+    def _asked(self, walk: Walk, pace: Pace, limits: tuple[Limit, ...], *, wait: bool) -> tuple[Answered, Stage | None]:
+        """Return what the first goal comes to around a path, and all that do not wait; None without an answer."""
         first, *others = self.task.goals
-        wait = bool(others) and not best.rough and (best.stage is None or best.left_out)
+        assert walk.way is not None
+        answered = ask(Question(self.around(walk.way, walk, pace), limits, first), self.solver)
+        if not answered.decision.acceptable:
+            return answered, None
         stage = begun(answered, limits, first)
         if wait:
             names = ", ".join(f"'{goal.name}'" for goal in others)
             left = f"along the motion there was no plan yet to ask {names} around"
             stage = replace(stage, notes=(*stage.notes, left))
-        stage = through(stage, () if wait else others, unasked_goals(self.task), self.solver)
-        references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        return replace(self.executed(references, promised, best.executed), stage=stage, left_out=wait)
+        return answered, through(stage, () if wait else others, unasked_goals(self.task), self.solver)
 
     def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
@@ -170,13 +191,11 @@ class Walker:
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
-    def _first(self, way: Steps, walk: Walk, pace: Pace) -> tuple[Answered, tuple[Limit, ...]]:
-        """Return what the first goal comes to around a path, and the limits that it keeps."""
-        first, task = self.task.goal, self.task
-        limits = task.kept if isinstance(first, LargestMargin) else task.all_limits
+    def _limits(self, walk: Walk) -> tuple[Limit, ...]:
+        """Return the limits that a pass around a path keeps."""
+        limits = self.task.kept if isinstance(self.task.goal, LargestMargin) else self.task.all_limits
         more = self._more_at_knots(walk)
-        limits = (*(limits if more is None else more.asked(limits)), ShortStep())
-        return ask(Question(self.around(way, walk, pace), limits, first), self.solver), limits
+        return (*(limits if more is None else more.asked(limits)), ShortStep())
 
     def _more_at_knots(self, walk: Walk) -> MoreAtKnots | None:
         """Return how much more is asked for at the knots than the task does, for what true forces do between them."""
