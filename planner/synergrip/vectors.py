@@ -6,20 +6,20 @@ import numpy as np
 
 from synergrip.linalg import Array
 
+_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
+_SKEW = np.array([
+    [[0, 0, 0], [0, 0, -1], [0, 1, 0]],
+    [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+    [[0, -1, 0], [1, 0, 0], [0, 0, 0]],
+], dtype=float).reshape(3, 9)  # fmt: skip
+"""The skew matrices of the axes: one product makes those of a stack, where entry by entry takes longer."""
+
 
 def skews(vectors: Array) -> Array:
     """Return the skew matrices (..., 3, 3) of vectors (..., 3)."""
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    found = np.zeros((*vectors.shape, 3))
-    found[..., 0, 1], found[..., 0, 2], found[..., 1, 2] = -z, y, -x
-    found[..., 1, 0], found[..., 2, 0], found[..., 2, 1] = z, -y, x
-    return found
+    return np.asarray(vectors @ _SKEW).reshape(*vectors.shape, 3)
 
 
 def crossed(left: Array, right: Array) -> Array:
     """Return the cross products (..., 3) of vectors (..., 3): for small stacks much sooner than `np.cross`."""
-    left, right = np.broadcast_arrays(left, right)
-    found = np.empty(left.shape)
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        found[..., i] = left[..., j] * right[..., k] - left[..., k] * right[..., j]
-    return found
+    return np.asarray(left[..., _NEXT] * right[..., _LAST] - left[..., _LAST] * right[..., _NEXT])

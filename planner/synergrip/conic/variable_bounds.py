@@ -49,17 +49,17 @@ def _implied(value: Affine, limit: Array) -> Array:
     matrices = value.matrix[..., rows, :]
     if not matrices.size:
         return np.full(value.matrix.shape[-1], np.inf)
+    if matrices.ndim > 2 and (inverses := _clear_inverses(matrices)) is not None:
+        return np.asarray(np.abs(inverses) @ room)
     normed = matrices / np.where(room > 0, room, 1.0)[:, None]
-    if matrices.ndim > 2 and (left := _left_inverses(normed)) is not None:
-        return np.asarray(np.abs(left) @ (room > 0).astype(float))
     fixed = np.linalg.norm(null_spaces(normed), axis=-1) < 1e-9  # entries that the matrix determines
     return np.where(fixed, np.abs(np.linalg.pinv(matrices, rcond=1e-9)) @ room, np.inf)
 
 
-def _left_inverses(matrices: Array) -> Array | None:
-    """Return left inverses (T, n, m) of matrices (T, m, n) whose columns are far from dependent; None where some are.
+def _clear_inverses(matrices: Array) -> Array | None:
+    """Return the pseudo-inverses (T, n, m) of matrices (T, m, n) with columns far from dependent, by their squares.
 
-    Of each knot one is as good as another: sooner than singular values are those by the squares.
+    Of one for each knot that is several times as fast as singular values; None where columns are not that far.
     """
     values, vectors = np.linalg.eigh(gram(matrices))
     if not np.all(values[:, :1] > CLEAR**2 * values[:, -1:]):

@@ -15,7 +15,6 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
-from synergrip.planning.looks import looks_between
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT, limit_usages
@@ -70,7 +69,7 @@ def _between(
     task = walker.task
     if len(task.times) < 2:
         return None, (), ()
-    looks = looks_between(task, walker.start, walker.wanted, rooms["N"])
+    looks = walker.looks(walk)
     references = frozen(interpolated(looks.times, task.times, walk.references))
     near = walk.executed.interpolated(looks.times, looks.wrench)
     executed = walker.executor.run(looks.times, references, looks.wrench, near)

@@ -6,7 +6,7 @@ import numpy as np
 
 from synergrip.conic.intersample import Intersample, Looks
 from synergrip.linalg import Array, interpolated
-from synergrip.planning.instants import intersample_of, looked_at
+from synergrip.planning.instants import looked_at
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
 
@@ -15,16 +15,16 @@ LOOKS, PARTS = 32, (2, 16)
 middle where there are many pieces; where these are few, or a load is curved, the middle alone says too little."""
 
 
-def looks_between(task: TimedTask, start: Analysis, wanted: Array, room: float) -> Looks:
+def looks_between(task: TimedTask, start: Analysis, wanted: Array, sampled: Intersample | None, room: float) -> Looks:
     """Return the instants that are looked at: knots, corners, and some inside every piece between them.
 
     Args:
         task: with two knots at least.
         start: the grasp at the start.
         wanted: (T, 6) where the object is wanted at the knots [m, rad].
+        sampled: what load and wish do between the knots; None when no more is known.
         room: by how much more than in the middle of a piece a load may leave its straight line elsewhere in it [N].
     """
-    sampled = intersample_of(task, start)
     known = Looks(task.times, task.wrench, wanted) if sampled is None else sampled.grid
     first, wide = known.times[:-1], np.diff(known.times)
     parts = int(np.clip(-(-LOOKS // np.count_nonzero(wide)), *PARTS))

@@ -15,7 +15,7 @@ import numpy as np
 from synergrip.conic.along import AlongPath, Path
 from synergrip.conic.formulate import formulate
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.intersample import Looks
+from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.question import Question
 from synergrip.equilibrium.execution import Execution
@@ -24,6 +24,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.log import LOG
 from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.instants import intersample_of
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
 from synergrip.planning.looks import looks_between
 from synergrip.planning.near_rows import left_out, near_rows
@@ -94,7 +95,7 @@ class Walker:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
         if self.task.between == "report" or len(self.task.times) < 2 or isinstance(self.task.goal, LargestMargin):
             return walk
-        if self.task.margin - margins_at(walk.executed, self._looks(walk)).min() <= walk.kept_to:
+        if self.task.margin - margins_at(walk.executed, self.looks(walk)).min() <= walk.kept_to:
             return walk
         again = self.on(replace(walk, gap=np.inf))
         kept = self.arrived(again) or again.interrupted
@@ -202,10 +203,15 @@ class Walker:
         if self.task.between == "report" or len(self.task.times) < 2 or not walk.alike:
             return self.more
         more = self.more or MoreAtKnots.none(self.task, self.start.grasp.n_c)
-        return more.for_what_bends(walk.executed, self._looks(walk), walk.kept_to)
+        return more.for_what_bends(walk.executed, self.looks(walk), walk.kept_to)
 
-    def _looks(self, walk: Walk) -> Looks:
-        return looks_between(self.task, self.start, self.wanted, walk.kept_to)
+    def looks(self, walk: Walk) -> Looks:
+        """Return the instants at and between the knots at which limits count."""
+        return looks_between(self.task, self.start, self.wanted, self._sampled, walk.kept_to)
+
+    @cached_property
+    def _sampled(self) -> Intersample | None:
+        return intersample_of(self.task, self.start)
 
     @cached_property
     def wanted(self) -> Array:
