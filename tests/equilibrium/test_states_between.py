@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from synergrip import load_problem
 from synergrip.equilibrium.meeting import rotation_vectors
-from synergrip.equilibrium.newton import FINE
 from synergrip.equilibrium.setting import ContactModel, setting
 from synergrip.linalg import interpolated
 from synergrip.planning.executing import Executor
@@ -76,5 +75,5 @@ def test_two_ways_to_an_equilibrium_agree_to_its_digits(name: str) -> None:
     executor = Executor.of(analyse(problem.grasp), answer.task)
     first = answer.executed
     second = executor.run(first.times, first.references, answer.task.wrench, first.interpolated(first.times))
-    assert max(first.residual, second.residual) <= 10 * FINE
+    assert max(first.residual, second.residual) <= 1e-12
     assert np.allclose(first.du, second.du, rtol=0, atol=1e-12)

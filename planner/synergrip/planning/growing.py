@@ -19,7 +19,7 @@ from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
 from synergrip.values import Value
 
-PIECE, LONGEST, SHORTEST = 1e-2, 3e-2, 2e-4
+PIECE, LONGEST, SHORTEST = 5e-3, 2e-2, 2e-4
 """[m, rotations times the length of the grasp] of the way that is taken at first, at most and at least."""
 KNOT = 1e-3
 """[m] of the way that a knot counts for beside the motion: the load changes there."""

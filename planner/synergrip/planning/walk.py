@@ -150,7 +150,8 @@ class Walker:
         limits, wait = self._limits(best), self._wait(best)
         near = near_rows(limits, self.task.goals)
         answered, stage = self._asked(best, pace, near, wait=wait)
-        unsure = not answered.decision.infeasible if stage is None else left_out(near, stage)
+        known = answered.decision.infeasible and best.hindered is not None  # what hinders is told of all limits
+        unsure = not known if stage is None else left_out(near, stage)
         if unsure and near is not limits:
             answered, stage = self._asked(best, pace, limits, wait=wait)
         if stage is None:
