@@ -157,15 +157,11 @@ def right_singular(matrices: Array, references: Array) -> tuple[Array, Array]:
 def left_singular(matrices: Array, rank: int) -> tuple[Array, Array]:
     """Return the singular values (..., min(m, n)) of matrices (..., m, n), and the space of the first `rank`.
 
-    Columns (..., m, rank) span it: any that do where that is all of m, the matrix's own where all its columns count
-    and are far from dependent.
+    Columns (..., m, rank) span it; they are the matrix's own where all its columns count and are far from dependent.
     """
-    rows, columns = matrices.shape[-2:]
     values, clear = _from_squares(matrices)
-    clear &= rank == min(rows, columns)
-    spanning = np.array(matrices[..., :rank]) if columns <= rows else np.zeros((*matrices.shape[:-1], rank))
-    if rows < columns and rank == rows:
-        spanning[...] = np.eye(rows)
+    clear &= rank == matrices.shape[-1]
+    spanning = np.array(matrices[..., :rank])
     if matrices.size and not np.all(clear):
         vectors, own, _ = np.linalg.svd(matrices[~clear], full_matrices=False)
         values[~clear], spanning[~clear] = own, vectors[..., :rank]

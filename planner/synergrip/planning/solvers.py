@@ -82,7 +82,7 @@ SMALL, NOTHING = 1e-2, 1e-12
 """Value of a goal, in the program's units, below which a gap that is small beside 1 need not be small beside the value;
 and below which a sum of squares, which is never less than 0, is as good as 0. A force is the root of that."""
 FINE = 1e-6
-"""How closely a largest margin is known when it is one: to this share of the load, or of the largest force with it."""
+"""How closely forces are known when they are: to this share of the load, or of the largest of them."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
 APART = 3.0
@@ -121,11 +121,13 @@ class Answered(Value):
 
     @cached_property
     def coarse(self) -> bool:
-        """True for a largest margin in a unit so far above all forces that its tolerances hide the forces."""
-        if not isinstance(self.question.goal, LargestMargin) or not self.decision.acceptable:
-            return False
+        """True for an answer in a unit so far above all forces that its tolerances hide the forces."""
         formulation, found = self.question.formulation, self.decision.certificate
-        share = found.primal_residual + found.dual_residual + found.gap if found.verified else TIGHT
+        if not self.decision.acceptable:
+            return False
+        of_value = isinstance(self.question.goal, LargestMargin)  # which is a force itself
+        residuals = found.primal_residual + (found.dual_residual + found.gap if of_value else 0.0)
+        share = residuals if found.verified else TIGHT
         error = share * formulation.force_unit
         largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
         return bool(error > FINE * max(formulation.load_size, largest))

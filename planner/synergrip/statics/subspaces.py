@@ -200,11 +200,12 @@ def controllable_forces(
         rank: dimension of E_s, in every grasp of the stack.
     """
     scaled = metric.force[..., None] * dlambda_dzr
-    values, spanning = left_singular(moved.internal.mT @ scaled, rank)
+    values, internal = left_singular(scaled, rank)
     size = np.abs(scaled).max(axis=(-2, -1), initial=0.0)
     noise = np.maximum(unknown, np.finfo(float).eps * size) * np.sqrt(scaled.shape[-2] * scaled.shape[-1])
     counted = np.sum(values > noise[..., None], axis=-1)
     relative = np.where(counted[..., None] > 0, values / np.where(values[..., :1] > 0, values[..., :1], 1.0), 0.0)
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
     decision = Decisions(counted, relative, counted != rank)
-    return frozen(canonical(moved.internal @ spanning) / metric.force[..., None]), decision
+    internal = moved.internal @ (moved.internal.mT @ internal)  # G E_s = 0 to the last digit
+    return frozen(canonical(internal) / metric.force[..., None]), decision
