@@ -5,7 +5,8 @@
 Prints for each problem: the worst slip margin that a plan of the start posture promises and the one that the hand then
 really keeps (executed with rolling pads); the worst margin of the plan along the motion, at its knots and between them;
 how often it was linearised anew, and its processor time relative to that of the plan of the start posture (the least of
-`TIMES` each, by turns), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit its corners.
+`TIMES` each, by turns), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit
+its corners.
 """
 
 from __future__ import annotations
