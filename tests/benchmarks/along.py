@@ -4,8 +4,9 @@
 
 Prints for each problem: the worst slip margin that a plan of the start posture promises and the one that the hand then
 really keeps (executed with rolling pads); the worst margin of the plan along the motion, at its knots and between them;
-how often it was linearised anew, and its processor time relative to that of the plan of the start posture (medians of
-`TIMES` each), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit its corners.
+how often it was linearised anew, and its processor time relative to that of the plan of the start posture (the least of
+`TIMES` each, by turns), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit
+its corners.
 """
 
 from __future__ import annotations
@@ -25,25 +26,22 @@ from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.problems.problem import load_problem
 from synergrip.tasks.task import Task
 
-TIMES, COUNTS = 3, (41, 401)
+TIMES, COUNTS = 5, (41, 401)
 """How often each plan is timed, and knots that all problems are timed with."""
 
 
-def timed(run: Callable[[], Outcome]) -> tuple[float, Outcome]:
-    """Return the median processor time [s] of some calls, and what the last returns."""
-    seconds = []
-    for _ in range(TIMES):
-        start = time.process_time()
-        found = run()
-        seconds.append(time.process_time() - start)
-    return float(np.median(seconds)), found
+def seconds(run: Callable[[], Outcome]) -> float:
+    """Return the processor time [s] of a call."""
+    start = time.process_time()
+    run()
+    return time.process_time() - start
 
 
 def ratio(grasp: Grasp, task: Task) -> str:
     """Return the time of a plan along the motion relative to that of the start posture; "-" where there is none."""
+    runs = (lambda: plan_of_start_posture(grasp, task), lambda: plan(grasp, task))
     try:
-        before, _ = timed(lambda: plan_of_start_posture(grasp, task))
-        after, _ = timed(lambda: plan(grasp, task))
+        before, after = np.min([[seconds(run) for run in runs] for _ in range(TIMES)], axis=0)
     except InputError:  # a corner that is on no knot
         return "-"
     return f"x{after / before:.1f}"

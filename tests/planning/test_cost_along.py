@@ -75,13 +75,15 @@ def test_a_bound_that_is_left_out_and_missed_is_asked_for(monkeypatch: pytest.Mo
     assert not any(NearRows(limit).misses(around, kept.v) for limit in limits)
 
 
-def test_goals_without_an_end_have_all_rows() -> None:
-    walker, begun, _ = started("gripper-bar")
-    limits = walker._limits(begun)
-    assert near_rows.near_rows(limits, walker.task.goals) is limits
-    walker, begun, _ = started("gripper-peg")
-    limits = walker._limits(begun)
-    assert all(isinstance(limit, NearRows) for limit in near_rows.near_rows(limits, walker.task.goals))
+def test_goals_without_an_end_and_small_programs_have_all_rows() -> None:
+    walker, begun, _ = started("human-ball")
+    goals, limits = walker.task.goals, walker._limits(begun)
+    near = near_rows.near_rows(limits, goals, near_rows.MANY)
+    assert len(near) == len(limits)
+    assert all(isinstance(limit, NearRows) for limit in near)
+    assert near_rows.near_rows(limits, goals, near_rows.MANY - 1) is limits
+    largest = started("gripper-bar")[0].task.goals
+    assert near_rows.near_rows(limits, largest, near_rows.MANY) is limits
 
 
 @pytest.mark.parametrize("name", ["human-ball-near", "human-graspit-ball"])

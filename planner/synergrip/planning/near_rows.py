@@ -7,7 +7,8 @@ so nothing is lost but the time for rows that say nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from synergrip.planning.stages import Stage
 
 NEAR = 0.5
 """A row counts where it has less than this share of its limit left, at some knot of the path."""
+MANY = 200
+"""Unknowns from which on it takes less time to look at rows than to solve with them."""
 ROUNDING = 1e-6
 """By how much a row that was left out may be missed, as those that were not: a share of its limit."""
 
@@ -30,9 +33,13 @@ ROUNDING = 1e-6
 class NearRows(InOtherRows):
     """A limit with those of its bounds only that are near on the path."""
 
+    _known: WeakKeyDictionary[Formulation, Sequence[Rows]] = field(
+        default_factory=WeakKeyDictionary, init=False, repr=False, compare=False
+    )
+
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows of the limit that are near, and those that are no simple bounds."""
-        return [kept for part in self.limit.rows(formulation) if (kept := _near(part)) is not None]
+        return [kept for part in self._whole(formulation) if (kept := _near(part)) is not None]
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return what the whole limit bounds."""
@@ -44,18 +51,28 @@ class NearRows(InOtherRows):
 
     def misses(self, formulation: Formulation, v: Array) -> bool:
         """Return whether unknowns (T, n_v) miss a bound, be it one of those that were left out."""
-        parts = [part for part in self.limit.rows(formulation) if _simple(part)]
+        parts = [part for part in self._whole(formulation) if _simple(part)]
         return any(bool(np.any(_values(part, v) < -ROUNDING)) for part in parts)
 
+    def _whole(self, formulation: Formulation) -> Sequence[Rows]:
+        """Return all rows of the limit, worked out once for each formulation."""
+        if formulation not in self._known:
+            self._known[formulation] = self.limit.rows(formulation)
+        return self._known[formulation]
 
-def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal]) -> tuple[Limit, ...]:
+
+def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal], unknowns: int) -> tuple[Limit, ...]:
     """Return limits with the rows only that are near on the path that they are asked around.
 
-    All of them where a goal has no end without limits: sums of squares have one, and so has a peak.
+    All of them in a small program, and where a goal has no end without limits: sums of squares have one, and a peak.
+
+    Args:
+        limits: of a pass.
+        goals: of the task.
+        unknowns: of the program.
     """
-    if any(goal.has_scalar and not isinstance(goal, LeastPeak) for goal in goals):
-        return limits
-    return tuple(NearRows(limit) for limit in limits)
+    endless = any(goal.has_scalar and not isinstance(goal, LeastPeak) for goal in goals)
+    return limits if endless or unknowns < MANY else tuple(NearRows(limit) for limit in limits)
 
 
 def left_out(limits: Sequence[Limit], stage: Stage) -> bool:

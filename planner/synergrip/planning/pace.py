@@ -13,9 +13,9 @@ SHORTER, SHORTER_WAY, SHORTEST = 1 / 3, 1 / 9, 1e-3
 TRIES, VAIN = 2, 2
 """How often a true walk is tried to be brought nearer, and how often a first pass is tried: no way leads from where it
 begins then."""
-AIMED, SHORTEST_CUT, LONGER = 0.5, 0.05, 2.0
-"""The difference that a step aims at, as a share of what is allowed; the least and the largest share of itself that a
-step is cut or made longer to."""
+AIMED, AFTER_GOOD, SHORTEST_CUT, LONGER = 0.5, 0.9, 0.05, 2.0
+"""The difference that a step aims at, as a share of what is allowed, after one in vain and after a good one; the least
+and the largest share of itself that a step is cut or made longer to."""
 
 
 @dataclass(frozen=True)
@@ -58,19 +58,20 @@ class Pace:
             now: what it came to.
             allowed: how far the object may be behind [m].
         """
-        step = min(1.0, self.step * float(np.clip(_fitting(now), SHORTER, LONGER))) if self.step < 1 else self.step
+        longer = float(np.clip(_fitting(now, AFTER_GOOD), SHORTER, LONGER)) if self.step < 1 else 1.0
         stays = now.behind > NEARER * before.behind or self.way < 1
-        return Pace(step, min(1.0, LONGER * self.way) if now.behind > allowed else self.way, 0, stays)
+        way = LONGER * self.way if now.behind > allowed else self.way
+        return Pace(min(1.0, longer * self.step), min(1.0, way), 0, stays)
 
     def back(self, found: Walk | None) -> Pace:
         """Return the pace after a pass in vain: what it came to, or None when no program goes it."""
         again = replace(self, tries=self.tries + 1, stays=False)
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
-        shorter = SHORTER if found.way is None else float(np.clip(_fitting(found), SHORTEST_CUT, SHORTER))
+        shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))
         return replace(again, step=self.step * shorter)
 
 
-def _fitting(found: Walk) -> float:
+def _fitting(found: Walk, aimed: float) -> float:
     """Return the share of a step that would be as true as is aimed at: promise and truth differ by its square."""
-    return float(np.sqrt(AIMED * found.room / max(found.gap, 1e-300)))
+    return float(np.sqrt(aimed * found.room / max(found.gap, 1e-300)))
