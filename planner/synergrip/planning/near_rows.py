@@ -23,8 +23,8 @@ from synergrip.planning.stages import Stage
 
 NEAR = 0.5
 """A row counts where it has less than this share of its limit left, at some knot of the path."""
-MANY = 200
-"""Unknowns from which on it takes less time to look at rows than to solve with them."""
+MANY = 2000
+"""Entries of the bounds on joints from which on it takes less time to look at rows than to solve with them."""
 ROUNDING = 1e-6
 """By how much a row that was left out may be missed, as those that were not: a share of its limit."""
 
@@ -61,7 +61,7 @@ class NearRows(InOtherRows):
         return self._known[formulation]
 
 
-def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal], unknowns: int) -> tuple[Limit, ...]:
+def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal], entries: int) -> tuple[Limit, ...]:
     """Return limits with the rows only that are near on the path that they are asked around.
 
     All of them in a small program, and where a goal has no end without limits: sums of squares have one, and a peak.
@@ -69,10 +69,10 @@ def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal], unknowns: int) -
     Args:
         limits: of a pass.
         goals: of the task.
-        unknowns: of the program.
+        entries: of the bounds on joints in the program, from one side: unknowns times joints.
     """
     endless = any(goal.has_scalar and not isinstance(goal, LeastPeak) for goal in goals)
-    return limits if endless or unknowns < MANY else tuple(NearRows(limit) for limit in limits)
+    return limits if endless or entries < MANY else tuple(NearRows(limit) for limit in limits)
 
 
 def left_out(limits: Sequence[Limit], stage: Stage) -> bool:

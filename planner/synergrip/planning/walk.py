@@ -148,8 +148,8 @@ class Walker:
         Bounds that are far from binding on the path are asked for only where the answer then misses them.
         """
         limits, wait = self._limits(best), self._wait(best)
-        forces, _, redundancy = self.start.spaces.dimensions
-        near = near_rows(limits, self.task.goals, len(self.task.times) * (forces + redundancy))
+        entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
+        near = near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
         known = answered.decision.infeasible and best.hindered is not None  # what hinders is told of all limits
         unsure = not known if stage is None else left_out(near, stage)
