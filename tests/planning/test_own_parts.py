@@ -207,6 +207,19 @@ def test_differences_are_those_of_the_quantity_that_a_limit_names() -> None:
     assert slack.reshape(expected.shape) == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
+def test_a_limit_in_a_unit_of_its_own_is_kept_on_the_hand_that_moves_as_closely_as_forces_are() -> None:
+    problem = load_problem("dlr-ball-move")
+
+    def rates(found: Plan) -> Array:
+        motion = found.motion
+        return np.abs(np.diff(motion.dq, axis=0)) / np.diff(motion.times)[:, None]
+
+    free = planned(plan(problem.grasp, problem.task))
+    limit = JointRate(0.5 * float(rates(free).max()))
+    found = planned(plan(problem.grasp, problem.task.replace(limits=[*problem.task.limits, limit])))
+    assert rates(found).max() == pytest.approx(0.5 * rates(free).max(), rel=1e-3)
+
+
 def test_a_loosened_limit_of_ones_own_has_that_much_more_room_in_the_heads_of_its_cones() -> None:
     formulation = planned(plan(tripod(), asked())).formulation
     for limit, heads in ((TotalSqueeze(50.0), [1.0]), (SmallTangential(0, 1.0), [1.0, 0.0, 0.0])):

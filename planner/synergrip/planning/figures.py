@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.conic.along import AtStates
+from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
@@ -24,8 +25,9 @@ from synergrip.statics.motion import Motion
 from synergrip.tasks.tracking_along import Steps, steps
 from synergrip.values import Value
 
-LENGTH, ANGLE = 1e-5, 1e-4
-"""[m], [rad] to which limits on motions are kept."""
+LENGTH, ANGLE, OTHER = 1e-5, 1e-4, 1e-3
+"""[m], [rad] to which limits on motions are kept; the share of its size to which one in any other unit is, unless it is
+one of references alone, which are what they are."""
 BALANCED = 1e-8
 """Relative error of the equilibrium."""
 
@@ -54,16 +56,17 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Betwee
     """
     task, executed, way = walker.task, walk.executed, walk.way
     motion, there = _moved(executed, Looks(task.times, task.wrench, walker.wanted), walker, formulation, way)
-    usages, rooms = limit_usages(task, there, motion), _rooms(walk, walker)
+    usages = limit_usages(task, there, motion)
+    rooms = _rooms(walk, walker, task.all_limits, usages)
     elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
     checks = (Check("equilibrium", executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
-    between, inside, there_missed = _between(walk, walker, formulation, linear, rooms)
+    between, inside, there_missed = _between(walk, walker, formulation, linear)
     missed = (*_missed(usages, rooms), *there_missed)
     return Figures(replace(motion, du=executed.du), usages, elastic, between, (*checks, *inside), missed)
 
 
 def _between(
-    walk: Walk, walker: Walker, formulation: Formulation, linear: Between | None, rooms: Mapping[str, float]
+    walk: Walk, walker: Walker, formulation: Formulation, linear: Between | None
 ) -> tuple[Between | None, tuple[Check, ...], tuple[str, ...]]:
     """Return what the references really do between the knots, the checks of that, and what they miss there."""
     task = walker.task
@@ -77,11 +80,10 @@ def _between(
         why = f"{BETWEEN}: {executed.why}"
         return None, (Check(why, np.inf, 0.0),), (why,)
     motion, there = _moved(executed, looks, walker, formulation)
-    usages = tuple(limit.usage(there, motion) for limit in task.all_limits if not limit.couples_knots)
-    found = replace(
-        linear or Between(1, 0.0, 0.0, 0.0, usages), samples=1, usages=usages,
-        rooms=tuple(_room(usage, rooms) for usage in usages),
-    )  # fmt: skip
+    limits = [limit for limit in task.all_limits if not limit.couples_knots]
+    usages = tuple(limit.usage(there, motion) for limit in limits)
+    rooms = _rooms(walk, walker, limits, usages)
+    found = replace(linear or Between(1, 0.0, 0.0, 0.0, usages), samples=1, usages=usages, rooms=rooms)
     where = f"{BETWEEN}: "
     if task.between == "report":
         return found, (stable(executed, where),), ()
@@ -97,36 +99,39 @@ def stable(executed: Execution, where: str = "") -> Check:
     return Check(f"{where}stability", 0.0 if least > 0 else max(-least, float(np.nextafter(0.0, 1.0))), 0.0)
 
 
-def kept(usages: Sequence[Usage], rooms: Mapping[str, float], where: str = "") -> tuple[Check, ...]:
+def kept(usages: Sequence[Usage], rooms: Sequence[float], where: str = "") -> tuple[Check, ...]:
     """Return a check for every limit, in its own unit, to the digits that a true state is promised to.
 
     Args:
         usages: of the limits.
-        rooms: by unit, how far beyond a limit counts as kept.
+        rooms: of each, how far beyond it counts as kept.
         where: said before the title.
     """
     return tuple(
-        Check(f"{where}{usage.title}", max(float(usage.excess.max(initial=0.0)), 0.0), _room(usage, rooms))
-        for usage in usages
+        Check(f"{where}{usage.title}", max(float(usage.excess.max(initial=0.0)), 0.0), room)
+        for usage, room in zip(usages, rooms, strict=True)
     )
 
 
-def _missed(usages: Sequence[Usage], rooms: Mapping[str, float], where: str = "") -> Iterator[str]:
+def _missed(usages: Sequence[Usage], rooms: Sequence[float], where: str = "") -> Iterator[str]:
     """Yield what is beyond its limit: the worst of each, where, when, and the limit."""
-    for usage in usages:
-        if usage.excess.max(initial=0.0) > _room(usage, rooms):
+    for usage, room in zip(usages, rooms, strict=True):
+        if usage.excess.max(initial=0.0) > room:
             (k, i), (shown, limit) = usage.worst(), nearest(usage)
             end = "at most" if usage.value[k, i] > usage.upper[i] else "at least"
             yield (f"{where}{usage.title} {shown} ({usage.items[i]}, t = {usage.times[k]:.3g} s; {end} {limit} asked)")
 
 
-def _rooms(walk: Walk, walker: Walker) -> dict[str, float]:
+def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence[Usage]) -> tuple[float, ...]:
+    """Return for each limit how far beyond it counts as kept, in its own unit."""
     force = walk.kept_to
-    return {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
+    known = {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
 
+    def room(limit: Limit, usage: Usage) -> float:
+        share = OTHER if is_own(type(limit)) or limit.watches != "references" else LIMIT
+        return known.get(usage.unit) or share * float(np.max(usage.scale, initial=0.0))
 
-def _room(usage: Usage, rooms: Mapping[str, float]) -> float:
-    return rooms.get(usage.unit) or LIMIT * float(np.max(usage.scale, initial=0.0))
+    return tuple(room(limit, usage) for limit, usage in zip(limits, usages, strict=True))
 
 
 def _moved(
