@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from jaws_that_move import jaws
 from second_execution import between_knots
 from second_execution import executed as executed_otherwise
 
-from synergrip import Infeasible, Plan, Unknown, load_problem, plan
+from synergrip import (
+    Gravity,
+    Infeasible,
+    JointTorque,
+    Plan,
+    Push,
+    SlipMargin,
+    Sphere,
+    Task,
+    Unknown,
+    load_problem,
+    plan,
+)
 from synergrip.equilibrium.execution import execute
 from synergrip.planning.check import judge_references
 from synergrip.planning.executing import Executor, loads
@@ -76,6 +90,21 @@ def test_a_plan_of_few_knots_keeps_its_margin_at_all_times(name: str, knots: int
     room = max(1e-3, 1e-3 * np.abs(answer.forces).max())
     assert least[0] < answer.task.margin - 2 * room  # so the test can fail
     assert least[1] >= answer.task.margin - room
+
+
+def test_a_torque_is_judged_by_its_own_limit_and_not_by_the_force_of_a_slide() -> None:
+    """On a hand of slides and hinges efforts have no unit in common: 20 N of one give a hinge no room."""
+    moving = jaws(Sphere(radius=0.03), 0.03, 0.008, C_s=[1e-4, 1e-4, 1e-4, 0.5], C_q=[1e-4, 1e-4, 0.02] * 2)
+    grasp = replace(moving, lambda_0=None)
+    pushes = [Push(force=4.0, direction=(0, 1, 0), start=t, end=t + 0.5, profile="half-sine") for t in (0.0, 0.25)]
+    task = Task(duration=1.0, knots=5, loads=[Gravity((0, 0, -9.81)), *pushes], limits=[SlipMargin(0.3)])
+    free = plan(grasp, task)
+    assert isinstance(free, Plan)
+    hinge = 1.02 * float(np.abs(free.motion.torques[:, 2]).max())
+    outcome = plan(grasp, task.replace(limits=[SlipMargin(0.3), JointTorque([20.0, 20.0, hinge] * 2)]))
+    assert isinstance(outcome, Unknown)
+    assert "between the knots: joint torque" in outcome.why
+    assert "left_jaw" in outcome.why
 
 
 def test_of_given_matrices_nothing_is_executed() -> None:

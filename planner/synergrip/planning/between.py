@@ -39,8 +39,9 @@ class Between(Value):
     corners: tuple[float, ...] = ()
     """[s] the corners between the knots that were looked at, each once: lines of tables, starts, ends, peaks, jumps."""
 
-    rooms: tuple[float, ...] | None = None
-    """For each usage, how far beyond its limit counts as kept where the hand really moves; None in the linear model."""
+    rooms: tuple[Array, ...] | None = None
+    """(m,) for each usage, how far beyond its limit each item counts as kept where the hand really moves; None in the
+    linear model."""
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""
@@ -59,9 +60,9 @@ class Between(Value):
     @property
     def excess(self) -> float:
         """How far the worst value is beyond its limit, in units of the limit; not above 0 where that is kept."""
-        rooms = (0.0,) * len(self.usages) if self.rooms is None else self.rooms
+        rooms = (np.zeros(1),) * len(self.usages) if self.rooms is None else self.rooms
         pairs = zip(self.usages, rooms, strict=True)
-        return max(min(u.violation, 0.0) if u.excess.max(initial=0.0) <= room else u.violation for u, room in pairs)
+        return max(min(u.violation, 0.0) if np.all(u.excess <= room) else u.violation for u, room in pairs)
 
 
 def between(task: TimedTask, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:

@@ -99,37 +99,41 @@ def stable(executed: Execution, where: str = "") -> Check:
     return Check(f"{where}stability", 0.0 if least > 0 else max(-least, float(np.nextafter(0.0, 1.0))), 0.0)
 
 
-def kept(usages: Sequence[Usage], rooms: Sequence[float], where: str = "") -> tuple[Check, ...]:
+def kept(usages: Sequence[Usage], rooms: Sequence[Array], where: str = "") -> tuple[Check, ...]:
     """Return a check for every limit, in its own unit, to the digits that a true state is promised to.
 
     Args:
         usages: of the limits.
-        rooms: of each, how far beyond it counts as kept.
+        rooms: (m,) of each, how far beyond it counts as kept, for each of its items.
         where: said before the title.
     """
-    return tuple(
-        Check(f"{where}{usage.title}", max(float(usage.excess.max(initial=0.0)), 0.0), room)
-        for usage, room in zip(usages, rooms, strict=True)
-    )
+    return tuple(_check(usage, room, where) for usage, room in zip(usages, rooms, strict=True))
 
 
-def _missed(usages: Sequence[Usage], rooms: Sequence[float], where: str = "") -> Iterator[str]:
+def _check(usage: Usage, room: Array, where: str) -> Check:
+    """Return the check of the item that has used most of its room."""
+    excess = np.maximum(usage.excess.max(axis=0, initial=0.0), 0.0)
+    worst = int(np.argmax(excess / room))
+    return Check(f"{where}{usage.title}", float(excess[worst]), float(room[worst]))
+
+
+def _missed(usages: Sequence[Usage], rooms: Sequence[Array], where: str = "") -> Iterator[str]:
     """Yield what is beyond its limit: the worst of each, where, when, and the limit."""
     for usage, room in zip(usages, rooms, strict=True):
-        if usage.excess.max(initial=0.0) > room:
+        if np.any(usage.excess > room):
             (k, i), (shown, limit) = usage.worst(), nearest(usage)
             end = "at most" if usage.value[k, i] > usage.upper[i] else "at least"
             yield (f"{where}{usage.title} {shown} ({usage.items[i]}, t = {usage.times[k]:.3g} s; {end} {limit} asked)")
 
 
-def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence[Usage]) -> tuple[float, ...]:
-    """Return for each limit how far beyond it counts as kept, in its own unit."""
+def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence[Usage]) -> tuple[Array, ...]:
+    """Return for each item (m,) of each limit how far beyond it counts as kept, in its own unit."""
     force = walk.kept_to
     known = {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
 
-    def room(limit: Limit, usage: Usage) -> float:
+    def room(limit: Limit, usage: Usage) -> Array:
         share = OTHER if is_own(type(limit)) or limit.watches != "references" else LIMIT
-        return known.get(usage.unit) or share * float(np.max(usage.scale, initial=0.0))
+        return np.full(len(usage.items), known[usage.unit]) if usage.unit in known else share * usage.scale
 
     return tuple(room(limit, usage) for limit, usage in zip(limits, usages, strict=True))
 

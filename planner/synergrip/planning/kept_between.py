@@ -49,8 +49,8 @@ class MoreAtKnots(Value):
             between: what the limits of the task use at the true states.
             task: whose knots they are.
         """
-        rooms = between.rooms or (0.0,) * len(between.usages)
-        short = [usage.excess.max(initial=0.0) > room for usage, room in zip(between.usages, rooms, strict=True)]
+        rooms = between.rooms or (np.zeros(1),) * len(between.usages)
+        short = [bool(np.any(usage.excess > room)) for usage, room in zip(between.usages, rooms, strict=True)]
         if not any(short):
             return None
         cones, *others = between.usages
