@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from synergrip import Plan, load_problem
+from synergrip import Plan, Push, load_problem
 from synergrip.conic.question import Question
 from synergrip.linalg import interpolated
 from synergrip.planning import kept_between, near_rows, walk, walked
@@ -66,7 +66,7 @@ def test_a_bound_that_is_left_out_and_missed_is_asked_for(monkeypatch: pytest.Mo
     assert isinstance(answer, Plan)
     assert np.abs(answer.executed.balance.torques).max() <= tight * (1 + 1e-3)
     walker, begun, _ = started("dlr-ball-move", f"limits.joint_torque={tight}")
-    limits = walker._limits(begun)
+    limits = walker._limits(begun, Pace())
     assert begun.way is not None
     around = walker.around(begun.way, begun, Pace())
     free = ask(Question(around, tuple(NearRows(limit) for limit in limits), walker.task.goal), SOLVERS["clarabel"])
@@ -77,7 +77,7 @@ def test_a_bound_that_is_left_out_and_missed_is_asked_for(monkeypatch: pytest.Mo
 
 def test_goals_without_an_end_and_small_programs_have_all_rows() -> None:
     walker, begun, _ = started("human-ball")
-    goals, limits = walker.task.goals, walker._limits(begun)
+    goals, limits = walker.task.goals, walker._limits(begun, Pace())
     near = near_rows.near_rows(limits, goals, near_rows.MANY)
     assert len(near) == len(limits)
     assert all(isinstance(limit, NearRows) for limit in near)
@@ -154,3 +154,16 @@ def test_what_is_left_of_the_way_falls_as_its_square() -> None:
         found.append(best.behind)
     assert found[3] < 0.1 * found[2]
     assert found[2] < walk.NEAR_BY
+
+
+def test_what_forces_do_between_the_knots_is_not_asked_for_in_vain() -> None:
+    """A push that begins and ends with a step: asked for from the start, what bends led to no plan at all."""
+    problem = load_problem("human-ball-5")
+    share = problem.task.duration / 10
+    push = Push(
+        force=0.5, direction=(0.3, 1, -0.5), point=(0, 0.005, 0.01), profile="step", start=3 * share, end=5 * share
+    )
+    outcome = plan(problem.grasp, problem.task.replace(loads=[*problem.task.loads, push]))
+    assert isinstance(outcome, Plan)
+    assert outcome.between is not None
+    assert outcome.between.excess <= 0

@@ -147,7 +147,7 @@ class Walker:
 
         Bounds that are far from binding on the path are asked for only where the answer then misses them.
         """
-        limits, wait = self._limits(best), self._wait(best)
+        limits, wait = self._limits(best, pace), self._wait(best)
         entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
         near = near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
@@ -194,15 +194,20 @@ class Walker:
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
 
-    def _limits(self, walk: Walk) -> tuple[Limit, ...]:
-        """Return the limits that a pass around a path keeps."""
+    def _limits(self, walk: Walk, pace: Pace) -> tuple[Limit, ...]:
+        """Return the limits that a pass around a path keeps.
+
+        What bends is no longer asked for after a pass in vain, which may have been so because of it: what is missing
+        between the knots in the end is asked for then.
+        """
         limits = self.task.kept if isinstance(self.task.goal, LargestMargin) else self.task.all_limits
-        more = self._more_at_knots(walk)
+        more = self.more if pace.tries else self._more_at_knots(walk)
         return (*(limits if more is None else more.asked(limits)), ShortStep())
 
     def _more_at_knots(self, walk: Walk) -> MoreAtKnots | None:
         """Return how much more is asked for at the knots than the task does, for what true forces do between them."""
-        if self.task.between == "report" or len(self.task.times) < 2 or not walk.alike:
+        free = self.task.between == "report" or len(self.task.times) < 2 or isinstance(self.task.goal, LargestMargin)
+        if free or not walk.alike:
             return self.more
         more = self.more or MoreAtKnots.none(self.task, self.start.grasp.n_c)
         return more.for_what_bends(walk.executed, self.looks(walk), walk.kept_to)
