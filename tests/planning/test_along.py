@@ -296,3 +296,12 @@ def test_later_goals_are_asked_once_promises_are_near_what_happens() -> None:
     end = walker.on(replace(far, way=far.way))
     assert end.true
     assert not end.left_out
+
+
+@pytest.mark.parametrize("reserve", ["limits.safety_factor=1.6", "limits.margin_angle=10 deg"])
+def test_more_of_a_reserve_of_friction_is_asked_for_where_it_is_missing_between_the_knots(reserve: str) -> None:
+    problem = load_problem("human-ball", [reserve])
+    outcome = planned(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    assert outcome.between is not None
+    assert outcome.between.excess <= 0

@@ -24,7 +24,7 @@ from synergrip.statics.motion import Motion
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
-SHARE = "a share of the reserve from 0 to 1"
+SHARE = "a share of the reserve from -1 to 1"
 
 
 @naming_arguments
@@ -39,7 +39,7 @@ class FrictionReserve(Limit):
         factor: by which friction may be smaller than stated before a contact slips, 1 or more.
         angle: that every contact force keeps to its cone [rad].
         ratios: share of its friction that a contact may use, between 0 and 1: one for all, or one for each.
-        given_up: share of the reserve that is given up, for rounding, between 0 and 1.
+        given_up: share of the reserve that is given up, for rounding, between -1 and 1; more is asked for below 0.
 
     Raises:
         InputError: none or several of them, or one that is no such number.
@@ -72,7 +72,7 @@ class FrictionReserve(Limit):
                 message = f"expected shares of the friction between 0 and 1, got {float(ratios.max()):g}"
                 raise InputError.at("FrictionReserve.ratios", message)
             object.__setattr__(self, "ratios", ratios)
-        if size("FrictionReserve.given_up", self.given_up, SHARE, at_least=0.0) > 1:
+        if size("FrictionReserve.given_up", self.given_up, SHARE, at_least=-1.0) > 1:
             raise InputError.at("FrictionReserve.given_up", f"expected {SHARE}, got {self.given_up:g}")
 
     @property
@@ -111,7 +111,7 @@ class FrictionReserve(Limit):
             given = self.ratios if self.factor is None else 1 / self.factor
             names = [contact.name for contact in grasp.contacts]
             ratios = one_each("FrictionReserve.ratios", np.asarray(given), names, "contact")
-        return frozen(ratios + self.given_up * (1 - ratios))
+        return frozen(np.maximum(ratios + self.given_up * (1 - ratios), 0.0))
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones of contacts with less friction."""
