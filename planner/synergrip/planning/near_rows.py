@@ -7,8 +7,7 @@ so nothing is lost but the time for rows that say nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from weakref import WeakKeyDictionary
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,13 +32,9 @@ ROUNDING = 1e-6
 class NearRows(InOtherRows):
     """A limit with those of its bounds only that are near on the path."""
 
-    _known: WeakKeyDictionary[Formulation, Sequence[Rows]] = field(
-        default_factory=WeakKeyDictionary, init=False, repr=False, compare=False
-    )
-
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows of the limit that are near, and those that are no simple bounds."""
-        return [kept for part in self._whole(formulation) if (kept := _near(part)) is not None]
+        return [kept for part in self.limit.rows(formulation) if (kept := _near(part)) is not None]
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return what the whole limit bounds."""
@@ -51,14 +46,8 @@ class NearRows(InOtherRows):
 
     def misses(self, formulation: Formulation, v: Array) -> bool:
         """Return whether unknowns (T, n_v) miss a bound, be it one of those that were left out."""
-        parts = [part for part in self._whole(formulation) if _simple(part)]
+        parts = [part for part in self.limit.rows(formulation) if _simple(part)]
         return any(bool(np.any(_values(part, v) < -ROUNDING)) for part in parts)
-
-    def _whole(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return all rows of the limit, worked out once for each formulation."""
-        if formulation not in self._known:
-            self._known[formulation] = self.limit.rows(formulation)
-        return self._known[formulation]
 
 
 def near_rows(limits: tuple[Limit, ...], goals: Sequence[Goal], entries: int) -> tuple[Limit, ...]:
