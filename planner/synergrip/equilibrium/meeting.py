@@ -21,8 +21,6 @@ from synergrip.values import Value
 
 EDGE = 1e-6
 """How far a normal may be from that a little inside of the surface, where there is no edge."""
-WIDE = 0.0
-"""Cosine of an angle of a rotation below which its axis is no longer read off the differences of its entries."""
 INSIDE = 1e-3
 """Share of the distance of a pad's centre from the surface that is a little inside."""
 
@@ -192,11 +190,5 @@ def rotation_vectors(rotations: Array) -> Array:
     """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3)."""
     from scipy.spatial.transform import Rotation
 
-    cosines = (rotations[..., 0, 0] + rotations[..., 1, 1] + rotations[..., 2, 2] - 1) / 2
-    if cosines.min(initial=1.0) < WIDE:
-        flat = np.ascontiguousarray(rotations.reshape(-1, 3, 3))
-        return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(rotations.shape[:-1]))
-    axes = (rotations[..., [2, 0, 1], [1, 2, 0]] - rotations[..., [1, 2, 0], [2, 0, 1]]) / 2  # times the sines
-    sines = np.sqrt(np.square(axes).sum(axis=-1))
-    turned = np.where(sines > 0, np.arctan2(sines, cosines) / np.where(sines > 0, sines, 1.0), 1.0)
-    return np.asarray(axes * turned[..., None])
+    flat = np.ascontiguousarray(rotations.reshape(-1, 3, 3))
+    return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(rotations.shape[:-1]))

@@ -40,9 +40,7 @@ class Sphere(Shape):
 
     def surface(self, points: Array) -> tuple[Array, Array]:
         """Return signed distances and outward normals; at the centre itself the normal is z."""
-        lengths = np.sqrt(np.square(points).sum(axis=-1, keepdims=True))
-        if lengths.all():
-            return lengths[..., 0] - self.radius, points / lengths
+        lengths = np.linalg.norm(points, axis=-1, keepdims=True)
         normals = np.where(lengths > 0, points / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
         return lengths[..., 0] - self.radius, normals
 
