@@ -8,12 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.conic.along import AtStates
-from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
-from synergrip.conic.limits.differences import Differences
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
@@ -134,8 +131,7 @@ def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence
     known = {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
 
     def room(limit: Limit, usage: Usage) -> Array:
-        exact = isinstance(limit, SynergyReference | Differences) and not is_own(type(limit))
-        share = LIMIT if exact else OTHER
+        share = LIMIT if limit.of_references_alone else OTHER
         return np.full(len(usage.items), known[usage.unit]) if usage.unit in known else share * usage.scale
 
     return tuple(room(limit, usage) for limit, usage in zip(limits, usages, strict=True))

@@ -93,7 +93,7 @@ class Walker:
 
     def kept_between(self, walk: Walk) -> Walk:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
-        if self.task.between == "report" or len(self.task.times) < 2 or isinstance(self.task.goal, LargestMargin):
+        if not self._holds_between:
             return walk
         if self.task.margin - margins_at(walk.executed, self.looks(walk)).min() <= walk.kept_to:
             return walk
@@ -206,8 +206,7 @@ class Walker:
 
     def _more_at_knots(self, walk: Walk) -> MoreAtKnots | None:
         """Return how much more is asked for at the knots than the task does, for what true forces do between them."""
-        free = self.task.between == "report" or len(self.task.times) < 2 or isinstance(self.task.goal, LargestMargin)
-        if free or not walk.alike:
+        if not (self._holds_between and walk.alike):
             return self.more
         more = self.more or MoreAtKnots.none(self.task, self.start.grasp.n_c)
         return more.for_what_bends(walk.executed, self.looks(walk), walk.kept_to)
@@ -215,6 +214,12 @@ class Walker:
     def looks(self, walk: Walk) -> Looks:
         """Return the instants at and between the knots at which limits count."""
         return looks_between(self.task, self.start, self.wanted, self._sampled, walk.kept_to)
+
+    @property
+    def _holds_between(self) -> bool:
+        """Whether a margin that is asked for is to hold between the knots, too."""
+        task = self.task
+        return task.between != "report" and len(task.times) > 1 and not isinstance(task.goal, LargestMargin)
 
     @cached_property
     def _sampled(self) -> Intersample | None:

@@ -152,6 +152,11 @@ class Limit(Complete, ByContent, ABC):
         return "references"
 
     @property
+    def of_references_alone(self) -> bool:
+        """Whether it is known from the references, which are what they are, whatever the hand does with them."""
+        return False
+
+    @property
     def couples_knots(self) -> bool:
         """Whether it speaks of the step from knot to knot, and not of each instant."""
         return False
@@ -199,6 +204,11 @@ class InOtherRows(Limit):
     def watches(self) -> Watches:
         """What the other one depends on."""
         return self.limit.watches
+
+    @property
+    def of_references_alone(self) -> bool:
+        """Whether the other one is."""
+        return self.limit.of_references_alone
 
     @property
     def couples_knots(self) -> bool:

@@ -37,6 +37,7 @@ class SynergyAcceleration(Differences):
 
     key = "limits.synergy_acceleration"
     title = "synergy acceleration"
+    of_references_alone = True
 
     def differences(self, times: Array) -> tuple[Array, Array]:
         """Return h_k (h_k + h_(k-1)) / 2, and with r = h_k / h_(k-1) the weights -(1 + r) and r."""
