@@ -194,6 +194,7 @@ Name = Annotated[
 ]
 Whole = Annotated[int, Field(strict=True)]
 Number = Annotated[float, Written(number, NUMBER)]
+NotNegative = Annotated[float, Written(lambda value: number(value, at_least=0), {"type": "number", "minimum": 0})]
 Positive = Annotated[float, Written(lambda value: number(value, above=0), POSITIVE)]
 Version = Annotated[int, Written(_version, {"const": SCHEMA_VERSION})]
 Ratio = Annotated[float, Written(ratio, {"anyOf": [NUMBER, {"type": "string", "examples": ["1/3"]}]})]

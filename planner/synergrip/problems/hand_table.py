@@ -24,6 +24,7 @@ from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
 from synergrip.hands.follower_ranges import FollowerRanges
 from synergrip.hands.synergies.select import SetChoice
+from synergrip.problems.friction_factor import FRICTION_FACTOR, FrictionFactor
 
 
 def _posture(value: object) -> str | dict[str, float]:
@@ -133,6 +134,7 @@ class GraspTable(Table):
     """A grasp given as matrices."""
 
     file: Text = Field(description="JSON file with the matrices, relative to this file")
+    friction_factor: FrictionFactor | None = Field(default=None, description=FRICTION_FACTOR)
 
 
 class ComplianceTable(Table):

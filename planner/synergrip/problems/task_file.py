@@ -10,6 +10,7 @@ from pydantic import Field
 from synergrip.conic.limits.object_error import AXES, AxisName
 from synergrip.documents.fields import (
     NUMBER,
+    NotNegative,
     Size,
     Table,
     Text,
@@ -76,6 +77,7 @@ class TaskTable(Table):
         description="external wrench on the object: 6 numbers in N and N m, or a CSV file with "
         "t_s,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm",
     )
+    load_factor: NotNegative = Field(default=1.0, description="by which the whole load is multiplied, gravity included")
     push: tuple[PushTable, ...] = Field(default=(), description="forces on the object for some time, which add up")
     motion: Text | None = Field(
         default=None, description="wanted motion of the object: CSV file with t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad"
@@ -83,6 +85,7 @@ class TaskTable(Table):
     modes: Text | None = Field(
         default=None, description="wanted motion in coordinates of Gamma_ucs: CSV file with t_s,beta_1,..."
     )
+    motion_factor: NotNegative = Field(default=1.0, description="by which the wanted motion is multiplied")
     tracking: Literal["rigid", "compliant"] = Field(
         default="rigid",
         description="what follows the wanted motion: the rigid part, or the object with its elastic part",

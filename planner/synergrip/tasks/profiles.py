@@ -107,6 +107,8 @@ class Profiles:
     """What `Target.values` holds at the knots."""
     factor: float = 1.0
     """By which the whole load is multiplied."""
+    motion_factor: float = 1.0
+    """By which the wanted motion is multiplied."""
 
     def load_at(self, times: Array) -> Array | None:
         """Return the external wrench on the object (T, 6) at any times (T,) [s]; None when nothing is said of it."""
@@ -116,7 +118,7 @@ class Profiles:
 
     def target_at(self, times: Array) -> Array:
         """Return the wanted motion (T, m) at any times (T,) [s], with the columns of `Target.values`."""
-        return frozen(self.target.at(times))
+        return frozen(self.motion_factor * self.target.at(times))
 
     @property
     def marks(self) -> Marks:

@@ -52,6 +52,7 @@ class Task(ByContent):
         between: what happens between the knots: "report" it, or "hold" the limits there too, in the linear model as
             well; None: the limits hold there on the hand that moves, and are reported for a grasp given as matrices.
         load_factor: by which the whole load is multiplied.
+        motion_factor: by which the wanted motion is multiplied.
         linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
             the hand does; or "once", at the start posture, as the paper does.
 
@@ -76,6 +77,7 @@ class Task(ByContent):
     drift: float | None = None
     between: Literal["report", "hold"] | None = None
     load_factor: float = 1.0
+    motion_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
 
     def __post_init__(self) -> None:
@@ -92,7 +94,7 @@ class Task(ByContent):
         limits = _listed(judge, "limits", self.limits, object, "limits such as NormalForce(upper=20.0)")
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
         axes = _listed(judge, "axes", self.axes, str, f"names of axes, of {', '.join(AXES)}")
-        factor = judge.real("load_factor", self.load_factor, at_least=0)
+        factors = {name: judge.real(name, getattr(self, name), at_least=0) for name in ("load_factor", "motion_factor")}
         compliant = isinstance(self.tracking, str) and self.tracking == "compliant"
         judge.issues += [
             *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),
@@ -103,7 +105,7 @@ class Task(ByContent):
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)
         keep(self, judge, duration=duration, knots=knots, loads=loads, limits=limits, goals=goals, axes=axes,
-             load_factor=factor)  # fmt: skip
+             **factors)  # fmt: skip
 
     @property
     def parts(self) -> dict[str, Stated]:

@@ -67,7 +67,7 @@ def happening(task: Task, body: Object | None) -> tuple[Array, Profiles]:
     over = _over(parts, setting)
     times = knots(parts, task.knots, setting)
     target = over.pop("target", None) or Constant(np.zeros(0))
-    return frozen(times), Profiles(tuple(over.values()), target, task.load_factor)
+    return frozen(times), Profiles(tuple(over.values()), target, task.load_factor, task.motion_factor)
 
 
 def at_start(grasp: Grasp, wrench: Array) -> Grasp:

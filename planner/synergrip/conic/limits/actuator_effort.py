@@ -34,6 +34,7 @@ class ActuatorEffort(Symmetric):
     key = "limits.actuator_effort"
     watches = "forces"
     title = "actuator effort"
+    cause = "effort"
     hand_states = True
 
     def value(self, formulation: Formulation) -> Affine:

@@ -10,11 +10,13 @@ import numpy as np
 
 from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
 from synergrip.documents.naming import naming_arguments
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -44,6 +46,10 @@ class ElasticMotion(Limit):
         """Judge the length."""
         found = size("ElasticMotion.limit", self.limit, "a length in metres greater than 0", above=0.0)
         object.__setattr__(self, "limit", found)
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """The distance."""
+        return (Dial("drift", self.key, self.limit, "m", lambda value: replace(self, limit=value)),)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""

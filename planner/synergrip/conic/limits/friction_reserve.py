@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.arguments import OneOrEach, one_each, size, sizes
 from synergrip.conic.formulation import Formulation
+from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
 from synergrip.conic.limits.limit import Limit, Usage, Watches
@@ -24,6 +25,8 @@ from synergrip.statics.motion import Motion
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
+LEAST = 1e-6
+"""Share of an angle that is as good as none, which it cannot be."""
 SHARE = "a share of the reserve from -1 to 1"
 
 
@@ -89,6 +92,20 @@ class FrictionReserve(Limit):
     def title(self) -> str:
         """Name in reports."""
         return "slip margin with reserve" if self.angle is None else "slip margin with angle"
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """Angle or factor, whichever is stated."""
+        if self.angle:
+            return (
+                Dial(
+                    "margin", self.key, self.angle, "rad", lambda value: replace(self, angle=value), "down",
+                    LEAST * self.angle, written=lambda value: quantity(np.degrees(value), "deg"), smooth=False,
+                ),
+            )  # fmt: skip
+        if self.factor is None or self.factor <= 1:
+            return ()
+        found: Dial[Limit] = Dial("margin", self.key, self.factor, "", lambda v: replace(self, factor=v), "down", 1.0)
+        return (replace(found, smooth=False),)
 
     def on(self, grasp: Grasp) -> Self:
         """Return it with one ratio for each contact, where ratios are given.

@@ -7,16 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
 
 from synergrip.conic.arguments import OneOrEach, numbers, one_each
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
+from synergrip.documents.fields import Written
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.numbers import number
+from synergrip.documents.validation import shown
 from synergrip.errors import InputError
 from synergrip.hands.units import joint_kinds, unit_of
 from synergrip.linalg import Array, frozen
@@ -103,6 +107,16 @@ class JointRange(Limit):
         given = [end for end in (self.lower, self.upper) if end is not None]
         return len(given) == 2 and not any(np.any(np.isfinite(end)) for end in given)
 
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """How wide all ranges are, as a multiple of what they are."""
+        if self.lets_go:
+            return ()
+
+        def written(value: float) -> str:
+            return f"{{ wider = {value - 1:.10g} }}"
+
+        return (Dial("joint_range", self.key, 1.0, "", lambda value: self.loosened(value - 1), written=written),)
+
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range; none where nothing gets as far."""
         names = formulation.response.grasp.joints
@@ -165,12 +179,30 @@ def _stated(held: Held) -> dict[str, Array]:
 def _made(value: Any, grasp: Grasp) -> JointRange:
     if grasp.held is None:
         raise InputError.at("", "needs a [hand]; a grasp file states no joint ranges")
+    if isinstance(value, float):
+        return JointRange().on(grasp).loosened(value)
     return JointRange() if value == "hand" else JointRange(lower=-np.inf, upper=np.inf)
 
 
+def _ranges(value: object) -> str | float:
+    if isinstance(value, dict) and set(value) == {"wider"}:
+        return number(value["wider"], at_least=0)
+    if value in ("hand", "none"):
+        return str(value)
+    raise InputError.at("", f'expected "hand", "none" or {{ wider = 0.05 }}, got {shown(value)}')
+
+
+_WIDER = {
+    "type": "object", "properties": {"wider": {"type": "number", "minimum": 0}}, "required": ["wider"],
+    "additionalProperties": False,
+}  # fmt: skip
+_Ranges = Annotated[Literal["hand", "none"] | float, Written(_ranges, {"anyOf": [{"enum": ["hand", "none"]}, _WIDER]})]
+"""Ranges of the hand, none, or those of the hand with a share of half of each more at both ends."""
+
+
 IN_FILE = FileKey(
-    "joint_range", JointRange, Literal["hand", "none"],
+    "joint_range", JointRange, _Ranges,
     '"hand": every joint stays within the range that the hand states, as it does when nothing is said; "none": they '
-    "are let go",
+    "are let go; { wider = 0.05 }: within ranges wider by a twentieth, half of that at each end",
     _made,
 )  # fmt: skip

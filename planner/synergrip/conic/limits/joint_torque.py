@@ -38,6 +38,7 @@ class JointTorque(Symmetric):
     watches = "forces"
     of = "joint"
     title = "joint torque"
+    cause = "torque"
     hand_states = True
 
     def value(self, formulation: Formulation) -> Affine:

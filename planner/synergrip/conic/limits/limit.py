@@ -20,6 +20,7 @@ from synergrip.statics.motion import Motion
 from synergrip.values import ByContent, Value
 
 if TYPE_CHECKING:
+    from synergrip.conic.limits.dial import Dial
     from synergrip.grasps.grasp import Grasp
 
 Watches = Literal["forces", "motion", "references"]
@@ -150,6 +151,10 @@ class Limit(Complete, ByContent, ABC):
     def watches(self) -> Watches:
         """What it depends on; on all the references unless it says less, so that redundancy is free for it."""
         return "references"
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """Numbers of it that could be others, for answers that say what would help; of what is filled in by `on`."""
+        return ()
 
     @property
     def of_references_alone(self) -> bool:

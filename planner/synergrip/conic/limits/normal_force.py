@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
@@ -18,9 +19,12 @@ from synergrip.documents.fields import Written, array_of, listed, unit_schema, w
 from synergrip.documents.judging import described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
+MOST = 1e9
+"""[N] More than any force, where a file has to name a largest one."""
 FAR = 1e3
 """A bound this many times the force unit hardly binds."""
 
@@ -65,6 +69,22 @@ class NormalForce(Limit):
             raise InputError.at("NormalForce.upper", "the largest normal force must be greater than 0 N")
         object.__setattr__(self, "lower", lower)
         object.__setattr__(self, "upper", upper)
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """The largest force, and the least one where there is one."""
+        upper, lower = self.upper, self.lower
+        found: list[Dial[Limit]] = []
+        if np.isfinite(upper):
+            found.append(
+                Dial("force_cap", self.key, upper, "N", lambda value: replace(self, upper=value),
+                     written=lambda value: _written(lower, value))
+            )  # fmt: skip
+        if lower > 0:
+            found.append(
+                Dial("force_cap", self.key, lower, "N", lambda value: replace(self, lower=value), "down", 0.0,
+                     written=lambda value: _written(value, upper))
+            )  # fmt: skip
+        return tuple(found)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
@@ -122,6 +142,12 @@ def normal_selection(formulation: Formulation) -> Array:
 
 def _names(formulation: Formulation) -> tuple[str, ...]:
     return tuple(contact.name for contact in formulation.response.grasp.contacts)
+
+
+def _written(lower: float, upper: float) -> str:
+    """Return a range of forces as TOML."""
+    ends = (quantity(lower, "N"), quantity(min(upper, MOST), "N"))
+    return ends[1] if lower <= 0 else f"[{', '.join(ends)}]"
 
 
 _force = with_unit("force", at_least=0)

@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage, norm_usage
 from synergrip.conic.rows import Rows, norm_within
@@ -17,6 +18,7 @@ from synergrip.documents.fields import Size
 from synergrip.documents.judging import Arguments, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -74,6 +76,10 @@ class ObjectError(Limit):
             raise InputError.at("ObjectError.part", one_of(self.part, get_args(Part)))
         object.__setattr__(self, "limit", found)
         object.__setattr__(self, "axes", axes)
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """The distance."""
+        return (Dial("drift", self.key, self.limit, "m", lambda value: replace(self, limit=value)),)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone per knot, in units of the limit."""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from synergrip.conic.arguments import size
+from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.limit import Limit
 from synergrip.documents.fields import Force
 from synergrip.documents.naming import naming_arguments
+from synergrip.grasps.grasp import Grasp
 
 MARGIN = "a slip margin in newtons of at least 0; 0 asks only that nothing slips"
 
@@ -34,6 +37,12 @@ class SlipMargin(FrictionCone):
     def __post_init__(self) -> None:
         """Judge the margin."""
         object.__setattr__(self, "margin", size("SlipMargin.margin", self.margin, MARGIN, at_least=0.0))
+
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """The margin, where one is asked for: without one it is a friction cone, which is physics."""
+        if not self.margin:
+            return ()
+        return (Dial("margin", self.key, self.margin, "N", lambda value: replace(self, margin=value), "down", 0.0),)
 
 
 IN_FILE = FileKey(

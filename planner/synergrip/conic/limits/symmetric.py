@@ -11,6 +11,7 @@ import numpy as np
 
 from synergrip.conic.arguments import OneOrEach, one_each, sizes
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.dial import Cause, Dial, numbers
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, within
 from synergrip.errors import InputError
@@ -36,6 +37,8 @@ class Symmetric(Limit):
     limit: OneOrEach
     of: ClassVar[Literal["joint", "synergy"]] = "synergy"
     title: ClassVar[str]
+    cause: ClassVar[Cause] = "limit"
+    """What it is called where it keeps a task from having a plan."""
     hand_states: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
@@ -88,6 +91,22 @@ class Symmetric(Limit):
         """Return it with every bound larger by `share`; those of a hand must be filled in."""
         return replace(self, limit=frozen(self.limit * (1 + share)))
 
+    def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
+        """The numbers, all by one factor."""
+        limit = np.atleast_1d(np.asarray(self.limit, dtype=float))
+        finite = limit[np.isfinite(limit)]
+        if not len(finite):
+            return ()
+        largest = float(finite.max())
+
+        def written(value: float) -> str:
+            return numbers(np.where(np.isfinite(limit), limit, FAR_AWAY * largest) * (value / largest))
+
+        def turned(value: float) -> Limit:
+            return replace(self, limit=frozen(limit * (value / largest)))
+
+        return (Dial(self.cause, self.key, largest, self.unit(grasp), turned, written=written),)
+
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the values that the motion reaches."""
         grasp, limit = formulation.response.grasp, self.on(formulation.response.grasp).limit
@@ -97,6 +116,8 @@ class Symmetric(Limit):
         )  # fmt: skip
 
 
+FAR_AWAY = 1e6
+"""Times the largest finite limit, in files, where a limit in a list is none."""
 NO_HAND = "'hand' needs a hand; a grasp given as matrices states no limits, give numbers"
 NOT_STATED = "this hand states no such limit; write numbers"
 

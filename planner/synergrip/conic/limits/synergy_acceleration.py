@@ -37,6 +37,7 @@ class SynergyAcceleration(Differences):
 
     key = "limits.synergy_acceleration"
     title = "synergy acceleration"
+    cause = "acceleration"
     of_references_alone = True
 
     def differences(self, times: Array) -> tuple[Array, Array]:

@@ -34,6 +34,7 @@ class SynergyRate(Differences):
 
     key = "limits.synergy_rate"
     title = "synergy rate"
+    cause = "rate"
     of_references_alone = True
 
     def differences(self, times: Array) -> tuple[Array, Array]:

@@ -29,6 +29,7 @@ class SynergyReference(Symmetric):
 
     key = "limits.synergy_reference"
     title = "synergy reference"
+    cause = "synergy_range"
     of_references_alone = True
 
     def value(self, formulation: Formulation) -> Affine:

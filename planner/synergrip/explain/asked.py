@@ -1,0 +1,92 @@
+"""What was asked, as a value of which single numbers can be changed, and the program that decides it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.program import Program
+from synergrip.conic.question import Question
+from synergrip.conic.units import Units
+from synergrip.errors import SynergripError
+from synergrip.grasps.grasp import Grasp
+from synergrip.planning.formulated import formulated
+from synergrip.planning.instants import intersample_of
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.timing import at_start
+from synergrip.values import Value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Asked(Value):
+    """A grasp and a task, all limits among its limits: the slip margin, and what the hand states."""
+
+    grasp: Grasp
+    task: Task | TimedTask
+
+    @classmethod
+    def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask) -> Asked:
+        """Return what was asked, limits filled in.
+
+        Args:
+            grasp: who plans.
+            task: as it was asked.
+            timed: the same at its knots.
+        """
+        return cls(grasp, task).with_limits((SlipMargin(timed.margin), *timed.limits))
+
+    def with_limits(self, limits: tuple[Limit, ...]) -> Asked:
+        """Return the same within other limits."""
+        return self.with_task(limits=limits, **({"margin": 0.0} if isinstance(self.task, TimedTask) else {}))
+
+    def with_task(self, **changes: Any) -> Asked:
+        """Return the same with other arguments of the task."""
+        return replace(self, task=replace(self.task, **changes))
+
+    @property
+    def timed(self) -> TimedTask:
+        """The task at its knots."""
+        return self.task.timed(self.grasp) if isinstance(self.task, Task) else self.task.on(self.grasp)
+
+    def posed(self, known: Analysis | None = None, units: Units | None = None) -> Posed | None:
+        """Return the program of the start posture; None where the task is refused before there is one.
+
+        Args:
+            known: an analysis of a grasp with the same matrices, not to be made again.
+            units: of its unknowns; those that suit the task when None.
+        """
+        try:
+            timed = self.timed
+            grasp = at_start(self.grasp, timed.wrench[0])
+            analysis = analyse(grasp, timed.wrench) if known is None else _of(known, grasp)
+            formulation = formulated(analysis, timed, redundancy=timed.watches_references)
+        except SynergripError:
+            return None
+        if timed.between == "hold":
+            formulation = replace(formulation, intersample=intersample_of(timed, analysis))
+        formulation = formulation if units is None else formulation.in_units(units)
+        return Posed(analysis, timed, formulation)
+
+
+def _of(known: Analysis, grasp: Grasp) -> Analysis:
+    """Return an analysis as that of a grasp with the same matrices: of w_0 nothing in it depends."""
+    return replace(known, grasp=grasp, response=replace(known.response, grasp=grasp))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Posed(Value):
+    """A task as a program at the start posture."""
+
+    analysis: Analysis
+    timed: TimedTask
+    formulation: Formulation
+
+    def program(self) -> Program:
+        """Return the program of least effort within all limits."""
+        return Question(self.formulation, self.timed.all_limits, LeastEffort()).program()

@@ -1,0 +1,202 @@
+"""The least change of one number that leaves a plan: by one program where rows are affine in it, else by bisection."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import sparse
+
+from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.decide import Decision, decide
+from synergrip.conic.limits.dial import Dial
+from synergrip.conic.program import Block, Program
+from synergrip.conic.relaxed import proven
+from synergrip.conic.rows import Item, Kind
+from synergrip.conic.solvers import clarabel_
+from synergrip.conic.variable_bounds import LARGEST
+from synergrip.explain.asked import Asked, Posed
+from synergrip.linalg import Array, frozen
+from synergrip.values import Value
+
+STEP = 0.25
+"""Share of a number by which it is turned to see what its rows make of it."""
+SAME_ROWS = 1e-9
+"""Relative difference of rows that are the same but for their unit."""
+STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
+"""Factors that are tried until there is a plan, before the least one is looked for."""
+CLOSE = 2e-4
+"""Relative distance at which a bisection ends."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LeastChange(Value):
+    """How far a number must go at least, in the linear model of the start posture."""
+
+    dial: Dial[Asked]
+    value: float | None
+    """The nearest value with a plan; None when there is none, as far as the number goes."""
+    proven: bool
+    """Whether the claim about what is short of it, or about all that the number can be, is verified by a certificate."""
+    weight: Array | None = None
+    """(m,) multipliers of the rows of the task's program: the proof that less does not do."""
+
+    @property
+    def size(self) -> float:
+        """How large the change is."""
+        return np.inf if self.value is None else self.dial.size(self.value)
+
+
+def solved(name: str, program: Program) -> Decision:
+    """Return what comes of a program, verified."""
+    return decide(name, program, lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings))
+
+
+def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
+    """Return the least change of a number.
+
+    Args:
+        dial: the number.
+        posed: what was asked, as a program of the start posture.
+        program: that program, which has no plan.
+    """
+    if dial.smooth:
+        column = turning_column(dial, posed, program)
+        if column is not None:
+            found = _by_one_program(dial, program, column)
+            if found is not None:
+                return found
+    return _by_bisection(dial, posed)
+
+
+def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array | None:
+    """Return (m,) how b changes with the number, per relative turn toward more room; None where A changes too."""
+    unit = _unit(dial)
+    sign = 1.0 if dial.eased == "up" else -1.0
+    step = STEP if dial.eased == "up" else min(STEP, abs(dial.end - dial.value) / unit)
+    other = _posed_at(dial, dial.value + sign * step * unit, posed)
+    if other is None:
+        return None
+    turned = other.program()
+    if turned.A.shape != program.A.shape or len(turned.blocks) != len(program.blocks):
+        return None
+    ratios = row_ratios(program, turned)
+    if ratios is None:
+        return None
+    return frozen((turned.b / ratios - program.b) / step)
+
+
+def _unit(dial: Dial[Asked]) -> float:
+    return abs(dial.value) if dial.value else dial.scale
+
+
+def _posed_at(dial: Dial[Asked], value: float, posed: Posed) -> Posed | None:
+    return dial.turned(value).posed(posed.analysis, posed.formulation.units)
+
+
+def row_ratios(one: Program, other: Program) -> Array | None:
+    """Return (m,) by what the cones of another program are multiples of those of one; None where they are not.
+
+    A cone whose rows see no unknown is in the unit of the same item at other knots.
+    """
+    sizes = [np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)]
+    ratios = np.ones(len(one.b))
+    for block, rows in one.slices():
+        shape = (block.knots, len(block.items), block.dim)
+        first, second = (size[rows].reshape(shape).max(axis=2) for size in sizes)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.where(first > 0, second / first, np.nan)
+        for fill in (_of_item(ratio), _of_all(ratio)):
+            ratio = np.where(np.isnan(ratio), fill, ratio)
+        ratios[rows] = np.repeat(np.where(np.isnan(ratio), 1.0, ratio)[:, :, None], block.dim, axis=2).ravel()
+    if np.any(ratios <= 0) or not np.all(np.isfinite(ratios)):
+        return None
+    apart = sparse.csr_matrix(sparse.diags_array(1 / ratios) @ other.A - one.A)
+    worst = float(abs(apart).max()) if apart.nnz else 0.0
+    return ratios if worst <= SAME_ROWS * max(float(sizes[0].max(initial=0.0)), 1.0) else None
+
+
+def _of_item(ratio: Array) -> Array:
+    known = ~np.isnan(ratio)
+    total = np.where(known, ratio, 0.0).sum(axis=0)
+    count = known.sum(axis=0)
+    return np.broadcast_to(np.where(count > 0, total / np.maximum(count, 1), np.nan), ratio.shape)
+
+
+def _of_all(ratio: Array) -> Array:
+    known = ratio[~np.isnan(ratio)]
+    return np.full(ratio.shape, known.mean() if len(known) else np.nan)
+
+
+def _by_one_program(dial: Dial[Asked], program: Program, column: Array) -> LeastChange | None:
+    """Return the least turn, by a program with one more unknown; None where nothing verifies."""
+    far = abs(dial.end - dial.value) / _unit(dial)
+    decision = solved("least change", with_turn(program, column, far))
+    m = len(program.b)
+    if decision.infeasible:
+        return LeastChange(dial, None, proven=True, weight=frozen(decision.solution.z[:m]))
+    if not decision.optimal:
+        return None
+    turn = max(float(decision.solution.x[-1]), 0.0)
+    sign = 1.0 if dial.eased == "up" else -1.0
+    weight = frozen(decision.solution.z[:m])
+    return LeastChange(dial, dial.value + sign * turn * _unit(dial), proven=True, weight=weight)
+
+
+def with_turn(program: Program, column: Array, far: float) -> Program:
+    """Return the program of the least turn s, from 0 to `far`, with ``b + s column`` in the place of b."""
+    n = len(program.q)
+    ends = [(-1.0, 0.0)] + ([(1.0, far)] if np.isfinite(far) else [])
+    last = sparse.csc_matrix(([sign for sign, _ in ends], (range(len(ends)), [n] * len(ends))), shape=(len(ends), n + 1))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, sparse.csc_matrix(-column[:, None])]), last]))
+    blocks = tuple(Block("turn", Kind.NONNEGATIVE, 1, (Item("turn"),), 0, 1) for _ in ends)
+    return replace(
+        program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A, constant=0.0,
+        b=frozen(np.concatenate([program.b, [bound for _, bound in ends]])),
+        variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), min(far, LARGEST))), blocks=(*program.blocks, *blocks),
+    )  # fmt: skip
+
+
+def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
+    """Return the least change between values that are tried one after the other; sets of plans are nested in it."""
+    low, weight, certain, high = dial.value, None, True, None
+    for value in _tries(dial):
+        decision = _decided_at(dial, value, posed)
+        if decision is not None and decision.acceptable:
+            high = value
+            break
+        low, certain = value, decision is not None and decision.infeasible
+    if high is None:
+        return LeastChange(dial, None, proven=certain)
+    while abs(high - low) > CLOSE * max(abs(high), abs(low)):
+        middle = np.sqrt(high * low) if low * high > 0 else (high + low) / 2
+        decision = _decided_at(dial, float(middle), posed)
+        if decision is not None and decision.acceptable:
+            high = float(middle)
+        else:
+            low, certain = float(middle), decision is not None and decision.infeasible
+    return LeastChange(dial, high, proven=certain, weight=weight)
+
+
+def _tries(dial: Dial[Asked]) -> Sequence[float]:
+    """Return the values that are tried, up to the end of the number."""
+    if dial.eased == "up":
+        return [value for value in (dial.value * factor for factor in STRETCH) if value <= dial.end * (1 + SAME_ROWS)]
+    return [*(v for v in (dial.value / factor for factor in STRETCH) if v > dial.end), dial.end]
+
+
+def _decided_at(dial: Dial[Asked], value: float, posed: Posed) -> Decision | None:
+    other = dial.turned(value).posed(None if dial.cause == "stiffness" else posed.analysis)
+    return None if other is None else solved("any plan", other.program())
+
+
+def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:
+    """Return whether it is certified that a change smaller by a share of the value leaves no plan."""
+    sign = 1.0 if dial.eased == "up" else -1.0
+    size = abs(value) if value else _unit(dial)
+    before = value - sign * share * size
+    if sign * (before - dial.value) <= 0:
+        return True  # what is asked itself has none
+    decision = _decided_at(dial, before, posed)
+    return decision is not None and decision.infeasible and judge_infeasible(decision.program, decision.solution.z).verified

@@ -1,0 +1,139 @@
+"""The numbers of a task that could be others: of its limits, its load, its motion, its time, and of the friction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.conic.limits.dial import Dial, quantity
+from synergrip.conic.limits.limit import Limit
+from synergrip.explain.asked import Asked
+from synergrip.linalg import frozen
+from synergrip.tasks.gravity import Gravity
+from synergrip.tasks.palm_motion import Palm
+from synergrip.tasks.palm_path import PalmPath
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+
+FRICTION_END = 100.0
+"""How many times its friction a contact is asked to have at most."""
+LONGEST = 100.0
+"""How many times as long a task is asked to take at most."""
+LEAST_MASS = 1e-9
+"""[kg] Of an object; a mass is never 0."""
+
+
+def dials(asked: Asked, timed: TimedTask, length: float) -> tuple[Dial[Asked], ...]:
+    """Return every number that could be another one, limits first.
+
+    Args:
+        asked: what is asked.
+        timed: the same at its knots.
+        length: characteristic length of the grasp [m].
+    """
+    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), _of_friction(asked)))
+
+
+def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
+    limits = tuple(asked.task.limits)
+    for index, limit in enumerate(limits):
+        for dial in limit.dials(asked.grasp):
+            yield _lifted(asked, limits, index, dial)
+
+
+def _lifted(asked: Asked, limits: tuple[Limit, ...], index: int, dial: Dial[Limit]) -> Dial[Asked]:
+    """Return a dial of a limit as one of what is asked."""
+
+    def turned(value: float) -> Asked:
+        return asked.with_limits((*limits[:index], dial.turned(value), *limits[index + 1 :]))
+
+    return Dial(**{**{name: getattr(dial, name) for name in dial.__dataclass_fields__}, "turned": turned})
+
+
+def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Asked]]:
+    moves = bool(np.any(timed.target.values))
+    if moves or timed.tracking == "compliant":
+        size = float(np.linalg.norm(_displacements(timed, length), axis=1).max(initial=0.0))
+        yield Dial(
+            "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
+            scale=size or length,
+        )  # fmt: skip
+    if timed.drift is not None:
+        yield Dial("drift", "task.drift", timed.drift, "m", lambda v: asked.with_task(drift=v))
+    if moves:
+        yield _amplitude(asked, timed)
+    task = asked.task
+    if isinstance(task, Task) and _stretches(task) and len(timed.times) > 1:
+        seconds = float(timed.times[-1] - timed.times[0])
+        yield Dial(
+            "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
+            smooth=False,
+        )  # fmt: skip
+
+
+def _displacements(timed: TimedTask, length: float) -> np.ndarray:
+    """Return the size (T, m) of a wish, rotations times length; coordinates of rigid motions are lengths as they are."""
+    values = timed.target.values
+    return values * ([1.0] * 3 + [length] * 3) if timed.target.kind == "motion" else values
+
+
+def _amplitude(asked: Asked, timed: TimedTask) -> Dial[Asked]:
+    task = asked.task
+    if isinstance(task, Task):
+        return Dial(
+            "amplitude", "task.motion_factor", task.motion_factor, "", lambda v: asked.with_task(motion_factor=v),
+            "down", 0.0,
+        )  # fmt: skip
+
+    def scaled(value: float) -> Asked:
+        return asked.with_task(target=replace(timed.target, values=frozen(value * timed.target.values)), course=None)
+
+    return Dial("amplitude", "task.motion_factor", 1.0, "", scaled, "down", 0.0)
+
+
+def _stretches(task: Task) -> bool:
+    """Return whether nothing in a task is bound to times of its own: it may take longer as it is."""
+    bound = [part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None]
+    return all(isinstance(part, Palm) for part in bound)
+
+
+def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
+    if not np.any(timed.wrench):
+        return
+    task, held = asked.task, asked.grasp.held
+    if isinstance(task, TimedTask):
+        yield Dial(
+            "load", "task.load_factor", 1.0, "",
+            lambda v: asked.with_task(wrench=frozen(v * timed.wrench), course=None), "down", 0.0,
+        )  # fmt: skip
+    elif held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads):
+        yield Dial(
+            "load", "object.mass", held.body.mass, "kg", lambda v: replace(asked, grasp=asked.grasp.replace(mass=v)),
+            "down", LEAST_MASS,
+        )  # fmt: skip
+    elif task.load_factor > 0:
+        yield Dial(
+            "load", "task.load_factor", task.load_factor, "", lambda v: asked.with_task(load_factor=v), "down", 0.0
+        )
+
+
+def _of_friction(asked: Asked) -> Dial[Asked]:
+    """Return the friction of all contacts, by one factor; spin friction goes along."""
+    grasp = asked.grasp
+    least = min((contact.friction for contact in grasp.contacts if contact.friction > 0), default=0.0)
+
+    def turned(value: float) -> Asked:
+        kinds = {contact.name: contact.kind.slippery(value / least) for contact in grasp.contacts}
+        return replace(asked, grasp=grasp.replace(contact=kinds))
+
+    return Dial(
+        "friction", friction_key(asked), least, "", turned, end=FRICTION_END * least, smooth=False,
+        written=lambda value: quantity(value / least, ""),
+    )  # fmt: skip
+
+
+def friction_key(asked: Asked) -> str:
+    """Return the key by which a problem file multiplies friction."""
+    return "contacts.friction_factor" if asked.grasp.held is not None else "grasp.friction_factor"

@@ -1,0 +1,132 @@
+"""When a task has no plan: which of its instants have none by themselves, and whether it is the steps between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.program import Program
+from synergrip.conic.rows import Kind
+from synergrip.conic.variable_bounds import LARGEST
+from synergrip.explain.asked import Posed
+from synergrip.explain.least_change import solved
+from synergrip.linalg import Array, frozen
+from synergrip.values import Value
+
+NO_MORE = 1e-9
+"""By how much cones must be widened for an instant to be tried as one without a plan, in units of the program."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class When(Value):
+    """Which instants of a task have no plan, in the linear model of the start posture."""
+
+    first_s: float | None
+    """The first of them; of steps that clash only together, the end of the first stretch that has none. None when it is
+    not known."""
+    intervals_s: tuple[tuple[float, float], ...]
+    """From the first to the last knot of each stretch of knots without a plan."""
+    alone: bool
+    """Whether these knots have none each by itself: then no limit on steps is to blame."""
+
+
+def when(posed: Posed, program: Program) -> When:
+    """Return which knots have no plan, each proven by itself.
+
+    Args:
+        posed: a task without a plan.
+        program: of it.
+    """
+    times = posed.timed.times
+    at = np.concatenate([np.tile(np.arange(block.knots)[:, None], len(block.items) * block.dim).ravel() + block.first_knot
+                         if not block.between else np.full(block.rows, -1) for block in program.blocks])  # fmt: skip
+    alone = at >= 0
+    alone &= _of_one_knot(program, at)
+    found = _proven_knots(program, at, alone)
+    if np.any(found):
+        return When(float(times[found][0]), _stretches(times, found), alone=True)
+    return When(_first_together(posed), (), alone=False)
+
+
+def _of_one_knot(program: Program, at: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Return the rows (m,) that see the unknowns of their own knot only, whole cones; equations are none of them."""
+    A = sparse.coo_matrix(program.A)
+    other = np.zeros(len(program.b), dtype=bool)
+    inside = program.n_v * program.knots > A.col
+    other[A.row[~inside | (A.col // max(program.n_v, 1) != at[A.row])]] = True
+    for block, rows in program.slices():
+        cones = other[rows].reshape(-1, block.dim)
+        other[rows] = np.repeat(cones.any(axis=1), block.dim) | (block.kind is Kind.ZERO)
+    return ~other
+
+
+def _proven_knots(program: Program, at: NDArray[np.intp], alone: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the knots (T,) of which a certificate proves that they have no plan by themselves.
+
+    One program widens the cones of each knot by as little as possible; its multipliers at a knot are the proof there.
+    """
+    T, n = program.knots, len(program.q)
+    heads = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        heads[rows][:: block.dim] = 1.0
+    rows = np.flatnonzero(alone)
+    widened = sparse.csc_matrix((-heads[rows], (np.arange(len(rows)), at[rows])), shape=(len(rows), T))
+    nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[rows], widened]), nothing]))
+    least = _cut(program, alone, A, np.concatenate([program.b[rows], np.zeros(T)]), np.append(np.zeros(n), np.ones(T)), T)
+    decision = solved("least widening", least)
+    found = np.zeros(T, dtype=bool)
+    for k in np.flatnonzero(decision.solution.x[n:] > NO_MORE) if len(decision.solution.x) == n + T else ():
+        ray = np.zeros(len(program.b))
+        mine = rows[at[rows] == k]
+        ray[mine] = decision.solution.z[: len(rows)][at[rows] == k]
+        found[k] = judge_infeasible(program, ray).verified
+    return found
+
+
+def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Array, q: Array, more: int) -> Program:
+    """Return a program of some of the cones, with one more unknown for each knot."""
+    from synergrip.conic.program import Block
+    from synergrip.conic.rows import Item
+
+    blocks = []
+    for block, rows in program.slices():
+        kept = int(np.count_nonzero(keep[rows])) // block.dim
+        if kept:
+            blocks.append(replace(block, items=(Item(block.limit),), first_knot=0, knots=kept))
+    blocks.append(Block("widening", Kind.NONNEGATIVE, 1, (Item("knot"),), 0, more))
+    n = len(q)
+    bounds = np.append(np.maximum(program.variable_bounds, LARGEST), np.full(more, LARGEST))
+    return replace(
+        program, P=sparse.csc_matrix((n, n)), q=frozen(q), A=A, b=frozen(b), blocks=tuple(blocks), constant=0.0,
+        variable_bounds=frozen(bounds),
+    )  # fmt: skip
+
+
+def _stretches(times: Array, found: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+    """Return first and last instant of each stretch of knots that are found."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], found, [False]]).astype(int)))
+    return tuple((float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True))
+
+
+def _first_together(posed: Posed) -> float | None:
+    """Return the end of the shortest first part of a task that has no plan; None where that is not certain."""
+    from synergrip.explain.asked import Asked
+
+    timed, analysis = posed.timed, posed.analysis
+    low, high = 1, len(timed.times)  # the first knots by themselves have a plan, all together have none
+    while high - low > 1:
+        middle = (low + high) // 2
+        part = Asked(analysis.grasp, replace(timed.first(middle), course=None)).posed(analysis, posed.formulation.units)
+        decision = None if part is None else solved("any plan", part.program())
+        if decision is not None and decision.infeasible:
+            high = middle
+        elif decision is not None and decision.acceptable:
+            low = middle
+        else:
+            return None
+    return float(timed.times[high - 1])
