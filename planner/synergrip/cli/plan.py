@@ -109,7 +109,7 @@ def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) ->
 
     try:
         with heard():
-            return make(problem.grasp, problem.timed, answers)
+            return make(problem.grasp, problem.task, answers)
     except SynergripError as error:
         raise located(problem, error) from None
 

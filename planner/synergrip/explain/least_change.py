@@ -38,7 +38,7 @@ class LeastChange(Value):
     value: float | None
     """The nearest value with a plan; None when there is none, as far as the number goes."""
     proven: bool
-    """Whether the claim about what is short of it, or about all that the number can be, is verified by a certificate."""
+    """Whether a certificate verifies what is said of values short of it, or of all that the number can be."""
     weight: Array | None = None
     """(m,) multipliers of the rows of the task's program: the proof that less does not do."""
 
@@ -50,7 +50,11 @@ class LeastChange(Value):
 
 def solved(name: str, program: Program) -> Decision:
     """Return what comes of a program, verified."""
-    return decide(name, program, lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings))
+    return decide(
+        name,
+        program,
+        lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings),
+    )
 
 
 def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
@@ -100,7 +104,9 @@ def row_ratios(one: Program, other: Program) -> Array | None:
 
     A cone whose rows see no unknown is in the unit of the same item at other knots.
     """
-    sizes = [np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)]
+    sizes = [
+        np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)
+    ]
     ratios = np.ones(len(one.b))
     for block, rows in one.slices():
         shape = (block.knots, len(block.items), block.dim)
@@ -148,13 +154,16 @@ def with_turn(program: Program, column: Array, far: float) -> Program:
     """Return the program of the least turn s, from 0 to `far`, with ``b + s column`` in the place of b."""
     n = len(program.q)
     ends = [(-1.0, 0.0)] + ([(1.0, far)] if np.isfinite(far) else [])
-    last = sparse.csc_matrix(([sign for sign, _ in ends], (range(len(ends)), [n] * len(ends))), shape=(len(ends), n + 1))
+    last = sparse.csc_matrix(
+        ([sign for sign, _ in ends], (range(len(ends)), [n] * len(ends))), shape=(len(ends), n + 1)
+    )
     A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, sparse.csc_matrix(-column[:, None])]), last]))
     blocks = tuple(Block("turn", Kind.NONNEGATIVE, 1, (Item("turn"),), 0, 1) for _ in ends)
+    bounds = np.append(np.maximum(program.variable_bounds, LARGEST), min(far, LARGEST))
     return replace(
         program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A, constant=0.0,
-        b=frozen(np.concatenate([program.b, [bound for _, bound in ends]])),
-        variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), min(far, LARGEST))), blocks=(*program.blocks, *blocks),
+        b=frozen(np.concatenate([program.b, [bound for _, bound in ends]])), variable_bounds=frozen(bounds),
+        blocks=(*program.blocks, *blocks),
     )  # fmt: skip
 
 
@@ -199,4 +208,8 @@ def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> boo
     if sign * (before - dial.value) <= 0:
         return True  # what is asked itself has none
     decision = _decided_at(dial, before, posed)
-    return decision is not None and decision.infeasible and judge_infeasible(decision.program, decision.solution.z).verified
+    return (
+        decision is not None
+        and decision.infeasible
+        and judge_infeasible(decision.program, decision.solution.z).verified
+    )

@@ -74,7 +74,7 @@ def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Ask
 
 
 def _displacements(timed: TimedTask, length: float) -> np.ndarray:
-    """Return the size (T, m) of a wish, rotations times length; coordinates of rigid motions are lengths as they are."""
+    """Return a wish (T, m) in metres: rotations times length; coordinates of rigid motions are lengths as they are."""
     values = timed.target.values
     return values * ([1.0] * 3 + [length] * 3) if timed.target.kind == "motion" else values
 
@@ -95,7 +95,9 @@ def _amplitude(asked: Asked, timed: TimedTask) -> Dial[Asked]:
 
 def _stretches(task: Task) -> bool:
     """Return whether nothing in a task is bound to times of its own: it may take longer as it is."""
-    bound = [part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None]
+    bound = [
+        part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None
+    ]
     return all(isinstance(part, Palm) for part in bound)
 
 
@@ -108,7 +110,9 @@ def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
             "load", "task.load_factor", 1.0, "",
             lambda v: asked.with_task(wrench=frozen(v * timed.wrench), course=None), "down", 0.0,
         )  # fmt: skip
-    elif held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads):
+    elif (
+        held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads)
+    ):
         yield Dial(
             "load", "object.mass", held.body.mass, "kg", lambda v: replace(asked, grasp=asked.grasp.replace(mass=v)),
             "down", LEAST_MASS,

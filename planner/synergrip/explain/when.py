@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.conic.certificate import judge_infeasible
-from synergrip.conic.program import Program
-from synergrip.conic.rows import Kind
+from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
-from synergrip.explain.asked import Posed
+from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import solved
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -41,15 +41,20 @@ def when(posed: Posed, program: Program) -> When:
         posed: a task without a plan.
         program: of it.
     """
-    times = posed.timed.times
-    at = np.concatenate([np.tile(np.arange(block.knots)[:, None], len(block.items) * block.dim).ravel() + block.first_knot
-                         if not block.between else np.full(block.rows, -1) for block in program.blocks])  # fmt: skip
-    alone = at >= 0
-    alone &= _of_one_knot(program, at)
-    found = _proven_knots(program, at, alone)
+    times, at = posed.timed.times, _knots_of_rows(program)
+    found = _proven_knots(program, at, (at >= 0) & _of_one_knot(program, at))
     if np.any(found):
         return When(float(times[found][0]), _stretches(times, found), alone=True)
     return When(_first_together(posed), (), alone=False)
+
+
+def _knots_of_rows(program: Program) -> NDArray[np.intp]:
+    """Return the knot that each row (m,) speaks of; -1 between them."""
+    found = np.full(len(program.b), -1, dtype=np.intp)
+    for block, rows in program.slices():
+        if not block.between:
+            found[rows] = block.first_knot + np.repeat(np.arange(block.knots), len(block.items) * block.dim)
+    return found
 
 
 def _of_one_knot(program: Program, at: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -73,26 +78,25 @@ def _proven_knots(program: Program, at: NDArray[np.intp], alone: NDArray[np.bool
     heads = np.zeros(len(program.b))
     for block, rows in program.slices():
         heads[rows][:: block.dim] = 1.0
-    rows = np.flatnonzero(alone)
-    widened = sparse.csc_matrix((-heads[rows], (np.arange(len(rows)), at[rows])), shape=(len(rows), T))
+    kept = np.flatnonzero(alone)
+    widened = sparse.csc_matrix((-heads[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
     nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
-    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[rows], widened]), nothing]))
-    least = _cut(program, alone, A, np.concatenate([program.b[rows], np.zeros(T)]), np.append(np.zeros(n), np.ones(T)), T)
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[kept], widened]), nothing]))
+    least = _cut(
+        program, alone, A, np.concatenate([program.b[kept], np.zeros(T)]), np.append(np.zeros(n), np.ones(T)), T
+    )
     decision = solved("least widening", least)
     found = np.zeros(T, dtype=bool)
     for k in np.flatnonzero(decision.solution.x[n:] > NO_MORE) if len(decision.solution.x) == n + T else ():
         ray = np.zeros(len(program.b))
-        mine = rows[at[rows] == k]
-        ray[mine] = decision.solution.z[: len(rows)][at[rows] == k]
+        mine = at[kept] == k
+        ray[kept[mine]] = decision.solution.z[: len(kept)][mine]
         found[k] = judge_infeasible(program, ray).verified
     return found
 
 
 def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Array, q: Array, more: int) -> Program:
     """Return a program of some of the cones, with one more unknown for each knot."""
-    from synergrip.conic.program import Block
-    from synergrip.conic.rows import Item
-
     blocks = []
     for block, rows in program.slices():
         kept = int(np.count_nonzero(keep[rows])) // block.dim
@@ -115,8 +119,6 @@ def _stretches(times: Array, found: NDArray[np.bool_]) -> tuple[tuple[float, flo
 
 def _first_together(posed: Posed) -> float | None:
     """Return the end of the shortest first part of a task that has no plan; None where that is not certain."""
-    from synergrip.explain.asked import Asked
-
     timed, analysis = posed.timed, posed.analysis
     low, high = 1, len(timed.times)  # the first knots by themselves have a plan, all together have none
     while high - low > 1:

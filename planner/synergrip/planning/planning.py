@@ -53,7 +53,7 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     answers = answerer(solver, "solver")
     outcome = _on_the_hand(plan_of_start_posture(grasp, task, answers), answers)
     LOG.info("%r", outcome)
-    return outcome
+    return outcome if isinstance(outcome, Plan) else replace(outcome, asked=task)
 
 
 def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:

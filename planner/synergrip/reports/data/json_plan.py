@@ -10,7 +10,6 @@ import numpy as np
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
-from synergrip.explain.repairs import repairs
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
@@ -30,6 +29,7 @@ from synergrip.planning.told import (
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
+from synergrip.reports.data.json_no import no_document
 from synergrip.tasks.scaling import units_of
 
 
@@ -59,7 +59,8 @@ def outcome_document(
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
     }  # fmt: skip
-    document |= {"why": outcome.why, "stage": outcome.stage, "certificate": certificate, "reached": told}
+    document |= {"stage": outcome.stage, "certificate": certificate, "reached": told}
+    document |= no_document(outcome.explanation, outcome.task.times)
     if outcome.executed is not None and outcome.usages:
         document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
         document["limits"] = [usage_document(usage) for usage in outcome.usages]
@@ -93,11 +94,8 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
     if outcome.decisions:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
-        "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
-        "hints": list(outcome.hints),
-    }  # fmt: skip
-    if outcome.conflicts:
-        document["conflicts"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.conflicts]
+        "stage": outcome.stage, "certificate": certificate | {"scope": "start"}, "hints": list(outcome.hints),
+    } | no_document(outcome.explanation, outcome.task.times)  # fmt: skip
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})

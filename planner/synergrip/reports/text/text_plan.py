@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +14,14 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
-from synergrip.explain.repairs import repairs
+from synergrip.errors import Issue
 from synergrip.linalg import Array
 from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
+from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
 _STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
@@ -48,9 +48,10 @@ def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> li
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [_proof(outcome), "", *_infeasible(outcome, word)]
+        lines += [_proof(outcome), "", *_infeasible(problem, outcome, word)]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
+        lines += more_lines(outcome.explanation, outcome.task.times, placed(problem))
     notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
@@ -195,14 +196,24 @@ def _proof(outcome: Infeasible) -> str:
     return f"check    proof re-checked: {ray}"
 
 
-def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
-    yield from refused_lines(word, outcome.stage, outcome.why)
-    for i, conflict in enumerate(outcome.conflicts):
-        yield f"{'Clashes' if i == 0 else '':8} {conflict.share:4.0%}  {conflict.key}  ({', '.join(conflict.items)})"
+def _infeasible(problem: Problem, outcome: Infeasible, word: str) -> Iterator[str]:
+    yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage}; proven of the linear model of the start posture)"
+    yield from no_lines(outcome.explanation, outcome.task.times, placed(problem))
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
-    for change in repairs(outcome):
-        yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
+
+
+def placed(problem: Problem) -> Callable[[str], str]:
+    """Return what says where in the file of a problem a key stands; empty where it does not."""
+
+    def place(key: str) -> str:
+        found = problem.document.locate(Issue("", key=key))
+        if not found.file:
+            return ""
+        stands = found.source and key.rsplit(".", 1)[-1] in found.source
+        return found.file if found.file.startswith("--set") else f"line {found.line}" if stands else ""
+
+    return place
 
 
 def verdict_word(verdict: str, color: bool) -> str:
@@ -212,17 +223,5 @@ def verdict_word(verdict: str, color: bool) -> str:
 
 def refused_lines(word: str, stage: str, why: str) -> Iterator[str]:
     """Yield the verdict with what the stage means, and the reason."""
-    names = {
-        "restraint": "the object is not held", "count": "too many motions for the synergies",
-        "direction": "the synergies cannot produce this motion", "magnitude": "the limits leave no plan",
-    }  # fmt: skip
-    yield f"{word}  {names.get(stage, stage)} (stage: {stage})"
+    yield f"{word}  {HEADS.get(stage, stage)} (stage: {stage})"
     yield from wrapped("Why      ", why)
-
-
-def _rounded_down(value: float) -> float:
-    """Return `value` to four digits, never more than it is: what is printed can be typed in and holds."""
-    if value <= 0:
-        return value
-    digit = 10.0 ** (math.floor(math.log10(value)) - 3)
-    return math.floor(value / digit) * digit
