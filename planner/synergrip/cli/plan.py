@@ -87,7 +87,7 @@ def plan(
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
-                outcome = _found(make, loaded, answers)
+                outcome = found_by(make, loaded, answers)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
                 with writing("--output", folder):
@@ -102,7 +102,7 @@ def plan(
     raise typer.Exit(outcome.exit_code)
 
 
-def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
+def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
     """Plan; an interrupt keeps what the goals so far have led to."""
     from synergrip.errors import SynergripError
     from synergrip.problems.problem import located

@@ -1,24 +1,16 @@
-"""Why there is no plan: what is to blame, what clashes, when, and what would help."""
+"""What is known of a no."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
-from synergrip.explain.asked import Asked
-from synergrip.explain.least_change import LeastChange, least_change, solved
-from synergrip.explain.repairs import Repair, ranked, repaired
-from synergrip.explain.turning import dials
-from synergrip.explain.when import When, when
-from synergrip.explain.words import blamed
-from synergrip.planning.outcome import Infeasible, Unknown
+from synergrip.explain.asked import Posed
+from synergrip.explain.repairs import Repair
+from synergrip.explain.when import When
 from synergrip.values import Value
 
-NOT_KNOWN = When(None, (), alone=False)
-BEST = 3
-"""Repairs of the short form."""
 STAGES: dict[str, Cause] = {"restraint": "restraint", "count": "count", "direction": "direction", "reach": "reach"}
 """What is to blame where no limit is."""
 
@@ -43,69 +35,16 @@ class Explanation(Value):
     """Causes of which it is proven that no value of theirs leaves a plan, in the linear model of the start posture."""
     when: When
     whole: bool
-    """Whether all changes were tried; the short form tries the best ones again."""
-
-
-def explained(
-    no: Infeasible | Unknown, *, short: bool = False, heard: Callable[[Repair], None] = lambda repair: None
-) -> Explanation:
-    """Return why there is no plan.
-
-    Args:
-        no: what `plan` said.
-        short: whether the three smallest changes are enough, and what is short of them is not looked at.
-        heard: is told of each repair as it is found.
-    """
-    timed = no.task
-    asked = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed)
-    posed = asked.posed(no.analysis)
-    if posed is None or (isinstance(no, Infeasible) and no.stage in STAGES):
-        from synergrip.explain.refused import refused
-
-        return refused(no, asked, short=short)
-    program = posed.program()
-    if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
-        return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=not short)
-    found = [least_change(dial, posed, program) for dial in dials(asked, timed, posed.analysis.response.scale.length)]
-    helping = ranked([each for each in found if each.size > 0])
-    repairs = tuple(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
-    held = tuple(repair for repair in repairs if repair.verified)
-    cause, late = _cause(no, held, helping), when(posed, program)
-    known = _ordered(no, cause, helping)
-    return Explanation(cause, _text(no, held, known), known, held, _in_vain(found), late, whole=not short)
-
-
-def _cause(no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange]) -> Cause:
-    if held:
-        return held[0].cause
-    if isinstance(no, Unknown):
-        return STAGES.get(no.stage, "reach")
-    if helping:
-        return helping[0].dial.cause
-    chief = next((each for each in no.conflicts if not each.friction), None)
-    return "friction" if chief is None else "limit"
-
-
-def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...]) -> str:
-    """Return what is to blame, where it shows, and since when; the reason of the answer where no change helps."""
-    if isinstance(no, Unknown) or not held:
-        none = "" if isinstance(no, Unknown) else "no single change of a number helps; "
-        return f"{none}{no.why}"
-    cones = next((each for each in known if each.friction), None)
-    shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""
-    return blamed(held[0]) + shows
-
-
-def _ordered(no: Infeasible | Unknown, cause: Cause, helping: list[LeastChange]) -> tuple[Conflict, ...]:
-    """Return what clashes, what is blamed first."""
-    known = no.conflicts if isinstance(no, Infeasible) else ()
-    blamed = next((each.dial.key for each in helping if each.dial.cause == cause), "")
-    if cause == "friction":
-        return tuple(sorted(known, key=lambda each: not each.friction))
-    return tuple(sorted(known, key=lambda each: each.key != blamed))
-
-
-def _in_vain(found: list[LeastChange]) -> tuple[Cause, ...]:
-    """Return the causes of which no number helps, proven of each."""
-    helps = {each.dial.cause for each in found if each.value is not None}
-    return tuple(dict.fromkeys(e.dial.cause for e in found if e.dial.cause not in helps and e.proven))
+    """Whether all changes were planned again; the short form does so with the smallest."""
+    interrupted: bool = False
+    """Whether somebody stopped it; what it says was found by then."""
+    posed: Posed | None = None
+    """The task as a program of the start posture; None where it is refused before there is one."""
+    pairs: tuple[tuple[Repair, Repair], ...] = ()
+    """Pairs of changes with a verified plan, where no single one has; of the long form."""
+    clashing: tuple[str, ...] | None = None
+    """Keys of limits that cannot hold together and of which none can be left out; empty where physics alone leaves no
+    plan, None where it is not known, as in the short form."""
+    others: tuple[Repair, ...] = ()
+    """Changes with a verified plan that are not the least of their kind: of the friction of single contacts, of
+    stiffness; of the long form."""

@@ -93,12 +93,12 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
     assert least is not None
     tried = None
     for more in MORE if posed.analysis.grasp.held is not None else MORE[:1]:
-        value = _beyond(dial, least, more)
-        tried = _outcome(dial.turned(value))
+        value = beyond(dial, least, more)
+        tried = outcome_of(dial.turned(value))
         if isinstance(tried, Plan):
             break
     else:
-        value = _beyond(dial, least, 0.0)
+        value = beyond(dial, least, 0.0)
     proven = prove and short_of(dial, value, posed, SHORT)
     return Repair(
         dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), isinstance(tried, Plan), dial.size(value),
@@ -106,15 +106,22 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
     )  # fmt: skip
 
 
-def _outcome(asked: Asked) -> Outcome | None:
+def outcome_of(asked: Asked) -> Outcome | None:
+    """Return what planning says of what is asked; None where it is refused as bad input."""
     try:
         return plan(asked.grasp, asked.task)
     except SynergripError:
         return None
 
 
-def _beyond(dial: Dial[Asked], least: float, more: float) -> float:
-    """Return a value a little beyond the least one, written in few digits, never past the end of the number."""
+def beyond(dial: Dial[Asked], least: float, more: float) -> float:
+    """Return a value a little beyond the least one, written in few digits, never past the end of the number.
+
+    Args:
+        dial: the number.
+        least: its nearest value with a plan.
+        more: share of the change by which to go farther.
+    """
     sign = 1.0 if dial.eased == "up" else -1.0
     size = max(abs(least), abs(least - dial.value))
     value = rounded(least + sign * max(more, ROOM) * size, up=dial.eased == "up")

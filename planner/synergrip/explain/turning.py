@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -33,7 +34,7 @@ def dials(asked: Asked, timed: TimedTask, length: float) -> tuple[Dial[Asked], .
         timed: the same at its knots.
         length: characteristic length of the grasp [m].
     """
-    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), _of_friction(asked)))
+    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), *_of_friction(asked)))
 
 
 def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
@@ -123,21 +124,50 @@ def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
         )
 
 
-def _of_friction(asked: Asked) -> Dial[Asked]:
-    """Return the friction of all contacts, by one factor; spin friction goes along."""
+def _of_friction(asked: Asked) -> Iterator[Dial[Asked]]:
+    """Yield the friction of all contacts, by one factor; spin friction goes along."""
+    least = min((contact.friction for contact in asked.grasp.contacts if contact.friction > 0), default=0.0)
+    if least > 0:
+        yield _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least, lambda factor: factor)
+
+
+def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:
+    """Return the friction of each contact by itself."""
+    contacts = [contact for contact in asked.grasp.contacts if contact.friction > 0]
+    return tuple(
+        _friction(asked, (contact.name,), contact.friction, partial(_of_contact, contact.name)) for contact in contacts
+    )
+
+
+def _of_contact(name: str, factor: str) -> str:
+    """Return a factor for one contact as TOML."""
+    return f'{{ "{name}" = {factor} }}'
+
+
+def _friction(asked: Asked, names: tuple[str, ...], least: float, written: Callable[[str], str]) -> Dial[Asked]:
+    """Return the friction of some contacts, the least of which is given, by one factor."""
     grasp = asked.grasp
-    least = min((contact.friction for contact in grasp.contacts if contact.friction > 0), default=0.0)
 
     def turned(value: float) -> Asked:
-        kinds = {contact.name: contact.kind.slippery(value / least) for contact in grasp.contacts}
+        chosen = [contact for contact in grasp.contacts if contact.name in names]
+        kinds = {contact.name: contact.kind.slippery(value / least) for contact in chosen}
         return replace(asked, grasp=grasp.replace(contact=kinds))
 
     return Dial(
-        "friction", friction_key(asked), least, "", turned, end=FRICTION_END * least, smooth=False,
-        written=lambda value: quantity(value / least, ""),
+        "friction", f"{_table(asked)}.friction_factor", least, "", turned, end=FRICTION_END * least, smooth=False,
+        written=lambda value: written(quantity(value / least, "")),
     )  # fmt: skip
 
 
-def friction_key(asked: Asked) -> str:
-    """Return the key by which a problem file multiplies friction."""
-    return "contacts.friction_factor" if asked.grasp.held is not None else "grasp.friction_factor"
+def stiffness_dial(asked: Asked) -> Dial[Asked]:
+    """Return the stiffness of all contacts, by one factor: sets of plans are not nested in it."""
+    grasp = asked.grasp
+    return Dial(
+        "stiffness", f"{_table(asked)}.stiffness_factor", 1.0, "",
+        lambda value: replace(asked, grasp=grasp.replace(C_s=grasp.C_s / value)), smooth=False,
+    )  # fmt: skip
+
+
+def _table(asked: Asked) -> str:
+    """Return the table of a problem file that multiplies friction and stiffness."""
+    return "contacts" if asked.grasp.held is not None else "grasp"

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.decide import Decision
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
@@ -41,14 +42,14 @@ def when(posed: Posed, program: Program) -> When:
         posed: a task without a plan.
         program: of it.
     """
-    times, at = posed.timed.times, _knots_of_rows(program)
+    times, at = posed.timed.times, knots_of_rows(program)
     found = _proven_knots(program, at, (at >= 0) & _of_one_knot(program, at))
     if np.any(found):
         return When(float(times[found][0]), _stretches(times, found), alone=True)
     return When(_first_together(posed), (), alone=False)
 
 
-def _knots_of_rows(program: Program) -> NDArray[np.intp]:
+def knots_of_rows(program: Program) -> NDArray[np.intp]:
     """Return the knot that each row (m,) speaks of; -1 between them."""
     found = np.full(len(program.b), -1, dtype=np.intp)
     for block, rows in program.slices():
@@ -74,25 +75,37 @@ def _proven_knots(program: Program, at: NDArray[np.intp], alone: NDArray[np.bool
 
     One program widens the cones of each knot by as little as possible; its multipliers at a knot are the proof there.
     """
-    T, n = program.knots, len(program.q)
-    heads = np.zeros(len(program.b))
-    for block, rows in program.slices():
-        heads[rows][:: block.dim] = 1.0
-    kept = np.flatnonzero(alone)
-    widened = sparse.csc_matrix((-heads[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
-    nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
-    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[kept], widened]), nothing]))
-    least = _cut(
-        program, alone, A, np.concatenate([program.b[kept], np.zeros(T)]), np.append(np.zeros(n), np.ones(T)), T
-    )
-    decision = solved("least widening", least)
-    found = np.zeros(T, dtype=bool)
-    for k in np.flatnonzero(decision.solution.x[n:] > NO_MORE) if len(decision.solution.x) == n + T else ():
+    kept, solution = np.flatnonzero(alone), widened(program, at, alone).solution
+    found = np.zeros(program.knots, dtype=bool)
+    if len(solution.x) != len(program.q) + program.knots:
+        return found
+    for k in np.flatnonzero(solution.x[len(program.q) :] > NO_MORE):
         ray = np.zeros(len(program.b))
         mine = at[kept] == k
-        ray[kept[mine]] = decision.solution.z[: len(kept)][mine]
+        ray[kept[mine]] = solution.z[: len(kept)][mine]
         found[k] = judge_infeasible(program, ray).verified
     return found
+
+
+def widened(program: Program, at: NDArray[np.intp], keep: NDArray[np.bool_]) -> Decision:
+    """Return the answer that keeps some cones but for as little as possible at every knot, all knots counted alike.
+
+    Its last unknowns are how much the cones of each knot are widened, in units of the program.
+
+    Args:
+        program: has no answer.
+        at: (m,) knot of each row.
+        keep: (m,) the rows that count, whole cones.
+    """
+    T, n, kept = program.knots, len(program.q), np.flatnonzero(keep)
+    heads = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        heads[rows][:: block.dim] = 0.0 if block.kind is Kind.ZERO else 1.0
+    wider = sparse.csc_matrix((-heads[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
+    nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[kept], wider]), nothing]))
+    b, q = np.concatenate([program.b[kept], np.zeros(T)]), np.append(np.zeros(n), np.ones(T))
+    return solved("least widening", _cut(program, keep, A, b, q, T))
 
 
 def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Array, q: Array, more: int) -> Program:

@@ -149,7 +149,7 @@ class Reasoned(Answer):
         return self._explained(short=False, heard=heard)
 
     def _explained(self, *, short: bool, heard: Callable[[Repair], None] | None) -> Explanation:
-        from synergrip.explain.explanation import explained
+        from synergrip.explain.explained import explained
 
         no = cast("Infeasible | Unknown", self)
         return explained(no, short=short) if heard is None else explained(no, short=short, heard=heard)

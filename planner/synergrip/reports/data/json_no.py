@@ -27,6 +27,9 @@ def no_document(found: Explanation, times: Array) -> dict[str, Any]:
             for each in found.conflicts
         ],
         "repairs": [repair_document(each) for each in found.repairs],
+        "others": [repair_document(each) for each in found.others],
+        "pairs": [[repair_document(each) for each in pair] for pair in found.pairs],
+        "clashing": None if found.clashing is None else list(found.clashing),
         "cannot_help": list(found.cannot_help),
         "when": {
             "first_s": found.when.first_s, "intervals_s": [list(each) for each in found.when.intervals_s],

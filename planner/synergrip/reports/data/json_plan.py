@@ -10,6 +10,7 @@ import numpy as np
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
+from synergrip.explain.explanation import Explanation
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
@@ -34,11 +35,17 @@ from synergrip.tasks.scaling import units_of
 
 
 def outcome_document(
-    title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = (), source: Source | None = None
+    title: str,
+    grasp: Grasp,
+    outcome: Outcome,
+    notes: Sequence[str] = (),
+    source: Source | None = None,
+    known: Explanation | None = None,
 ) -> dict[str, Any]:
     """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout.
 
     The notes are those of the problem; a plan's own come before them. The source is its text, for provenance.
+    Of a no, what is known of it is its short form when that is None.
     """
     document: dict[str, Any] = {
         "title": title,
@@ -54,13 +61,13 @@ def outcome_document(
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
     if isinstance(outcome, Infeasible):
-        return document | _infeasible(outcome)
+        return document | _infeasible(outcome) | no_document(known or outcome.explanation, outcome.task.times)
     certificate, reached = {"kind": "none", "verified": False}, outcome.reached
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
     }  # fmt: skip
     document |= {"stage": outcome.stage, "certificate": certificate, "reached": told}
-    document |= no_document(outcome.explanation, outcome.task.times)
+    document |= no_document(known or outcome.explanation, outcome.task.times)
     if outcome.executed is not None and outcome.usages:
         document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
         document["limits"] = [usage_document(usage) for usage in outcome.usages]
@@ -95,7 +102,7 @@ def _infeasible(outcome: Infeasible) -> dict[str, Any]:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
         "stage": outcome.stage, "certificate": certificate | {"scope": "start"}, "hints": list(outcome.hints),
-    } | no_document(outcome.explanation, outcome.task.times)  # fmt: skip
+    }  # fmt: skip
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})

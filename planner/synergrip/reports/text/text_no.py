@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from shlex import quote
 
 from synergrip.explain.explanation import Explanation
+from synergrip.explain.repairs import Repair
 from synergrip.explain.words import values
 from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped
@@ -50,11 +51,37 @@ def _repairs(found: Explanation) -> Iterator[str]:
     if found.repairs:
         smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
         yield from ("", f"What would help{smallest} (each planned again)")
-        rows = [(each.key, *values(each), f"--set {quote(each.set)}") for each in found.repairs]
-        yield table(("change", "from", "to", "with"), rows)
+        yield _changes([(each,) for each in found.repairs])
+    if found.others:
+        yield from ("", "What would help, too, tried and planned, and not the least there is")
+        yield _changes([(each,) for each in found.others])
+    if found.pairs:
+        yield from ("", "No single change helps; pairs that do (each planned again)")
+        yield _changes(found.pairs)
+    if found.clashing is not None:
+        yield from wrapped("Clash    ", _clash(found.clashing))
     if found.cannot_help:
         words = ", ".join(cause.replace("_", " ") for cause in found.cannot_help)
         yield from wrapped("No help  ", f"proven, whatever the value: {words}")
+
+
+def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
+    """Return a table of changes, each of one number or of several."""
+    cells = [
+        (each.key if k == 0 else f"and {each.key}", *values(each), f"--set {quote(each.set)}")
+        for row in rows
+        for k, each in enumerate(row)
+    ]
+    return table(("change", "from", "to", "with"), cells)
+
+
+def _clash(keys: Sequence[str]) -> str:
+    """Return which limits cannot hold together."""
+    if not keys:
+        return "load, motion and friction leave no plan by themselves, whatever the limits"
+    if len(keys) == 1:
+        return f"{keys[0]} with load, motion and friction: without it these have a plan, or are not proven to have none"
+    return f"{', '.join(keys[:-1])} and {keys[-1]} cannot hold together; none of them can be left out of the proof"
 
 
 def _when(found: Explanation, times: Array) -> str:

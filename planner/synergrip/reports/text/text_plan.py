@@ -15,6 +15,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Issue
+from synergrip.explain.explanation import Explanation
 from synergrip.linalg import Array
 from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
 from synergrip.planning.verified import LIMIT
@@ -41,17 +42,27 @@ def outcome_text(
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
 
 
-def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> list[str]:
-    """Return what was read, asked, solved and checked, the verdict and its notes."""
+def explanation_text(problem: Problem, outcome: Outcome, known: Explanation | None, color: bool = False) -> str:
+    """Return why there is no plan, all that is known of it; of a plan that there is one."""
+    if isinstance(outcome, Plan):
+        word = verdict_word(outcome.verdict, color)
+        return "\n".join([*problem_lines(problem), "", f"{word}  there is a plan; nothing is to be explained"])
+    return "\n".join(verdict_lines(problem, outcome, color, known))
+
+
+def verdict_lines(
+    problem: Problem, outcome: Outcome, color: bool = False, known: Explanation | None = None
+) -> list[str]:
+    """Return what was read, asked, solved and checked, the verdict and its notes; of a no what is known of it."""
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [_proof(outcome), "", *_infeasible(problem, outcome, word)]
+        lines += [_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
-        lines += more_lines(outcome.explanation, outcome.task.times, placed(problem))
+        lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
     notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
@@ -196,9 +207,9 @@ def _proof(outcome: Infeasible) -> str:
     return f"check    proof re-checked: {ray}"
 
 
-def _infeasible(problem: Problem, outcome: Infeasible, word: str) -> Iterator[str]:
+def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
     yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage}; proven of the linear model of the start posture)"
-    yield from no_lines(outcome.explanation, outcome.task.times, placed(problem))
+    yield from no_lines(known, outcome.task.times, placed(problem))
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
 
