@@ -123,7 +123,7 @@ OTHERS = {
     "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
-    "simulate", "Simulation",
+    "simulate", "Simulation", "Explanation", "Repair", "When",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -164,6 +164,7 @@ def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str)
 MADE_BY = {
     "Analysis": "analyse(", "Analyses": "analyse_many(", "Execution": "execute(", "Problem": "load_problem(",
     "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
+    "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
 }  # fmt: skip
 
 

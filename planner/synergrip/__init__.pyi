@@ -90,6 +90,9 @@ from synergrip.planning.planning import plan as plan
 from synergrip.planning.outcome import Plan as Plan
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
+from synergrip.explain.explanation import Explanation as Explanation
+from synergrip.explain.repairs import Repair as Repair
+from synergrip.explain.when import When as When
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

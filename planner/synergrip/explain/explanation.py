@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
+from synergrip.documents.naming import made_by
 from synergrip.explain.asked import Posed
 from synergrip.explain.repairs import Repair
 from synergrip.explain.when import When
@@ -15,6 +16,7 @@ STAGES: dict[str, Cause] = {"restraint": "restraint", "count": "count", "directi
 """What is to blame where no limit is."""
 
 
+@made_by("answer.explain()")
 @dataclass(frozen=True, eq=False, repr=False)
 class Explanation(Value):
     """What is known of a no.

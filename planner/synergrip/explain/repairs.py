@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from synergrip.conic.limits.dial import Cause, Dial
+from synergrip.documents.naming import made_by
 from synergrip.errors import SynergripError
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import LeastChange, short_of
@@ -28,6 +29,7 @@ ORDER: dict[str, int] = {"friction": 1, "load": 2, "amplitude": 2, "duration": 3
 """Which of two changes of the same size is named later; those of the limits that a user states come first."""
 
 
+@made_by("answer.explain()")
 @dataclass(frozen=True, eq=False, repr=False)
 class Repair(Value):
     """A change of one number, and what planning says of it.

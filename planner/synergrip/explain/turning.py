@@ -55,7 +55,7 @@ def _lifted(asked: Asked, limits: tuple[Limit, ...], index: int, dial: Dial[Limi
 
 def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Asked]]:
     moves = bool(np.any(timed.target.values))
-    if moves or timed.tracking == "compliant":
+    if timed.tracking == "compliant":
         size = float(np.linalg.norm(_displacements(timed, length), axis=1).max(initial=0.0))
         yield Dial(
             "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
@@ -66,7 +66,7 @@ def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Ask
     if moves:
         yield _amplitude(asked, timed)
     task = asked.task
-    if isinstance(task, Task) and _stretches(task) and len(timed.times) > 1:
+    if isinstance(task, Task) and _stretches(task) and _feels_time(task, timed) and len(timed.times) > 1:
         seconds = float(timed.times[-1] - timed.times[0])
         yield Dial(
             "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
@@ -100,6 +100,12 @@ def _stretches(task: Task) -> bool:
         part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None
     ]
     return all(isinstance(part, Palm) for part in bound)
+
+
+def _feels_time(task: Task, timed: TimedTask) -> bool:
+    """Return whether it matters how long a task takes: for changes from knot to knot, or for inertia."""
+    inertia = any(isinstance(load, Palm) and load.inertia for load in task.loads)
+    return inertia or any(limit.couples_knots for limit in timed.limits)
 
 
 def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:

@@ -13,6 +13,7 @@ from synergrip.conic.decide import Decision
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
+from synergrip.documents.naming import made_by
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import solved
 from synergrip.linalg import Array, frozen
@@ -22,9 +23,15 @@ NO_MORE = 1e-9
 """By how much cones must be widened for an instant to be tried as one without a plan, in units of the program."""
 
 
+@made_by("answer.explain()")
 @dataclass(frozen=True, eq=False, repr=False)
 class When(Value):
-    """Which instants of a task have no plan, in the linear model of the start posture."""
+    """Which instants of a task have no plan, in the linear model of the start posture.
+
+    Example:
+        >>> refused.when.intervals_s  # of an `Infeasible`  # doctest: +SKIP
+        ((0.0, 1.1),)
+    """
 
     first_s: float | None
     """The first of them; of steps that clash only together, the end of the first stretch that has none. None when it is

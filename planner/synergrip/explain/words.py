@@ -20,7 +20,8 @@ TOO: dict[str, str] = {
 """Cause -> what is wrong with it, while another value of the same would do."""
 LEAST_FORCE = "the normal forces must not be that large everywhere"
 FACTORS = {
-    "task.load_factor": "of the load", "task.motion_factor": "of the motion", "limits.joint_range": "of the ranges",
+    "task.load_factor": "times the load", "task.motion_factor": "times the motion",
+    "limits.joint_range": "times the ranges",
 }  # fmt: skip
 """Key -> what its number is a multiple of."""
 
