@@ -89,7 +89,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
 
 
 def _infeasible(outcome: Infeasible) -> dict[str, Any]:
-    certificate = certificate_document(outcome.certificate)
+    certificate = certificate_document(outcome.certificate) | {"scope": "start"}
     if outcome.decisions:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {

@@ -48,7 +48,7 @@ def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> li
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [_proof(outcome), "", *_infeasible(outcome, word)]
+        lines += [*_proof(outcome), "", *_infeasible(outcome, word)]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
     notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
@@ -187,12 +187,15 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         yield title, f"{shown} {unit}".rstrip(), where, f"{sign}{limit} {unit}".rstrip()
 
 
-def _proof(outcome: Infeasible) -> str:
+def _proof(outcome: Infeasible) -> Iterator[str]:
+    """Yield that the proof was re-checked, and on a hand what it is about."""
     c = outcome.certificate
+    told = f"proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
     if outcome.refusal is not None:
-        return f"check    proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
-    ray = f"‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
-    return f"check    proof re-checked: {ray}"
+        told = f"proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
+    yield f"check    {told}"
+    if outcome.grasp.held is not None:
+        yield "         it is about the linear model at the start posture: contacts, G and J stay as they are there"
 
 
 def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
