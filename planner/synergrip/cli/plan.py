@@ -42,7 +42,7 @@ def plan(
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go (default out/PROBLEM).")
     ] = None,
     solver: Annotated[
-        str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation of the same problem.")
+        str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation at the start posture.")
     ] = "clarabel",
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")

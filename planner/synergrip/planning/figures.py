@@ -82,7 +82,8 @@ def _between(
     limits = [limit for limit in task.all_limits if not limit.couples_knots]
     usages = tuple(limit.usage(there, motion) for limit in limits)
     rooms = _rooms(walk, walker, limits, usages)
-    found = replace(linear or Between(1, 0.0, 0.0, 0.0, usages), samples=1, usages=usages, rooms=rooms)
+    known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)
+    found = replace(known, samples=walker.samples, usages=usages, rooms=rooms)
     where = f"{BETWEEN}: "
     if task.between == "report":
         return found, (stable(executed, where),), ()

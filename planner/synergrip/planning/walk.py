@@ -26,13 +26,13 @@ from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
-from synergrip.planning.looks import looks_between
+from synergrip.planning.looks import looks_between, samples_of
 from synergrip.planning.near_rows import left_out, near_rows
 from synergrip.planning.pace import Pace
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
-from synergrip.planning.walk_so_far import FOLLOWED, Walk
+from synergrip.planning.walk_so_far import FOLLOWED, Walk, came_to
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -133,7 +133,7 @@ class Walker:
             except KeyboardInterrupt:
                 return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
-            LOG.info("pass %d, %s: %s", count, pace, _told(found, good))
+            LOG.info("pass %d, %s: %s", count, pace, came_to(found, good))
             tried = (*best.tried, answered.decision)
             met = best.hindered  # a shorter step is hindered by being short, too
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
@@ -216,6 +216,11 @@ class Walker:
         return looks_between(self.task, self.start, self.wanted, self._sampled, walk.kept_to)
 
     @property
+    def samples(self) -> int:
+        """How many evenly spaced instants are looked at in each piece between knots and corners, at least."""
+        return samples_of(self.task.times if self._sampled is None else self._sampled.grid.times)
+
+    @property
     def _holds_between(self) -> bool:
         """Whether a margin that is asked for is to hold between the knots, too."""
         task = self.task
@@ -249,12 +254,3 @@ class Walker:
             each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(formulation, path)
-
-
-def _told(found: Walk | None, good: bool) -> str:
-    if found is None:
-        return "no answer"
-    if found.way is None:
-        return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
-    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
-    return told if good else f"{told}, taken back"

@@ -103,3 +103,13 @@ class Walk(Value):
         if other.true:
             return self.true and self.behind < NEARER * other.behind
         return self.true or self.gap < BETTER * other.gap
+
+
+def came_to(found: Walk | None, good: bool) -> str:
+    """Return for the log what a pass came to, None without an answer, and whether it is taken."""
+    if found is None:
+        return "no answer"
+    if found.way is None:
+        return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
+    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
+    return told if good else f"{told}, taken back"

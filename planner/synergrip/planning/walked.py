@@ -115,16 +115,26 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     """Return the plan that an interrupted walk has come to, when all that it asks holds at its true states.
 
     Raises:
-        KeyboardInterrupt: it does not.
+        KeyboardInterrupt: it does not; with how far it had come.
     """
-    if float(off(walk, walker).max()) > walker.allowed:
-        raise KeyboardInterrupt
+    come = f"after {walk.passes} pass{'es' * (walk.passes != 1)} along the motion, "
+    if (most := float(off(walk, walker).max())) > walker.allowed:
+        strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
+        raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
-    if not all(check.passed for check in found.checks):
-        raise KeyboardInterrupt
+    if missed := _missed(found):
+        raise KeyboardInterrupt(come + missed)
     note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
     return _with(plan, walk, walker, found, (*_goal_notes(walk), note))
+
+
+def _until(walk: Walk, walker: Walker) -> str:
+    """Return until when a walk of fewer knots than the task has got."""
+    if walk.until is None:
+        return f"the hand does not get through all knots: {walk.executed.why}"
+    where = f"until t = {walk.until:.3g} s" if walker.arrived(walk) else "at no knot yet"
+    return f"the object is where it is wanted {where}"
 
 
 def _decided(linear: Plan, walk: Walk) -> Plan:

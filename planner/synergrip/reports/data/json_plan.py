@@ -97,11 +97,11 @@ def _plan(plan: Plan) -> dict[str, Any]:
 
 
 def _infeasible(outcome: Infeasible) -> dict[str, Any]:
-    certificate = certificate_document(outcome.certificate)
+    certificate = certificate_document(outcome.certificate) | {"scope": "start"}
     if outcome.decisions:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
-        "stage": outcome.stage, "certificate": certificate | {"scope": "start"}, "hints": list(outcome.hints),
+        "stage": outcome.stage, "certificate": certificate, "hints": list(outcome.hints),
     }  # fmt: skip
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin

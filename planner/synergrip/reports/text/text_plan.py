@@ -59,7 +59,7 @@ def verdict_lines(
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
+        lines += [*_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
         lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
@@ -199,16 +199,19 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         yield title, f"{shown} {unit}".rstrip(), where, f"{sign}{limit} {unit}".rstrip()
 
 
-def _proof(outcome: Infeasible) -> str:
+def _proof(outcome: Infeasible) -> Iterator[str]:
+    """Yield that the proof was re-checked, and on a hand what it is about."""
     c = outcome.certificate
+    told = f"proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
     if outcome.refusal is not None:
-        return f"check    proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
-    ray = f"‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
-    return f"check    proof re-checked: {ray}"
+        told = f"proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
+    yield f"check    {told}"
+    if outcome.grasp.held is not None:
+        yield "         it is about the linear model at the start posture: contacts, G and J stay as they are there"
 
 
 def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
-    yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage}; proven of the linear model of the start posture)"
+    yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage})"
     yield from no_lines(known, outcome.task.times, placed(problem))
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
