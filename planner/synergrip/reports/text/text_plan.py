@@ -25,7 +25,9 @@ from synergrip.reports.text.text_between import between_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
-_STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
+_STYLES = {
+    "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
+}  # fmt: skip
 _END = "\x1b[0m"
 ROUNDING = 1e-9
 """A motion this small beside the length of the grasp is rounding."""
