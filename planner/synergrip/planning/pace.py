@@ -69,7 +69,10 @@ class Pace:
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
         shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))
-        return replace(again, step=self.step * shorter)
+        way = (
+            self.way * SHORTER_WAY if self.tries else self.way
+        )  # a shorter step did not do: it is the way that is long
+        return replace(again, step=self.step * shorter, way=way)
 
 
 def _fitting(found: Walk, aimed: float) -> float:

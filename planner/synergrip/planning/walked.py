@@ -87,7 +87,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
     found = figures(walk, walker, linear.formulation, linear.between)
-    if kept := _kept_between(walk, walker, found):
+    if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
@@ -98,12 +98,14 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     return _with(_decided(linear, walk), walk, walker, found, told)
 
 
-def _kept_between(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
-    """Return a walk that asks for more at the knots for what limits miss between them; None when no such one helps."""
-    if walker.task.between == "report" or found.between is None:
-        return None
+def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
+    """Return a walk that asks for more at the knots for what limits miss between them; None when no such one helps.
+
+    Where limits count at the knots only, it is for what they miss there by as much as promise and truth may differ.
+    """
+    counts = found.at_knots if walker.task.between == "report" or found.between is None else found.between
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
-    if (more_still := more.for_what_is_missing(found.between, walker.task)) is None:
+    if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
     harder = replace(walker, more=more_still)
     again = harder.on(replace(walk, gap=np.inf))
