@@ -82,6 +82,7 @@ from synergrip.tasks.wrenches import WrenchTable as WrenchTable
 from synergrip.tasks.pushes import Push as Push
 from synergrip.tasks.palm_motion import Palm as Palm
 from synergrip.tasks.palm_path import PalmPath as PalmPath
+from synergrip.tasks.control import Control as Control
 from synergrip.tasks.task import Task as Task
 from synergrip.tasks.timed_task import TimedTask as TimedTask
 from synergrip.problems.problem import load_problem as load_problem

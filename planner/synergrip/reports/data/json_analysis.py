@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
+from synergrip.errors import ControlError, MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.told import structure_document
@@ -55,4 +55,6 @@ def refusal_document(refusal: Refusal) -> dict[str, Any]:
                 "size_m": refusal.size}  # fmt: skip
     if isinstance(refusal, MotionCountError):
         return {"asked": refusal.asked, "n_z": refusal.available, "directions": refusal.directions.T.tolist()}
+    if isinstance(refusal, ControlError):
+        return {"asked": refusal.asked, "available": refusal.available}
     return {}
