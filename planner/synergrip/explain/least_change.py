@@ -26,7 +26,7 @@ SAME_ROWS = 1e-9
 """Relative difference of rows that are the same but for their unit."""
 STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
 """Factors that are tried until there is a plan, before the least one is looked for."""
-CLOSE = 2e-4
+CLOSE = 5e-5
 """Relative distance at which a bisection ends."""
 
 

@@ -38,7 +38,7 @@ def dials(asked: Asked, timed: TimedTask, length: float) -> tuple[Dial[Asked], .
 
 
 def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
-    limits = tuple(asked.task.limits)
+    limits = asked.limits
     for index, limit in enumerate(limits):
         for dial in limit.dials(asked.grasp):
             yield _lifted(asked, limits, index, dial)
