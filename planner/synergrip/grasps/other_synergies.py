@@ -68,3 +68,32 @@ def _with(grasp: Grasp, names: tuple[str, ...], S: Array, C_z: Array, origins: O
         synergies = replace(held.synergies, synergies=names, S=frozen(S), effort_limits=frozen(kept))
         held = replace(held, synergies=synergies)
     return replace(grasp, S=frozen(S), C_z=frozen(C_z), synergies=names, held=held)
+
+
+def of_whole_set(grasp: Grasp) -> tuple[Grasp, Origins]:
+    """Return the grasp with all synergies of the set that its own are of, in the order of the set, and their origins.
+
+    Those that it has not yield as its own do, where these yield alike, or else not at all. A grasp whose synergies are
+    of no set that its hand names stays as it is.
+    """
+    own = list(range(grasp.n_z))
+    known = None if grasp.held is None else grasp.held.hand.synergy_sets.get(grasp.held.synergies.name)
+    if known is None or len(known.S) != grasp.n_q:
+        return grasp, own
+    places = [_place(grasp, name, column) for name, column in zip(known.synergies, known.S.T, strict=True)]
+    if sorted(at for at in places if at is not None) != own:
+        return grasp, own
+    alike = np.array_equal(grasp.C_z, grasp.C_z[0, 0] * np.eye(grasp.n_z))
+    C_z = (grasp.C_z[0, 0] if alike else 0.0) * np.eye(len(places))
+    kept = [i for i, at in enumerate(places) if at is not None]
+    C_z[np.ix_(kept, kept)] = grasp.C_z[np.ix_(*[[at for at in places if at is not None]] * 2)]
+    whole = _with(grasp, known.synergies, known.S, C_z, places)
+    if whole.held is not None:
+        whole = replace(whole, held=replace(whole.held, synergies=known))
+    return whole, places
+
+
+def _place(grasp: Grasp, name: str, column: Array) -> int | None:
+    """Return which synergy of a grasp is the one of a set; None when none is."""
+    at = grasp.synergies.index(name) if name in grasp.synergies else None
+    return at if at is not None and np.array_equal(grasp.S[:, at], column) else None
