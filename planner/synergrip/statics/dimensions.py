@@ -16,6 +16,7 @@ from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.contacts.soft_finger import SoftFinger
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
+from synergrip.grasps.other_synergies import chosen
 from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen
@@ -63,7 +64,7 @@ def _column(whole: Grasp, kind: ContactKind) -> DimensionColumn:
         lacking = "moments about the normals" if kind.name == "soft" else "forces across the normals"
         return DimensionColumn(kind.name, (), f"the matrices do not say how the contacts transmit {lacking}")
     try:
-        rows = tuple(_dimensions(first(grasp, count)) for count in range(1, grasp.n_z + 1))
+        rows = tuple(_dimensions(chosen(grasp, range(count))) for count in range(1, grasp.n_z + 1))
     except NotRestrainedError as error:
         return DimensionColumn(kind.name, (), str(error))
     return DimensionColumn(kind.name, rows, "")
@@ -86,13 +87,6 @@ def with_kind(grasp: Grasp, kind: ContactKind) -> Grasp | None:
         changed, C_s=frozen(np.diag(stiffness**2)), C_q=frozen(np.zeros((n_q, n_q))), C_z=frozen(np.zeros((n_z, n_z))),
         lambda_0=None, w_0=frozen(np.zeros(6)),
     )  # fmt: skip
-
-
-def first(grasp: Grasp, count: int) -> Grasp:
-    """Return the grasp with its first `count` synergies."""
-    return replace(
-        grasp, S=frozen(grasp.S[:, :count]), C_z=frozen(grasp.C_z[:count, :count]), synergies=grasp.synergies[:count]
-    )
 
 
 def _reduced(grasp: Grasp, kind: ContactKind) -> Grasp:

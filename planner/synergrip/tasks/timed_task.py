@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -145,6 +146,14 @@ class TimedTask(Value):
         if grasp.held is not None and not any(isinstance(limit, JointRange) for limit in each):
             each = (*each, JointRange().on(grasp))
         return replace(self, limits=each, goals=tuple(goal.on(grasp) for goal in self.goals))
+
+    def for_synergies(self, origins: Sequence[int | None]) -> TimedTask:
+        """Return the task for a grasp with other synergies.
+
+        Args:
+            origins: for each of these its place among those of the grasp that the task is for; None for a new one.
+        """
+        return replace(self, limits=tuple(limit.for_synergies(origins) for limit in self.limits))
 
     def first(self, count: int) -> TimedTask:
         """Return the task at the first of its knots."""

@@ -193,6 +193,14 @@ class Limit(Complete, ByContent, ABC):
         """
         return self
 
+    def for_synergies(self, origins: Sequence[int | None]) -> Limit:
+        """Return the limit for a grasp with other synergies, of one that is filled in by `on`.
+
+        Args:
+            origins: for each synergy its place among those of the grasp it is for now; None for a new one.
+        """
+        return self
+
 
 @dataclass(frozen=True)
 class InOtherRows(Limit):

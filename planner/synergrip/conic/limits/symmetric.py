@@ -78,6 +78,14 @@ class Symmetric(Limit):
                 raise InputError.at(key, NOT_STATED)
         return replace(self, limit=one_each(key, limit, self.names(grasp), self.of))
 
+    def for_synergies(self, origins: Sequence[int | None]) -> Self:
+        """Return it with a number for each of other synergies; a new one has what all have, or else none."""
+        if self.of == "joint" or isinstance(self.limit, str) or not np.ndim(self.limit):
+            return self
+        same = len(set(self.limit.tolist())) == 1
+        new = float(self.limit[0]) if same else np.inf
+        return replace(self, limit=frozen([new if at is None else self.limit[at] for at in origins]))
+
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""
         names, own = self.names(formulation.response.grasp), self.on(formulation.response.grasp)

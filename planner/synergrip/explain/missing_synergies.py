@@ -1,0 +1,151 @@
+"""Synergies that are missing: the fewest columns of S that make a task possible, and who has such columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.documents.naming import naming_arguments
+from synergrip.explain.candidates import Candidate, Extending, Judge, judged
+from synergrip.explain.further_columns import Further, Subset, further_columns, repairing
+from synergrip.explain.lacking import Lacking, lacking
+from synergrip.explain.lacking_forces import columns_of, helping, plan_of_all_joints
+from synergrip.hands.hand import SynergySet
+from synergrip.linalg import Array, canonical, frozen
+from synergrip.planning.outcome import Infeasible
+from synergrip.planning.planning import plan, plan_of_start_posture
+from synergrip.values import Value
+
+MOST = 12
+"""Candidates that are planned with."""
+NAME = "missing"
+"""Columns that no file names are called missing1, missing2, ..."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MissingSynergies(Value):
+    """What must be added to S at least, for a task that has no plan.
+
+    Example:
+        >>> missing = missing_synergies(no)  # doctest: +SKIP
+        >>> missing.count, missing.columns.shape, [each.names for each in missing.candidates]  # doctest: +SKIP
+        (1, (8, 1), [('spread',)])
+    """
+
+    count: int | None
+    """The fewest columns; 0 when synergies are not what is missing, None when none help or none were found."""
+    proven: bool
+    """Whether it is certain that fewer do not do, or, where the count is None, that none do."""
+    columns: Array
+    """(n_q, count) joint motions [rad or m], an orthonormal basis of those of least norm that, appended to S, do."""
+    verdict: str
+    """Of planning the task with these columns; empty when there are none."""
+    joints: tuple[str, ...]
+    """Names of the rows."""
+    candidates: tuple[Candidate, ...]
+    """Columns of the hand's synergy sets, and joints by themselves, of each set the fewest that will do."""
+    why: str
+    """All of it in a sentence."""
+    notes: tuple[str, ...] = ()
+    """Where not everything was looked at."""
+
+
+@naming_arguments
+def missing_synergies(
+    no: Infeasible, *, forces: Array | None = None, most: int = MOST, sets: Sequence[SynergySet] = (),
+    judge: Judge = plan,
+) -> MissingSynergies:  # fmt: skip
+    """Return the fewest joint-space columns that, appended to S, make a task possible that has no plan.
+
+    Where the wanted motion is outside Gamma_ucs (stages "direction" and "count"), the number is a rank: that of what
+    the motion takes modulo the range of J S. Where limits are in the way (stage "magnitude") a program of all joints
+    tells whether synergies can help at all, and columns are tried. An interrupt while candidates are planned with keeps
+    those that are judged, with a note.
+
+    Args:
+        no: the proof that there is no plan.
+        forces: (n_l, k) directions of internal force that are to be controlled, too.
+        most: candidates that are planned with, at most.
+        sets: synergy sets that the hand does not name, such as those of files, to be looked at as well.
+        judge: what plans the task with S extended.
+
+    Example:
+        >>> missing_synergies(no).count  # doctest: +SKIP
+        1
+    """
+    if no.analysis is None:
+        return _none(no, 0, "the object is not held, whatever the synergies are")
+    lack = lacking(no.analysis, no.task, forces)
+    if lack.beyond:
+        text = f"no synergies help: the motion is {lack.beyond:.3g} m outside what all {no.grasp.n_q} joints can follow"
+        return _none(no, None, text)
+    if lack.forces_beyond:
+        return _none(no, None, f"no synergies help: not even all {no.grasp.n_q} joints control these forces")
+    if lack.count:
+        return _by_rank(no, lack, judge, most, sets)
+    if no.stage != "magnitude":
+        return _none(no, 0, "the synergies can follow the motion")
+    return _by_planning(no, judge, most, sets)
+
+
+def _by_rank(no: Infeasible, lack: Lacking, judge: Judge, most: int, sets: Sequence[SynergySet]) -> MissingSynergies:
+    """Return the columns of least norm, and those of the hand's own that do."""
+    extending, notes = Extending(no, judge), list[str]()
+    columns = canonical(np.hstack([each.least_columns(_weights(no)) for each in lack.lacks]))
+
+    def subsets() -> Iterator[tuple[Further, Subset]]:
+        for further in further_columns(no.grasp, sets):
+            found = repairing(further, lack.lacks)
+            if not found.smallest:
+                notes.append(f"of '{further.set}' fewer may do than the {len(found.picks[0])} that are named")
+            yield from ((further, picks) for picks in found.picks)
+
+    verdict = extending.verdict(_names(columns), columns)
+    candidates, more = judged(extending, subsets(), most)
+    why = f"{_synergies(lack.count)} missing: what is asked for takes {lack.count} more than J S reaches"
+    told = (*notes, *more)
+    return MissingSynergies(lack.count, lack.proven, columns, verdict, no.grasp.joints, candidates, why, told)
+
+
+def _by_planning(no: Infeasible, judge: Judge, most: int, sets: Sequence[SynergySet]) -> MissingSynergies:
+    """Return columns with which the limits can be kept."""
+    every = plan_of_all_joints(no)
+    if isinstance(every, Infeasible):
+        return _none(
+            no, None, f"no synergies help: with all {no.grasp.n_q} joints, each by itself, there is no plan either"
+        )
+    extending = Extending(no, judge)
+    columns, verdict = frozen(np.zeros((no.grasp.n_q, 0))), ""
+    for tried in columns_of(every, no, _weights(no)) if every is not None else ():
+        if Extending(no, plan_of_start_posture).verdict(_names(tried), tried) == "feasible":
+            columns, verdict = tried, extending.verdict(_names(tried), tried)
+            break
+    candidates, notes = judged(extending, helping(no, further_columns(no.grasp, sets)), most)
+    sizes = [*(len(each.names) for each in candidates), *([columns.shape[1]] if verdict else [])]
+    count = min(sizes, default=None)
+    will = f"{_synergies(count)} more will do in the linear model" if count else "none were found that will do"
+    why = f"the limits can be kept when all joints move by themselves; {will}"
+    return MissingSynergies(count, count == 1, columns, verdict, no.grasp.joints, candidates, why, notes)
+
+
+def _none(no: Infeasible, count: int | None, why: str) -> MissingSynergies:
+    return MissingSynergies(count, True, frozen(np.zeros((no.grasp.n_q, 0))), "", no.grasp.joints, (), why)
+
+
+def _names(columns: Array) -> list[str]:
+    return [f"{NAME}{i + 1}" for i in range(columns.shape[1])]
+
+
+def _synergies(count: int) -> str:
+    return "1 synergy" if count == 1 else f"{count} synergies"
+
+
+def _weights(no: Infeasible) -> Array:
+    """Return (n_q,) by what joint motions are measured: slides over the length of the grasp, as radians."""
+    held, analysis = no.grasp.held, no.analysis
+    if held is None or analysis is None:
+        return np.ones(no.grasp.n_q)
+    length = analysis.response.scale.length
+    return np.array([1 / length if joint.kind == "slide" else 1.0 for joint in held.hand.joints])
