@@ -47,9 +47,17 @@ def explained(
     held = tuple(repair for repair in tried if repair.verified)
     cause, known = _blamed(no, held, helping)
     first = Explanation(
-        cause, _text(no, held, known), known, held, _in_vain(found), when(posed, program), not short, interrupted, posed
+        cause,
+        _text(no, held, known),
+        known,
+        held,
+        _in_vain(found),
+        when(posed, program),
+        not short,
+        interrupted,
+        posed=posed,
     )
-    return first if short or interrupted else completed(first, asked, posed, program, numbers, heard)
+    return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
 
 
 def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:

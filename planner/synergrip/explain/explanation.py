@@ -8,6 +8,7 @@ from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
 from synergrip.documents.naming import made_by
 from synergrip.explain.asked import Posed
+from synergrip.explain.missing_synergies import MissingSynergies
 from synergrip.explain.repairs import Repair
 from synergrip.explain.when import When
 from synergrip.values import Value
@@ -40,6 +41,9 @@ class Explanation(Value):
     """Whether all changes were planned again; the short form does so with the smallest."""
     interrupted: bool = False
     """Whether somebody stopped it; what it says was found by then."""
+    missing_synergies: MissingSynergies | None = None
+    """The fewest columns beside S that give a plan, and who has such columns; None where that was not looked at. In the
+    short form candidates are judged in the linear model of the start posture."""
     posed: Posed | None = None
     """The task as a program of the start posture; None where it is refused before there is one."""
     pairs: tuple[tuple[Repair, Repair], ...] = ()

@@ -11,22 +11,24 @@ from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.clashing import clashing
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.least_change import least_change
+from synergrip.explain.missing_synergies import missing_synergies
 from synergrip.explain.pairs import pairs
 from synergrip.explain.repairs import Repair, outcome_of, ranked, repaired
 from synergrip.explain.turning import contact_dials, stiffness_dial
-from synergrip.planning.outcome import Plan
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
 
 STIFFER = (2.0, 0.5, 5.0, 0.2)
 """Factors of stiffness that are tried; no claim is made of others."""
 
 
 def completed(
-    first: Explanation, asked: Asked, posed: Posed, program: Program, numbers: Sequence[Dial[Asked]],
-    heard: Callable[[Repair], None],
+    no: Infeasible | Unknown, first: Explanation, asked: Asked, posed: Posed, program: Program,
+    numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None],
 ) -> Explanation:  # fmt: skip
     """Return an explanation with what takes longer; an interrupt keeps what is found.
 
     Args:
+        no: what `plan` said.
         first: what is known so far.
         asked: what is asked.
         posed: the same, as a program of the start posture.
@@ -41,6 +43,8 @@ def completed(
             known = replace(known, others=(*known.others, other))
         for pair in () if first.repairs else pairs(numbers, posed, program):
             known = replace(known, pairs=(*known.pairs, pair))
+        if isinstance(no, Infeasible):
+            known = replace(known, missing_synergies=missing_synergies(no))
     except KeyboardInterrupt:
         return replace(known, interrupted=True)
     return known

@@ -5,15 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.dial import Dial
-from synergrip.errors import MotionDirectionError
+from synergrip.errors import ControlError, MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
+from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.explain.repairs import ROOM, Repair, rounded
 from synergrip.explain.when import When
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
-from synergrip.planning.planning import plan
+from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.tasks.tracking import target_displacement
+
+FEW = 3
+"""Candidates for missing synergies of the short form."""
 
 
 def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanation:
@@ -32,7 +36,15 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
     stretches = tuple((float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True))
     first = stretches[0][0] if stretches else (float(times[0]) if cause == "restraint" else None)
     repairs = () if outside is None else tuple(_by_tolerance(no, asked, float(outside.max())))
-    return Explanation(cause, no.why, (), repairs, (), When(first, stretches, alone=True), whole=not short)
+    late_at = When(first, stretches, alone=True)
+    return Explanation(cause, no.why, (), repairs, (), late_at, not short, missing_synergies=_missing(no, short=short))
+
+
+def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | None:
+    """Return which synergies are missing for a motion."""
+    if not isinstance(no, Infeasible) or no.stage == "restraint" or isinstance(no.refusal, ControlError):
+        return None
+    return missing_synergies(no, most=FEW, judge=plan_of_start_posture) if short else missing_synergies(no)
 
 
 def _outside(no: Infeasible | Unknown) -> Array | None:

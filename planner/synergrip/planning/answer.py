@@ -18,6 +18,7 @@ from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.explain.explanation import Explanation
+    from synergrip.explain.missing_synergies import MissingSynergies
     from synergrip.explain.repairs import Repair
     from synergrip.explain.when import When
     from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
@@ -134,6 +135,11 @@ class Reasoned(Answer):
     def when(self) -> When:
         """Which instants have no plan."""
         return self.explanation.when
+
+    @property
+    def missing_synergies(self) -> MissingSynergies | None:
+        """The fewest columns beside S that the wanted motion takes, and who has them; None where none are missing."""
+        return self.explanation.missing_synergies
 
     @naming_arguments
     def explain(self, *, heard: Callable[[Repair], None] | None = None) -> Explanation:

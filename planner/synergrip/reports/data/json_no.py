@@ -8,6 +8,7 @@ from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.linalg import Array
 from synergrip.planning.told import finite
+from synergrip.reports.data.json_missing import missing_document
 
 
 def no_document(found: Explanation, times: Array) -> dict[str, Any]:
@@ -27,6 +28,7 @@ def no_document(found: Explanation, times: Array) -> dict[str, Any]:
             for each in found.conflicts
         ],
         "repairs": [repair_document(each) for each in found.repairs],
+        "missing_synergies": None if found.missing_synergies is None else missing_document(found.missing_synergies),
         "others": [repair_document(each) for each in found.others],
         "pairs": [[repair_document(each) for each in pair] for pair in found.pairs],
         "clashing": None if found.clashing is None else list(found.clashing),

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from shlex import quote
 
 from synergrip.explain.explanation import Explanation
+from synergrip.explain.missing_synergies import MissingSynergies
 from synergrip.explain.repairs import Repair
 from synergrip.explain.words import values
 from synergrip.linalg import Array
@@ -52,6 +53,8 @@ def _repairs(found: Explanation) -> Iterator[str]:
         smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
         yield from ("", f"What would help{smallest} (each planned again)")
         yield _changes([(each,) for each in found.repairs])
+    if found.missing_synergies is not None:
+        yield from _missing(found.missing_synergies)
     if found.others:
         yield from ("", "What would help, too, tried and planned, and not the least there is")
         yield _changes([(each,) for each in found.others])
@@ -73,6 +76,19 @@ def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
         for k, each in enumerate(row)
     ]
     return table(("change", "from", "to", "with"), cells)
+
+
+def _missing(missing: MissingSynergies) -> Iterator[str]:
+    """Yield how many synergies are missing, and who has columns that would do."""
+    yield from wrapped("Missing  ", missing.why)
+    if missing.candidates:
+        rows = []
+        for each in missing.candidates:
+            said = each.verdict if not each.stage else f"{each.verdict} (stage: {each.stage})"
+            setting = f"--set {quote(each.setting)}" if each.setting else ""
+            rows.append((" + ".join(each.names), each.set, said, setting))
+        yield from ("", "Columns that would give the motion")
+        yield table(("columns", "of", "with them", "with"), rows)
 
 
 def _clash(keys: Sequence[str]) -> str:
