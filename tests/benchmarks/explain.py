@@ -13,7 +13,7 @@ from collections.abc import Callable
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
-import synergrip as sg
+import synergrip as sg  # noqa: E402 - after the threads
 
 NOES = (
     ("tripod", "limits.normal_force=1 N"),

@@ -44,7 +44,7 @@ def explained(
     found = [least_change(dial, posed, program) for dial in numbers]
     helping = ranked([each for each in found if each.size > 0])
     tried, interrupted = _as_found(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
-    held = tuple(repair for repair in tried if repair.verified)
+    held = tuple(tried)
     cause, known = _blamed(no, held, helping)
     first = Explanation(
         cause,
@@ -89,7 +89,8 @@ def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Confl
         return f"{none}{no.why}"
     cones = next((each for each in known if each.friction), None)
     shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""
-    return blamed(held[0]) + shows
+    there = "" if held[0].verified else " in the linear model of the start posture (no plan was found with it)"
+    return blamed(held[0]) + there + shows
 
 
 def _blamed(

@@ -33,7 +33,8 @@ class Explanation(Value):
     conflicts: tuple[Conflict, ...]
     """What clashes: first what is blamed where it is a limit, then the largest share of the proof first."""
     repairs: tuple[Repair, ...]
-    """Changes with a verified plan, the smallest first."""
+    """Changes that give the linear model of the start posture a plan, the smallest first; each says whether there is a
+    verified plan with it."""
     cannot_help: tuple[Cause, ...]
     """Causes of which it is proven that no value of theirs leaves a plan, in the linear model of the start posture."""
     when: When

@@ -41,7 +41,7 @@ def completed(
         known = replace(known, clashing=clashing(asked))
         for other in _others(asked, posed, program, heard):
             known = replace(known, others=(*known.others, other))
-        for pair in () if first.repairs else pairs(numbers, posed, program):
+        for pair in () if any(each.verified for each in first.repairs) else pairs(numbers, posed, program):
             known = replace(known, pairs=(*known.pairs, pair))
         if isinstance(no, Infeasible):
             known = replace(known, missing_synergies=missing_synergies(no))

@@ -23,6 +23,8 @@ ROOM = 2e-6
 """Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
 MORE = (0.0, 0.002, 0.01, 0.05, 0.2)
 """How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
+FEWER = (0.002, 0.05)
+"""The same in the short form: each is a plan along the motion."""
 TIE = 0.01
 """Relative difference below which two changes are as large as each other."""
 ORDER: dict[str, int] = {"friction": 1, "load": 2, "amplitude": 2, "duration": 3, "stiffness": 3}
@@ -80,7 +82,7 @@ def repaired(
         changes: that help in the linear model of the start posture, the smallest first.
         posed: what was asked, as a program of the start posture.
         most: how many are planned again at most; the others are left out.
-        prove: whether what is short of each is looked at, too.
+        prove: whether what is short of each is looked at, too, and more values are tried.
         heard: is told of each.
     """
     for change in changes[:most]:
@@ -94,7 +96,8 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
     dial, least = change.dial, change.value
     assert least is not None
     tried = None
-    for more in MORE if posed.analysis.grasp.held is not None else MORE[:1]:
+    farther = MORE if prove else FEWER
+    for more in farther if posed.analysis.grasp.held is not None else MORE[:1]:
         value = beyond(dial, least, more)
         tried = outcome_of(dial.turned(value))
         if isinstance(tried, Plan):

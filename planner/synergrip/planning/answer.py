@@ -128,7 +128,7 @@ class Reasoned(Answer):
 
     @property
     def repairs(self) -> tuple[Repair, ...]:
-        """The smallest changes of single numbers after which there is a verified plan, the smallest first."""
+        """The smallest changes of single numbers that help, the smallest first, each planned again."""
         return self.explanation.repairs
 
     @property

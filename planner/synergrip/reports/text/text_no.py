@@ -51,7 +51,7 @@ def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) ->
 def _repairs(found: Explanation) -> Iterator[str]:
     if found.repairs:
         smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
-        yield from ("", f"What would help{smallest} (each planned again)")
+        yield from ("", f"What would help{smallest}")
         yield _changes([(each,) for each in found.repairs])
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
@@ -59,7 +59,7 @@ def _repairs(found: Explanation) -> Iterator[str]:
         yield from ("", "What would help, too, tried and planned, and not the least there is")
         yield _changes([(each,) for each in found.others])
     if found.pairs:
-        yield from ("", "No single change helps; pairs that do (each planned again)")
+        yield from ("", "No single change helps; pairs that do")
         yield _changes(found.pairs)
     if found.clashing is not None:
         yield from wrapped("Clash    ", _clash(found.clashing))
@@ -75,7 +75,9 @@ def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
         for row in rows
         for k, each in enumerate(row)
     ]
-    return table(("change", "from", "to", "with"), cells)
+    planned = [("a plan" if each.verified else "no plan found",) for row in rows for each in row]
+    whole = [(*cell[:3], *said, cell[3]) for cell, said in zip(cells, planned, strict=True)]
+    return table(("change", "from", "to", "planned again", "with"), whole)
 
 
 def _missing(missing: MissingSynergies) -> Iterator[str]:
