@@ -38,7 +38,7 @@ CLAIM = (
     "lambda = lambda_0 + dlambda, C dlambda = J S dz_r - G' u, G dlambda = -(wrench - w_0), "
     "C = C_s + J (C_q + S C_z S') J'; lambda_0 null: the reaction to w_0"
 )
-NEGLIGIBLE = (1e-3, 1e-6, 0.0)
+NEGLIGIBLE = (1e-2, 1e-4, 0.0)
 """Share of the largest multiplier up to which others are left out; if no proof comes of it, less."""
 OF_RANK = "no exact proof: this no is one of rank, and rank is a matter of tolerance"
 
@@ -62,7 +62,7 @@ class ExactProof(Value):
 
     def document(self) -> dict[str, Any]:
         """Return what `check_proof.py` reads."""
-        return _signed(self.problem, self.multipliers)
+        return marked(self.problem, self.multipliers)
 
     @property
     def of(self) -> str:
@@ -108,7 +108,7 @@ def _proven(posed: Posed) -> ExactProof | NoExactProof:
         kept = weighed(cones, _rays(program, y, share))
         kept += tracked(formulation, kept)
         problem, multipliers = _problem(formulation, program, [cone for cone, _ in kept]), _multipliers(kept)
-        value = rechecked(_signed(problem, multipliers))
+        value = rechecked(marked(problem, multipliers))
         if value < 0:
             return ExactProof(problem, multipliers, value)
     return NoExactProof(f"no exact proof: in the box the limits add up to {float(value):.3g}, which is not below 0")
@@ -173,7 +173,7 @@ def _mark(part: object) -> str:
     return hashlib.sha256(json.dumps(part, sort_keys=True).encode()).hexdigest()
 
 
-def _signed(problem: dict[str, Any], multipliers: list[Any]) -> dict[str, Any]:
+def marked(problem: dict[str, Any], multipliers: list[Any]) -> dict[str, Any]:
     """Return the document, with the marks by which the checker sees that it is as it was written."""
     marks = [_mark(problem), _mark(multipliers)]
     return {"synergrip": FORMAT, "problem": problem, "multipliers": multipliers, "sha256": marks}
