@@ -22,6 +22,8 @@ from synergrip.values import Value
 
 DIGITS = 15
 """What a number of a problem has: more are the rounding of a unit that it was divided by."""
+SAME = 1e-8
+"""How closely both ways to the value of a row must agree, beside its largest value."""
 ROUNDED = 1e-15
 """Relative difference that such rounding makes."""
 
@@ -203,10 +205,6 @@ def is_of_quantities(rows: Sequence[Rows], bare: Sequence[Rows], known: Affine) 
         if (one.kind, one.items, one.constant.shape) != (other.kind, other.items, other.constant.shape):
             return False
         found, wanted = values_of(one, v), values_of(other, known.at(v))
-        if np.any(np.abs(found - wanted) > SAME * max(1.0, float(np.abs(found).max(initial=0.0)))):
+        if np.any(np.abs(found - wanted) > SAME * np.maximum(1.0, np.abs(found).max(axis=0, initial=0.0))):
             return False
     return True
-
-
-SAME = 1e-6
-"""How closely both ways to the value of a row must agree, beside the largest of them."""

@@ -107,7 +107,7 @@ def _proven(posed: Posed) -> ExactProof | NoExactProof:
     for share in NEGLIGIBLE:
         kept = weighed(cones, _rays(program, y, share))
         kept += tracked(formulation, kept)
-        problem, multipliers = _problem(formulation, program, [cone for cone, _ in kept]), _multipliers(kept)
+        problem, multipliers = _problem(formulation, program, [cone for cone, _ in kept]), multipliers_of(kept)
         value = rechecked(marked(problem, multipliers))
         if value < 0:
             return ExactProof(problem, multipliers, value)
@@ -123,7 +123,8 @@ def _rays(program: Program, y: Array, share: float) -> list[Array]:
     return found
 
 
-def _multipliers(limits: Weighed) -> list[Any]:
+def multipliers_of(limits: Weighed) -> list[Any]:
+    """Return the multipliers of a document, each with its limit and its knot."""
     return [
         [i, cone.first_knot + k, row.tolist()]
         for i, (cone, rows) in enumerate(limits) for k, row in enumerate(rows) if np.any(row)

@@ -69,7 +69,7 @@ def tracked(formulation: Formulation, limits: Weighed) -> Weighed:
     if not fixed.shape[1]:
         return []
     n_alpha, n_beta, _ = formulation.coordinates.dimensions
-    left = _on_references(formulation, limits)
+    left = on_references(formulation, limits)
     nu = -left @ formulation.coordinates.inverse[:, n_alpha : n_alpha + n_beta] @ fixed
     rows, wanted = fixed.T @ seen_of_motion(formulation), formulation.beta.constant @ fixed
     found = []
@@ -82,7 +82,7 @@ def tracked(formulation: Formulation, limits: Weighed) -> Weighed:
     return found
 
 
-def _on_references(formulation: Formulation, limits: Weighed) -> Array:
+def on_references(formulation: Formulation, limits: Weighed) -> Array:
     """Return (T, n_z) what the sum has of each reference."""
     response, T = formulation.response, formulation.knots
     of = {
