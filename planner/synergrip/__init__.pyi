@@ -90,6 +90,9 @@ from synergrip.planning.planning import plan as plan
 from synergrip.planning.outcome import Plan as Plan
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
+from synergrip.explain.exact import exact_proof as exact_proof
+from synergrip.explain.exact import ExactProof as ExactProof
+from synergrip.explain.exact import NoExactProof as NoExactProof
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

@@ -22,6 +22,8 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.variable_bounds import farthest
+from synergrip.documents.judging import expected
+from synergrip.documents.naming import naming_arguments
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.bare_limits import Cone
 from synergrip.explain.check_proof import checked
@@ -48,9 +50,8 @@ class ExactProof(Value):
     """A proof that no references within a box keep all limits, as numbers that anybody can add up.
 
     Example:
-        >>> proof = exact_proof(refused)  # of an `Infeasible`  # doctest: +SKIP
-        >>> float(proof.sum) < 0  # doctest: +SKIP
-        True
+        >>> len(exact_proof(refused).document()["problem"]["box"])  # of an `Infeasible`
+        4
     """
 
     problem: dict[str, Any]
@@ -77,12 +78,24 @@ class NoExactProof:
     why: str
 
 
+@naming_arguments
 def exact_proof(no: Infeasible) -> ExactProof | NoExactProof:
     """Return a proof in exact arithmetic of what `plan` said, or why there is none.
 
     Args:
         no: what `plan` said.
+
+    Returns:
+        the proof, or a `NoExactProof`.
+
+    Raises:
+        InputError: no `Infeasible`.
+
+    Example:
+        >>> exact_proof(refused).sum < 0
+        True
     """
+    expected("no", no, Infeasible, "plan(grasp, task)")
     timed = no.task
     if no.stage != "magnitude":
         return NoExactProof(OF_RANK)
