@@ -94,6 +94,9 @@ from synergrip.planning.outcome import Unknown as Unknown
 from synergrip.explain.explanation import Explanation as Explanation
 from synergrip.explain.repairs import Repair as Repair
 from synergrip.explain.when import When as When
+from synergrip.explain.exact import exact_proof as exact_proof
+from synergrip.explain.exact import ExactProof as ExactProof
+from synergrip.explain.exact import NoExactProof as NoExactProof
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

@@ -47,6 +47,9 @@ def plan(
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
     ] = None,
+    exact: Annotated[
+        bool, typer.Option("--exact", help="Prove a no again in fractions; proof.json is for anybody to check.")
+    ] = False,
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw the plan over time: .svg, .png or .pdf.")
     ] = None,
@@ -64,6 +67,7 @@ def plan(
 
         loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
 
+        from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
@@ -83,15 +87,16 @@ def plan(
             possible("--save-program", save_program, refuse_unwritable)
 
         def text() -> str:
-            return outcome_text(loaded, outcome, folder, written, color()) + cost + drawn
+            return outcome_text(loaded, outcome, folder, written, color()) + told + cost + drawn
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
                 outcome = found_by(make, loaded, answers)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
+                told, proof = proven(outcome, document) if exact else ("", None)
                 with writing("--output", folder):
-                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
+                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof)
                 ending.keep(*(folder / name for name in written))
             if save_program:
                 with writing("--save-program", save_program):
