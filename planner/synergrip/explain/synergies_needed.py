@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.explain.best_subsets import Best, Search, Told
 from synergrip.explain.needed_points import NeededPoint, Pointed
-from synergrip.explain.subset_values import GOALS, By, Looking
+from synergrip.explain.subset_values import GOALS, Looking
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import of_whole_set
 from synergrip.tasks.task import Task
@@ -38,7 +40,7 @@ class SynergiesNeeded(Value):
     """With the first 1, 2, ... synergies of the set."""
     best: tuple[NeededPoint, ...]
     """With the best 1, 2, ... of them."""
-    by: By
+    by: str
     """What the best is best by: the largest margin, the least effort or the least peak force."""
     fewest: int | None
     """The fewest with which there is a plan; None where none was found."""
@@ -57,7 +59,7 @@ class SynergiesNeeded(Value):
 
 @naming_arguments
 def synergies_needed(
-    grasp: Grasp, task: Task | TimedTask, *, by: By = "peak_force", most: int = MOST, up_to: int | None = None,
+    grasp: Grasp, task: Task | TimedTask, *, by: str = "peak_force", most: int = MOST, up_to: int | None = None,
     along: bool = False, told: Told = lambda size, done, of: None,
 ) -> SynergiesNeeded:  # fmt: skip
     """Return what a task comes to with 1, 2, ... synergies: the first k of the set that the grasp's are of, the best k.
@@ -127,15 +129,17 @@ def _with_plan(sizes: Sequence[Best]) -> tuple[tuple[int, ...], ...]:
 
 
 def _needed(
-    grasp: Grasp, task: TimedTask, by: By, along: bool, points: tuple[list[NeededPoint], list[NeededPoint]],
+    grasp: Grasp, task: TimedTask, by: str, along: bool, points: tuple[list[NeededPoint], list[NeededPoint]],
     sizes: Sequence[Best], minimal: Sequence[tuple[int, ...]], interrupted: bool,
 ) -> SynergiesNeeded:  # fmt: skip
     fewest = len(minimal[0]) if minimal else None
     below = sizes[: fewest - 1] if fewest else sizes
+    # where no synergy yields, more never take a plan away: what has none has none with fewer either
+    decisive = below if np.any(grasp.C_z) else below[-1:]
     named = tuple(tuple(grasp.synergies[i] for i in picks) for picks in minimal)
     known = fewest is not None and fewest <= len(sizes) and sizes[fewest - 1].every
     return SynergiesNeeded(
         grasp.held.synergies.name if grasp.held is not None else "", grasp.synergies, tuple(points[0]),
-        tuple(points[1]), by, fewest, all(size.none_has_a_plan for size in below), named, known,
+        tuple(points[1]), by, fewest, all(size.none_has_a_plan for size in decisive), named, known,
         tuple((size.looked_at, size.refuted) for size in below), "along" if along else "start", interrupted,
     )  # fmt: skip
