@@ -15,9 +15,11 @@ from synergrip.explain.needed_points import NeededPoint, Pointed
 from synergrip.explain.subset_values import GOALS, Looking
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import of_whole_set
+from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
+from synergrip.tasks.tracking import in_motions
 from synergrip.values import Value
 
 MOST = 500
@@ -68,7 +70,7 @@ def synergies_needed(
 
     Args:
         grasp: the grasp; of a hand the whole named set is looked at, of which it may have a part.
-        task: what is asked.
+        task: what is asked; a wish in modes is that of the grasp as it is.
         by: what makes a subset better than another with a plan: "margin", "effort" or "peak_force". Of those without
             one, that whose largest margin, or whose rigid motions, fall short by least.
         most: all subsets of a size are looked at when they are no more than this; else the best is looked for by adding
@@ -91,7 +93,9 @@ def synergies_needed(
         judge.refuse("by", one_of(by, GOALS))
     judge.finish()
     timed = task.timed(grasp) if isinstance(task, Task) else task.on(grasp)
-    whole, origins = of_whole_set(at_start(grasp, timed.wrench[0]))
+    own = at_start(grasp, timed.wrench[0])
+    timed = in_motions(analyse(own, timed.wrench), timed)
+    whole, origins = of_whole_set(own)
     if up_to is not None and not 1 <= up_to <= whole.n_z:
         raise InputError.at("up_to", f"expected 1 to {whole.n_z}, the number of synergies, got {up_to}")
     timed = replace(timed.for_synergies(origins), linearise="along" if along else "once")

@@ -63,7 +63,7 @@ def draw_needed(needed: SynergiesNeeded, path: Path, title: str) -> None:
 
 def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float) -> None:
     """Draw one figure over the number of synergies; a cross where there is no plan."""
-    count = len(needed.synergies)
+    count = max(len(needed.first), len(needed.best), 1)
     for points, color, label, marker, height in (
         (needed.first, BLUE, "first k", "o", 0.10), (needed.best, VERMILION, "best k", "D", 0.04),
     ):  # fmt: skip
@@ -76,7 +76,7 @@ def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float) -> Non
     if name == "largest_margin":
         axes.axhline(0.0, color=GREY, lw=0.8)
     else:
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.06 * axes.get_ylim()[1])
     axes.set_xlim(0.5, count + 0.5)
     axes.set_xticks(range(1, count + 1, 1 + count // 20))
     axes.spines[["top", "right"]].set_visible(False)
