@@ -151,6 +151,19 @@ def test_the_document_holds_what_the_value_does(able: Grasp) -> None:
     assert document["candidates"][0]["names"] == list(missing.candidates[0].names)
 
 
+def test_a_wish_in_modes_is_that_of_the_synergies_there_are() -> None:
+    """Further synergies have other modes; what is wanted of the object stays."""
+    grasp = moving_grasp(np.random.default_rng(1))
+    modes = Target("modes", frozen(1e-3 * np.ones((3, analyse(grasp).spaces.Gamma_ucs.shape[1]))))
+    loads = frozen([[0, 0, -5.0, 0, 0, 0]] * 3)
+    task = TimedTask(TIMES, loads, modes, 0.0, (NormalForce(0.0, 20.0),), (LeastEffort(),))
+    no = refused(grasp, task)
+    assert no.stage == "magnitude"
+    missing = missing_synergies(no)
+    assert "unknown" not in {each.verdict for each in missing.candidates}
+    assert missing.candidates or missing.proven
+
+
 @pytest.fixture(scope="module")
 def glass() -> Infeasible:
     problem = load_problem("human-glass", "hand.synergies=4")

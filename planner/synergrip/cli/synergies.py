@@ -1,22 +1,46 @@
-"""``synergrip synergies``: S from recorded postures; synergy sets listed, shown and compared."""
+"""``synergrip synergies``: S from recorded postures; sets listed, shown, compared; how many a task needs."""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.running import Format, FormatOption, answering, picture_place, show, shown_anyway, writing
+from synergrip.cli.progress import counted
+from synergrip.cli.running import (
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    heard,
+    picture_place,
+    possible,
+    show,
+    shown_anyway,
+    writing,
+)
 
 synergies = typer.Typer(
-    help="Synergy sets: fit to recorded postures, list, show, compare.", no_args_is_help=True, add_completion=False
+    help="Synergy sets: fit to recorded postures, list, show, compare; how many of them a task needs.",
+    no_args_is_help=True,
+    add_completion=False,
 )
 HandArgument = Annotated[str, typer.Argument(metavar="HAND", help="A bundled hand, or a folder with hand.toml.")]
 FirstOption = Annotated[int | None, typer.Option("--first", metavar="K", help="Only the first K synergies.")]
 SET = "A set of the hand, or a synergy file."
 PictureOption = Annotated[Path | None, typer.Option("--picture", metavar="FILE", help="Draw into .svg, .png or .pdf.")]
+
+
+class By(StrEnum):
+    """What makes some synergies better than others with which there is a plan, too."""
+
+    PEAK_FORCE = "peak_force"
+    EFFORT = "effort"
+    MARGIN = "margin"
 
 
 @synergies.command("fit")
@@ -133,6 +157,62 @@ def compare(
             pair = pair_of_files(a, b, first, keys)
         found = measure(pair.first.S, pair.second.S)
         show(form, lambda: compare_text(pair, found), lambda: compare_document(pair, found))
+
+
+@synergies.command("needed")
+def needed(
+    problem: ProblemArgument,
+    by: Annotated[By, typer.Option("--by", help="What makes k synergies better than others.")] = By.PEAK_FORCE,
+    most: Annotated[
+        int, typer.Option("--most", min=1, help="Look at all subsets of k synergies when there are no more than this.")
+    ] = 500,
+    up_to: Annotated[int | None, typer.Option("--up-to", metavar="K", help="Only up to K synergies.")] = None,
+    along: Annotated[
+        bool, typer.Option("--along", help="Verdicts and figures of the hand that moves, not of its start posture.")
+    ] = False,
+    csv: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Write the table here.")] = None,
+    picture: PictureOption = None,
+    form: FormatOption = Format.TEXT,
+    overrides: SetOption = None,
+) -> None:
+    """Find the fewest synergies for a task: margin, effort, peak force and tracking error over their number."""
+    with answering(form):
+        from synergrip.errors import SynergripError
+        from synergrip.explain.synergies_needed import synergies_needed
+        from synergrip.files import refuse_unwritable
+        from synergrip.problems.problem import load_problem, located
+        from synergrip.reports.data.needed_files import needed_document, write_needed
+        from synergrip.reports.text.text_needed import needed_text
+
+        picture_place(picture)
+        if csv is not None:
+            possible("--csv", csv, refuse_unwritable)
+        loaded = load_problem(problem, overrides or [])
+
+        def told(size: int, done: int, of: int) -> None:
+            counted(done, of, f"subsets of {size}")
+
+        try:
+            with heard():
+                found = synergies_needed(
+                    loaded.grasp, loaded.timed, by=by, most=most, up_to=up_to, along=along, told=told
+                )
+        except SynergripError as error:
+            raise located(loaded, error) from None
+        with shown_anyway(form, lambda: needed_text(loaded, found), lambda: needed_document(found)):
+            if csv is not None:
+                with writing("--csv", csv):
+                    write_needed(found, csv)
+                ending.keep(csv)
+            if picture is not None:
+                from synergrip.reports.pictures.needed_curve import draw_needed
+
+                with writing("--picture", picture):
+                    draw_needed(found, picture, loaded.title)
+                ending.keep(picture)
+        written = "".join(f"\nwrote {path}" for path in (csv, picture) if path is not None)
+        show(form, lambda: needed_text(loaded, found) + written, lambda: needed_document(found))
+    raise typer.Exit(130 if found.interrupted else 0)
 
 
 def _usage(sets: list[str]) -> NoReturn:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from synergrip.hands.hand import SynergySet
 from synergrip.linalg import Array, canonical, frozen
 from synergrip.planning.outcome import Infeasible
 from synergrip.planning.planning import plan, plan_of_start_posture
+from synergrip.tasks.tracking import in_motions
 from synergrip.values import Value
 
 MOST = 12
@@ -75,9 +76,11 @@ def missing_synergies(
         >>> missing_synergies(no).count  # doctest: +SKIP
         1
     """
-    if no.analysis is None:
+    analysis = no.analysis
+    if analysis is None:
         return _none(no, 0, "the object is not held, whatever the synergies are")
-    lack = lacking(no.analysis, no.task, forces)
+    no = replace(no, task=in_motions(analysis, no.task))
+    lack = lacking(analysis, no.task, forces)
     if lack.beyond:
         text = f"no synergies help: the motion is {lack.beyond:.3g} m outside what all {no.grasp.n_q} joints can follow"
         return _none(no, None, text)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -27,9 +26,8 @@ from synergrip.tasks.scaling import caps, grips
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
 
-By = Literal["margin", "effort", "peak_force"]
+GOALS: dict[str, Goal] = {"margin": LargestMargin(), "effort": LeastEffort(), "peak_force": LeastPeak()}
 """What makes one subset better than another, of those with a plan."""
-GOALS: dict[By, Goal] = {"margin": LargestMargin(), "effort": LeastEffort(), "peak_force": LeastPeak()}
 SURE = 1e-5
 """Shortfall of a margin, relative to the unit of force, that is no matter of digits."""
 ROUNDING = 1e-8
@@ -77,7 +75,8 @@ class Looking(Value):
 
     grasp: Grasp
     task: TimedTask
-    by: By
+    by: str
+    """Of `GOALS`."""
 
     def at(self, picks: Sequence[int]) -> Tried:
         """Return what the task comes to with some synergies.

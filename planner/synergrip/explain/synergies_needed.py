@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.explain.best_subsets import Best, Search, Told
 from synergrip.explain.needed_points import NeededPoint, Pointed
-from synergrip.explain.subset_values import GOALS, By, Looking
+from synergrip.explain.subset_values import GOALS, Looking
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import of_whole_set
+from synergrip.statics.analysis import analyse
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
+from synergrip.tasks.tracking import in_motions
 from synergrip.values import Value
 
 MOST = 500
@@ -38,7 +42,7 @@ class SynergiesNeeded(Value):
     """With the first 1, 2, ... synergies of the set."""
     best: tuple[NeededPoint, ...]
     """With the best 1, 2, ... of them."""
-    by: By
+    by: str
     """What the best is best by: the largest margin, the least effort or the least peak force."""
     fewest: int | None
     """The fewest with which there is a plan; None where none was found."""
@@ -57,7 +61,7 @@ class SynergiesNeeded(Value):
 
 @naming_arguments
 def synergies_needed(
-    grasp: Grasp, task: Task | TimedTask, *, by: By = "peak_force", most: int = MOST, up_to: int | None = None,
+    grasp: Grasp, task: Task | TimedTask, *, by: str = "peak_force", most: int = MOST, up_to: int | None = None,
     along: bool = False, told: Told = lambda size, done, of: None,
 ) -> SynergiesNeeded:  # fmt: skip
     """Return what a task comes to with 1, 2, ... synergies: the first k of the set that the grasp's are of, the best k.
@@ -66,7 +70,7 @@ def synergies_needed(
 
     Args:
         grasp: the grasp; of a hand the whole named set is looked at, of which it may have a part.
-        task: what is asked.
+        task: what is asked; a wish in modes is that of the grasp as it is.
         by: what makes a subset better than another with a plan: "margin", "effort" or "peak_force". Of those without
             one, that whose largest margin, or whose rigid motions, fall short by least.
         most: all subsets of a size are looked at when they are no more than this; else the best is looked for by adding
@@ -89,7 +93,9 @@ def synergies_needed(
         judge.refuse("by", one_of(by, GOALS))
     judge.finish()
     timed = task.timed(grasp) if isinstance(task, Task) else task.on(grasp)
-    whole, origins = of_whole_set(at_start(grasp, timed.wrench[0]))
+    own = at_start(grasp, timed.wrench[0])
+    timed = in_motions(analyse(own, timed.wrench), timed)
+    whole, origins = of_whole_set(own)
     if up_to is not None and not 1 <= up_to <= whole.n_z:
         raise InputError.at("up_to", f"expected 1 to {whole.n_z}, the number of synergies, got {up_to}")
     timed = replace(timed.for_synergies(origins), linearise="along" if along else "once")
@@ -127,15 +133,17 @@ def _with_plan(sizes: Sequence[Best]) -> tuple[tuple[int, ...], ...]:
 
 
 def _needed(
-    grasp: Grasp, task: TimedTask, by: By, along: bool, points: tuple[list[NeededPoint], list[NeededPoint]],
+    grasp: Grasp, task: TimedTask, by: str, along: bool, points: tuple[list[NeededPoint], list[NeededPoint]],
     sizes: Sequence[Best], minimal: Sequence[tuple[int, ...]], interrupted: bool,
 ) -> SynergiesNeeded:  # fmt: skip
     fewest = len(minimal[0]) if minimal else None
     below = sizes[: fewest - 1] if fewest else sizes
+    # where no synergy yields, more never take a plan away: what has none has none with fewer either
+    decisive = below if np.any(grasp.C_z) else below[-1:]
     named = tuple(tuple(grasp.synergies[i] for i in picks) for picks in minimal)
     known = fewest is not None and fewest <= len(sizes) and sizes[fewest - 1].every
     return SynergiesNeeded(
         grasp.held.synergies.name if grasp.held is not None else "", grasp.synergies, tuple(points[0]),
-        tuple(points[1]), by, fewest, all(size.none_has_a_plan for size in below), named, known,
+        tuple(points[1]), by, fewest, all(size.none_has_a_plan for size in decisive), named, known,
         tuple((size.looked_at, size.refuted) for size in below), "along" if along else "start", interrupted,
     )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from synergrip.linalg import RANK_TOLERANCE, Array, frozen, split
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.statics.twists import describe_displacement
-from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.timed_task import Target, TimedTask
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
@@ -63,6 +63,18 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
     else:
         whole = values @ analysis.spaces.Gamma_ucs[:, : values.shape[1]].T
     return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
+
+
+def in_motions(analysis: Analysis, task: TimedTask) -> TimedTask:
+    """Return the task with its wish as a motion of the object, which means the same whatever the synergies are.
+
+    A wish in modes, the coordinates of Gamma_ucs, means something else to a hand with other synergies. What such a wish
+    does between the knots is left out.
+    """
+    if task.target.kind not in ("modes", "mode moves"):
+        return task
+    values = target_displacement(analysis, task, task.target.values)
+    return replace(task, target=Target("motion", values, task.target.key), course=None)
 
 
 def followed_axes(analysis: Analysis, task: TimedTask) -> tuple[Array, Array]:

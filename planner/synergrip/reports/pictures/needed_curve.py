@@ -1,0 +1,89 @@
+"""What a task comes to with k synergies, as curves: the first k of a set beside the best k."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from synergrip.explain.needed_points import NeededPoint
+from synergrip.explain.subset_values import GOALS
+from synergrip.explain.synergies_needed import SynergiesNeeded
+from synergrip.linalg import Array
+from synergrip.reports.pictures.layout import MARGIN
+from synergrip.reports.pictures.page import SPACE, Heading
+from synergrip.reports.pictures.sheet import BLUE, GREY, VERMILION, Sheet, write_picture
+
+WIDTH, HEIGHT, LABELS, BETWEEN = 9.0, 2.3, 0.8, 0.75  # [inch]
+PARTS = (
+    ("largest_margin", "largest slip margin [N]", 1.0),
+    ("peak", "least peak force [N]", 1.0),
+    ("effort", "least effort [N]", 1.0),
+    ("tracking_error", "object off its place [mm]", 1e3),
+)
+"""Figure, what it is called, and the factor to its unit."""
+
+
+def draw_needed(needed: SynergiesNeeded, path: Path, title: str) -> None:
+    """Draw margin, peak force, effort and tracking error over the number of synergies.
+
+    Args:
+        needed: the curves.
+        path: ends in .svg, .png or .pdf.
+        title: heading of the picture.
+
+    Raises:
+        InputError: a suffix that says no format.
+        OSError: the file cannot be written.
+    """
+    named = f"{needed.set}, " if needed.set else ""
+    model = {"start": "linear model of the start posture", "along": "the hand that moves"}[needed.model]
+    heading = Heading.of(
+        title, f"{named}{len(needed.synergies)} synergies; best by {GOALS[needed.by].name}; {model}", WIDTH
+    )
+    top = heading.height + SPACE + 0.1
+    width = (WIDTH - 2 * LABELS - 2 * MARGIN + 0.3) / 2
+
+    def draw(sheet: Sheet) -> None:
+        heading.write(sheet)
+        for index, (name, label, factor) in enumerate(PARTS):
+            row, column = divmod(index, 2)
+            left = LABELS + column * (width + LABELS)
+            axes = sheet.chart(left, top + row * (HEIGHT + BETWEEN), width, HEIGHT)
+            _curves(axes, needed, name, factor)
+            axes.set_ylabel(label)
+            axes.set_xlabel("synergies")
+            if index < 2:  # the second has crosses, too
+                axes.legend(frameon=False, loc="lower right", fontsize=9, ncols=1 + index)
+
+    write_picture(path, WIDTH, top + 2 * (HEIGHT + BETWEEN), draw)
+
+
+def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float) -> None:
+    """Draw one figure over the number of synergies; a cross where there is no plan."""
+    count = max(len(needed.first), len(needed.best), 1)
+    for points, color, label, marker, height in (
+        (needed.first, BLUE, "first k", "o", 0.10), (needed.best, VERMILION, "best k", "D", 0.04),
+    ):  # fmt: skip
+        numbers = np.arange(1, len(points) + 1)
+        axes.plot(numbers, _values(points, name, factor), color=color, marker=marker, ms=4.5, lw=1.6, label=label)
+        lacking = [number for number, point in zip(numbers, points, strict=True) if point.verdict != "feasible"]
+        if name != "largest_margin":
+            axes.plot(lacking, np.full(len(lacking), height), ls="none", marker="x", ms=5, color=color, clip_on=False,
+                      label="no plan", transform=axes.get_xaxis_transform())  # fmt: skip
+    if name == "largest_margin":
+        axes.axhline(0.0, color=GREY, lw=0.8)
+    else:
+        axes.set_ylim(0.0, 1.06 * axes.get_ylim()[1])
+    axes.set_xlim(0.5, count + 0.5)
+    axes.set_xticks(range(1, count + 1, 1 + count // 20))
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _values(points: Sequence[NeededPoint], name: str, factor: float) -> Array:
+    """Return the figure of each point, NaN where there is none."""
+    values = [getattr(point, name) for point in points]
+    found = np.array([np.nan if value is None else factor * value for value in values])
+    return np.where(np.isfinite(found), found, np.nan)
