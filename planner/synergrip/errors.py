@@ -184,15 +184,6 @@ class MotionDirectionError(Refusal):
         self.residual, self.time_s, self.share, self.size = residual, time_s, share, size
 
 
-class ControlError(Refusal):
-    """More directions are to be controlled independently than the synergies can."""
-
-    def __init__(self, message: str, stage: str, asked: int, available: int) -> None:
-        """Carry the stage, "count" or "direction", and how many are asked for and available."""
-        super().__init__(message)
-        self.stage, self.asked, self.available = stage, asked, available
-
-
 class InterruptError(SynergripError):
     """The user interrupted; what was finished is kept."""
 

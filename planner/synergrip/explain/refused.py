@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.conic.limits.dial import Dial
-from synergrip.errors import ControlError, MotionDirectionError
+from synergrip.errors import MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
@@ -14,6 +14,7 @@ from synergrip.explain.when import When
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan, plan_of_start_posture
+from synergrip.tasks.control import ControlError
 from synergrip.tasks.tracking import target_displacement
 
 FEW = 3

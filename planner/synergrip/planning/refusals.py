@@ -6,12 +6,12 @@ import numpy as np
 
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.limits.object_error import AXES
-from synergrip.errors import ControlError, MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
+from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.statics.analysis import Analysis
-from synergrip.tasks.control import Control, outside
+from synergrip.tasks.control import Control, ControlError, outside
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import RIGID_TOLERANCE, apart_by
 

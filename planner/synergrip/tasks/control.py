@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.conic.limits.object_error import AXES, AxisName, axis_weights
 from synergrip.documents.judging import described, is_list, is_whole, is_word
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import ControlError, one_of, repeated
+from synergrip.errors import Refusal, one_of, repeated
 from synergrip.linalg import RANK_TOLERANCE, Array, frozen
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.arguments import TaskArguments, keep
@@ -62,6 +62,15 @@ class Control(ByContent):
     def asked(self) -> int:
         """How many directions in all."""
         return self.forces + len(self.motions) + self.reconfiguration
+
+
+class ControlError(Refusal):
+    """More directions are to be controlled independently than the synergies can."""
+
+    def __init__(self, message: str, stage: str, asked: int, available: int) -> None:
+        """Carry the stage, "count" or "direction", and how many are asked for and available."""
+        super().__init__(message)
+        self.stage, self.asked, self.available = stage, asked, available
 
 
 def refuse_control(analysis: Analysis, control: Control) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.errors import ControlError, MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
+from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.told import structure_document
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.control import ControlError
 
 
 def analysis_document(analysis: Analysis) -> dict[str, Any]:
