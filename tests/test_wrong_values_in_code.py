@@ -51,7 +51,7 @@ NEVER: dict[str, Callable[[], Any]] = {
 two = [sg.Contact(name=name, kind=hard, point=(x, 0, 0), frame=np.eye(3)) for name, x in (("a", -0.02), ("b", 0.02))]
 response = sg.respond(grasp)
 responses = sg.respond_many([grasp])
-still = np.zeros((2, 6))
+still, unheld = np.zeros((2, 6)), sg.load_problem("pinch-hard")
 RIGHT: dict[str, dict[str, Any]] = {
     **{key.kind.__name__: {"limit": 1.0} for key in LIMITS if fields(key.kind)[0].name == "limit"},
     "load_hand": {"name_or_path": "barrett"},
@@ -115,13 +115,15 @@ RIGHT: dict[str, dict[str, Any]] = {
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
+    "exact_proof": {"no": sg.plan(unheld.grasp, unheld.task)},
 }  # fmt: skip
 MADE_OF_OTHERS = {"within", "norm_within", "squares_of", "below_scalar"}
 """Of quantities that only a formulation has: their arguments are tried in tests/planning/test_own_mistakes.py."""
 OTHERS = {
     "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses", "Execution",
     "Limit", *MADE_OF_OTHERS, "Goal",
-    "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
+    "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown", "ExactProof",
+    "NoExactProof",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",

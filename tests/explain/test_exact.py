@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from judged_exact import MULTIPLIERS, PROBLEM, alone, altered, infeasible
+from judged_exact import KINDS, MULTIPLIERS, PROBLEM, alone, altered, infeasible
 from random_formulations import LIMITS, random_formulation
 from small_grasps import pinch
 
@@ -26,6 +26,14 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.tasks.timed_task import TimedTask, still
 
+FIRST = {
+    "normal, no upper": 192,
+    "rate": 79,
+    "rate, some free": 137,
+    "acceleration": 137,
+    "acceleration, some free": 137,
+}
+"""Seeds from which on a task that this kind of limit makes infeasible is looked for; 0 for the others."""
 TIMES = np.array([0.0, 1.0])
 
 
@@ -125,9 +133,14 @@ def test_the_last_digits_go_where_they_are_those_of_a_division_only() -> None:
     assert plain_number(20.00000000000008) != 20.0
 
 
-@pytest.mark.parametrize("kind", LIMITS)
+def made_infeasible(kind: str) -> Infeasible:
+    first = FIRST.get(kind, 0)
+    return next(found for seed in range(first, first + 200) if (found := infeasible(seed, kind)) is not None)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_no_of_every_kind_of_limit_is_proven_again(kind: str) -> None:
-    outcome = next(found for seed in range(300) if (found := infeasible(seed, kind)) is not None)
+    outcome = made_infeasible(kind)
     found, key = proof_of(outcome), LIMITS[kind](outcome.grasp).key
     assert found.sum < 0
     blamed = {found.problem["limits"][i]["limit"] for i, _, _ in found.multipliers}
@@ -138,7 +151,7 @@ def test_a_no_of_every_kind_of_limit_is_proven_again(kind: str) -> None:
 
 @cache
 def rate_proof() -> ExactProof:
-    return proof_of(next(found for seed in range(300) if (found := infeasible(seed, "rate"))))
+    return proof_of(made_infeasible("rate"))
 
 
 @pytest.mark.parametrize("how", [*PROBLEM, *MULTIPLIERS])

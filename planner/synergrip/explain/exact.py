@@ -23,7 +23,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.variable_bounds import farthest
 from synergrip.documents.judging import expected
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.bare_limits import Cone
 from synergrip.explain.check_proof import checked
@@ -45,6 +45,7 @@ NEGLIGIBLE = (1e-2, 1e-4, 0.0)
 OF_RANK = "no exact proof: this no is one of rank, and rank is a matter of tolerance"
 
 
+@made_by("exact_proof(answer)")
 @dataclass(frozen=True, eq=False, repr=False)
 class ExactProof(Value):
     """A proof that no references within a box keep all limits, as numbers that anybody can add up.
@@ -71,9 +72,16 @@ class ExactProof(Value):
         return _mark(self.problem)
 
 
+@made_by("exact_proof(answer)")
 @dataclass(frozen=True)
 class NoExactProof:
-    """Why there is none."""
+    """Why there is none.
+
+    Example:
+        >>> unheld = load_problem("pinch-hard")
+        >>> exact_proof(plan(unheld.grasp, unheld.task)).why
+        'no exact proof: this no is one of rank, and rank is a matter of tolerance'
+    """
 
     why: str
 
