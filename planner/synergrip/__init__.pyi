@@ -39,7 +39,7 @@ from synergrip.statics import coordinates as coordinates
 from synergrip.statics.responses import respond_many as respond_many
 from synergrip.statics.subspace_groups import subspaces_many as subspaces_many
 from synergrip.statics.subspace_groups import coordinates_many as coordinates_many
-from synergrip.equilibrium.execution import execute as execute
+from synergrip.equilibrium.execute import execute as execute
 from synergrip.equilibrium.execution import Execution as Execution
 from synergrip.equilibrium.states import Loads as Loads
 from synergrip.conic.limits.limit import Limit as Limit
