@@ -14,7 +14,7 @@ from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.turning import dials
 from synergrip.explain.when import When, when
-from synergrip.explain.words import blamed
+from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown
 
 NOT_KNOWN = When(None, (), alone=False)
@@ -89,8 +89,9 @@ def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Confl
         return f"{none}{no.why}"
     cones = next((each for each in known if each.friction), None)
     shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""
+    margin = "" if no.largest_margin is None or no.largest_margin < 0 or not no.task.margin else most_margin(no)
     there = "" if held[0].verified else " in the linear model of the start posture (no plan was found with it)"
-    return blamed(held[0]) + there + shows
+    return blamed(held[0]) + there + margin + shows
 
 
 def _blamed(

@@ -23,7 +23,7 @@ ROOM = 2e-6
 """Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
 MORE = (0.0, 0.002, 0.01, 0.05, 0.2)
 """How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
-FEWER = (0.002, 0.05)
+FEWER = (0.0, 0.02)
 """The same in the short form: each is a plan along the motion."""
 TIE = 0.01
 """Relative difference below which two changes are as large as each other."""
@@ -61,7 +61,7 @@ class Repair(Value):
 
 def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
     """Return the changes that help, the smallest first; of such as tie a user's limit before friction and load."""
-    helping = sorted((each for each in found if math.isfinite(each.size)), key=lambda each: each.size)
+    helping = sorted((each for each in found if each.value is not None), key=lambda each: each.size)
     result: list[LeastChange] = []
     while helping:
         smallest = helping[0].size

@@ -5,6 +5,7 @@ from __future__ import annotations
 from synergrip.conic.conflicts import Conflict
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.explain.repairs import Repair
+from synergrip.planning.outcome import Infeasible
 
 TOO: dict[str, str] = {
     "friction": "friction is too low", "load": "the load is too heavy",
@@ -31,6 +32,12 @@ def blamed(repair: Repair) -> str:
     was, to = values(repair)
     what = LEAST_FORCE if repair.cause == "force_cap" and repair.to < repair.was else TOO[repair.cause]
     return f"{what}: {was} ({repair.key}), and {to} would do"
+
+
+def most_margin(no: Infeasible) -> str:
+    """Return how large a slip margin the other limits leave, beside the one that is asked for."""
+    most, asked = apart(no.largest_margin or 0.0, no.task.margin)
+    return f"; as it is the largest slip margin is {most} N, {asked} N are asked for"
 
 
 def values(repair: Repair) -> tuple[str, str]:
