@@ -114,6 +114,7 @@ RIGHT: dict[str, dict[str, Any]] = {
              "load_factor": 1.0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
+    "synergies_needed": {"grasp": grasp, "task": task, "by": "effort", "most": 1, "up_to": 1, "along": False},
 }  # fmt: skip
 MADE_OF_OTHERS = {"within", "norm_within", "squares_of", "below_scalar"}
 """Of quantities that only a formulation has: their arguments are tried in tests/planning/test_own_mistakes.py."""
@@ -123,7 +124,7 @@ OTHERS = {
     "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "Infeasible", "Unknown",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
-    "simulate", "Simulation",
+    "simulate", "Simulation", "missing_synergies", "MissingSynergies", "SynergiesNeeded",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -164,6 +165,7 @@ def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str)
 MADE_BY = {
     "Analysis": "analyse(", "Analyses": "analyse_many(", "Execution": "execute(", "Problem": "load_problem(",
     "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
+    "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
 }  # fmt: skip
 
 

@@ -90,6 +90,10 @@ from synergrip.planning.planning import plan as plan
 from synergrip.planning.outcome import Plan as Plan
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
+from synergrip.explain.missing_synergies import missing_synergies as missing_synergies
+from synergrip.explain.missing_synergies import MissingSynergies as MissingSynergies
+from synergrip.explain.synergies_needed import synergies_needed as synergies_needed
+from synergrip.explain.synergies_needed import SynergiesNeeded as SynergiesNeeded
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 
