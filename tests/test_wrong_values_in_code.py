@@ -116,6 +116,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
     "exact_proof": {"no": sg.plan(unheld.grasp, unheld.task)},
+    "synergies_needed": {"grasp": grasp, "task": task, "by": "effort", "most": 1, "up_to": 1, "along": False},
 }  # fmt: skip
 MADE_OF_OTHERS = {"within", "norm_within", "squares_of", "below_scalar"}
 """Of quantities that only a formulation has: their arguments are tried in tests/planning/test_own_mistakes.py."""
@@ -127,6 +128,7 @@ OTHERS = {
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
+    "missing_synergies", "MissingSynergies", "SynergiesNeeded",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -168,6 +170,7 @@ MADE_BY = {
     "Analysis": "analyse(", "Analyses": "analyse_many(", "Execution": "execute(", "Problem": "load_problem(",
     "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
+    "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
 }  # fmt: skip
 
 

@@ -156,12 +156,10 @@ def test_a_wish_in_modes_is_that_of_the_synergies_there_are() -> None:
     grasp = moving_grasp(np.random.default_rng(1))
     modes = Target("modes", frozen(1e-3 * np.ones((3, analyse(grasp).spaces.Gamma_ucs.shape[1]))))
     loads = frozen([[0, 0, -5.0, 0, 0, 0]] * 3)
-    task = TimedTask(TIMES, loads, modes, 0.0, (NormalForce(0.0, 20.0),), (LeastEffort(),))
-    no = refused(grasp, task)
-    assert no.stage == "magnitude"
-    missing = missing_synergies(no)
-    assert "unknown" not in {each.verdict for each in missing.candidates}
-    assert missing.candidates or missing.proven
+    task = TimedTask(TIMES, loads, modes, 0.0, (NormalForce(0.0, 50.0),), (LeastEffort(),))
+    missing = missing_synergies(refused(grasp, task), most=2)
+    assert (missing.count, missing.verdict) == (1, "feasible")
+    assert [each.verdict for each in missing.candidates] == ["feasible"] * 2
 
 
 @pytest.fixture(scope="module")
@@ -203,6 +201,13 @@ def test_further_synergies_leave_what_a_grasp_can_do() -> None:
     np.testing.assert_allclose(new.dlambda_dzr[:, :-1], old.dlambda_dzr, atol=1e-9 * np.abs(old.dlambda_dzr).max())
     back = chosen(more, range(grasp.n_z))
     assert back == grasp
+
+
+def test_wrong_arguments_are_named(glass: Infeasible) -> None:
+    with pytest.raises(InputError, match="no: expected"):
+        missing_synergies(load_problem("human-glass"))
+    with pytest.raises(InputError, match=r"forces: .*15"):
+        missing_synergies(glass, forces=np.ones((3, 1)))
 
 
 def test_limits_of_synergies_go_with_them() -> None:

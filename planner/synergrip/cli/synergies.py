@@ -164,7 +164,7 @@ def needed(
     problem: ProblemArgument,
     by: Annotated[By, typer.Option("--by", help="What makes k synergies better than others.")] = By.PEAK_FORCE,
     most: Annotated[
-        int, typer.Option("--most", min=1, help="Look at all subsets of k synergies when there are no more than this.")
+        int, typer.Option("--most", min=1, max=1_000_000, help="Look at all subsets of k when there are no more.")
     ] = 500,
     up_to: Annotated[int | None, typer.Option("--up-to", metavar="K", help="Only up to K synergies.")] = None,
     along: Annotated[

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.explain.candidates import Candidate, Extending, Judge, judged
 from synergrip.explain.further_columns import Further, Subset, further_columns, repairing
 from synergrip.explain.lacking import Lacking, lacking
@@ -25,6 +26,7 @@ NAME = "missing"
 """Columns that no file names are called missing1, missing2, ..."""
 
 
+@made_by("missing_synergies(no)")
 @dataclass(frozen=True, eq=False, repr=False)
 class MissingSynergies(Value):
     """What must be added to S at least, for a task that has no plan.
@@ -72,10 +74,20 @@ def missing_synergies(
         sets: synergy sets that the hand does not name, such as those of files, to be looked at as well.
         judge: what plans the task with S extended.
 
+    Raises:
+        InputError: no proof that there is no plan, or forces that do not fit the contacts.
+
     Example:
         >>> missing_synergies(no).count  # doctest: +SKIP
         1
     """
+    asked = Arguments("")
+    asked.one("no", no, Infeasible, "what plan(grasp, task) returns where there is no plan")
+    asked.finish()
+    if forces is not None:
+        count = np.shape(forces)[1] if np.ndim(forces) == 2 else 1
+        forces = asked.array("forces", forces, (no.grasp.n_l, count), ": a column for each direction")
+        asked.finish()
     analysis = no.analysis
     if analysis is None:
         return _none(no, 0, "the object is not held, whatever the synergies are")

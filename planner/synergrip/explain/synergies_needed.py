@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments
-from synergrip.documents.naming import naming_arguments
+from synergrip.documents.judging import Arguments, described, is_whole, is_word
+from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.explain.best_subsets import Best, Search, Told
 from synergrip.explain.needed_points import NeededPoint, Pointed
@@ -24,8 +24,11 @@ from synergrip.values import Value
 
 MOST = 500
 """Subsets of a size up to which all of them are looked at."""
+LARGEST = 1_000_000
+"""What that may be at most: days."""
 
 
+@made_by("synergies_needed(grasp, task)")
 @dataclass(frozen=True, eq=False, repr=False)
 class SynergiesNeeded(Value):
     """How many synergies a task takes, and which.
@@ -88,10 +91,7 @@ def synergies_needed(
         >>> synergies_needed(grasp, task).first[0].verdict  # doctest: +SKIP
         'infeasible'
     """
-    judge = Arguments("")
-    if by not in GOALS:
-        judge.refuse("by", one_of(by, GOALS))
-    judge.finish()
+    _judge(grasp, task, by, most, up_to, along, told)
     timed = task.timed(grasp) if isinstance(task, Task) else task.on(grasp)
     own = at_start(grasp, timed.wrench[0])
     timed = in_motions(analyse(own, timed.wrench), timed)
@@ -114,6 +114,23 @@ def synergies_needed(
         interrupted = True
         minimal = minimal or _with_plan(sizes)
     return _needed(whole, timed, by, along, (first, best), sizes, minimal, interrupted)
+
+
+def _judge(grasp: object, task: object, by: object, most: object, up_to: object, along: object, told: object) -> None:
+    judge = Arguments("")
+    judge.one("grasp", grasp, Grasp, "make_grasp(...)")
+    if not isinstance(task, Task | TimedTask):
+        judge.refuse("task", f"expected a Task, got {described(task)}")
+    if not is_word(by, GOALS):
+        judge.refuse("by", one_of(by, GOALS))
+    for name, number in (("most", most), *([] if up_to is None else [("up_to", up_to)])):
+        if not is_whole(number) or not 1 <= number <= LARGEST:
+            judge.refuse(name, f"expected a whole number from 1 to {LARGEST}, got {described(number)}")
+    if not isinstance(along, bool):
+        judge.refuse("along", f"expected True or False, got {described(along)}")
+    if not callable(told):
+        judge.refuse("told", f"expected a function of three numbers, got {described(told)}")
+    judge.finish()
 
 
 def _minimal(search: Search, sizes: Sequence[Best]) -> tuple[tuple[int, ...], ...]:

@@ -31,11 +31,12 @@ def needed_text(problem: Problem, needed: SynergiesNeeded) -> str:
 
 
 def _table(points: Sequence[NeededPoint], *, names: bool) -> str:
-    rows = [(*_cells(point), *([" ".join(point.synergies)] if names else [])) for point in points]
+    rows = [(*cells(point), *([" ".join(point.synergies)] if names else [])) for point in points]
     return table((*HEADER, *(["synergies"] if names else [])), rows, right=(0, 2, 3, 4, 5))
 
 
-def _cells(point: NeededPoint) -> tuple[str, ...]:
+def cells(point: NeededPoint) -> tuple[str, ...]:
+    """Return the cells of a row below `HEADER`."""
     plan = "yes" if point.verdict == "feasible" else f"{'no' if point.certified else 'unknown'}: {point.stage}"
     margin = "no bound" if point.largest_margin == math.inf else _number(point.largest_margin, 1.0, "N")
     off = point.outside or point.tracking_error
