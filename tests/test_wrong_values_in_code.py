@@ -16,7 +16,6 @@ from synergrip.conic.goals.registry import GOALS
 from synergrip.conic.limits.registry import LIMITS
 from synergrip.grasps.contacts.kinds import KINDS
 from synergrip.grasps.shapes.shapes import SHAPES
-from synergrip.planning.executing import Executor
 
 
 class Odd:
@@ -214,9 +213,6 @@ def test_times_of_an_execution_increase(times: list[float], told: str) -> None:
     references = np.linspace(0, 1e-3, 2)[:, None] * np.ones(4)
     with pytest.raises(sg.InputError, match=f"^times: {told}"):
         sg.execute(**{**RIGHT["execute"], "times": times, "references": references})
-    executor = Executor.of(sg.analyse(grasp), task.timed(grasp))
-    with pytest.raises(sg.InputError, match=f"^times: {told}"):
-        executor.run(np.array(times), references, still, executor.setting.start)
 
 
 def test_an_instant_at_which_a_load_jumps_stands_twice_in_an_execution() -> None:
