@@ -155,7 +155,7 @@ class Walker:
         entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
         near = near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
-        known = answered.decision.infeasible and best.hindered is not None  # what hinders is told of all limits
+        known = answered.decision.infeasible and (best.hindered is not None or best.lost)  # told of all limits, once
         unsure = not known if stage is None else left_out(near, stage)
         if unsure and near is not limits:
             answered, stage = self._asked(best, pace, limits, wait=wait)
