@@ -94,3 +94,26 @@ def test_what_cannot_be_is_exit_code_2(arguments: tuple[str, ...], fragment: str
     result = run(*arguments)
     assert result.exit_code == 2
     assert fragment in result.stderr
+
+
+def test_where_no_synergies_do_that_is_certified() -> None:
+    moved = ("barrett-ball-lift-joints", "--set", 'hand.synergies="motors"')
+    found = command_line.document_of(run(*moved, "--format", "json"), 0)
+    assert (found["verdict"], found["fewest"], found["proven"], found["minimal"]) == ("infeasible", None, True, [])
+    assert [each["certified"] for each in found["refuted"]] == [4, 6, 4, 1]
+    assert found["first"][0]["outside_m"] > 0.01
+    part = command_line.document_of(run(*moved, "--up-to", "2", "--format", "json"), 0)
+    assert part["verdict"] == "unknown"
+    text = run(*moved).stdout
+    assert "no: direction" in text
+    assert "none: all together have no plan" in text
+    assert "so these do not do" in " ".join(text.split())
+
+
+def test_along_the_motion_the_figures_are_of_the_hand_that_moves() -> None:
+    (once, along) = (
+        command_line.document_of(run("gripper-box", *how, "--by", "effort", "--format", "json"), 0)["first"][-1]
+        for how in ((), ("--along",))
+    )
+    assert once["verdict"] == along["verdict"] == "feasible"
+    assert once["effort_N"] != along["effort_N"]

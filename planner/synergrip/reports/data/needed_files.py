@@ -21,8 +21,9 @@ COLUMNS = (
 
 def needed_document(needed: SynergiesNeeded) -> dict[str, Any]:
     """Return all of it; a margin that nothing bounds is null, and said to be unbounded."""
+    none = needed.proven and len(needed.best) == len(needed.synergies)
     return {
-        "verdict": "feasible" if needed.fewest else "infeasible" if needed.proven else "unknown",
+        "verdict": "feasible" if needed.fewest else "infeasible" if none else "unknown",
         "set": needed.set or None, "synergies": list(needed.synergies), "by": needed.by, "model": needed.model,
         "first": [_point(point) for point in needed.first],
         "best": [_point(point) | {"every_subset": point.every} for point in needed.best],

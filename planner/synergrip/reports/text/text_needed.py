@@ -65,11 +65,14 @@ def _searched(needed: SynergiesNeeded) -> Iterator[str]:
 
 def _fewest(needed: SynergiesNeeded) -> Iterator[str]:
     if not needed.fewest:
-        yield "fewest   none found: no number of these synergies that was looked at has a plan"
+        whole = len(needed.best) == len(needed.synergies)
+        yield f"fewest   {'none: all together have no plan' if whole else 'none found in what was looked at'}"
         return
     count = len(needed.minimal)
     all_of = "all" if needed.all_minimal else "found"
-    yield f"fewest   {needed.fewest} of {len(needed.synergies)}: {count} such subset{'s' * (count > 1)} ({all_of})"
+    where = " in the linear model" * (needed.model == "along")
+    such = f"{count} such subset{'s' * (count > 1)} ({all_of})"
+    yield f"fewest   {needed.fewest} of {len(needed.synergies)}{where}: {such}"
     for names in needed.minimal[:MOST]:
         yield f"         {' '.join(names)}"
     if count > MOST:
@@ -84,5 +87,6 @@ def _proof(needed: SynergiesNeeded) -> Iterator[str]:
         f"{refuted} of {looked_at} of {size}" for size, (looked_at, refuted) in enumerate(needed.refuted, 1)
     )
     what = f"subsets certified to have no plan in the linear model: {counts} synergies"
-    sure = "so fewer do not do" if needed.proven else "not all there are, so that fewer might do"
+    none = "so fewer do not do" if needed.fewest else "so these do not do"
+    sure = none if needed.proven else "not all there are, so that fewer might do"
     yield from wrapped("proof    ", f"{what}; {sure}")
