@@ -15,7 +15,8 @@ import synergrip as sg
 NAMES = [name for name in sg.__all__ if name != "__version__"]
 MADE_BY_OTHERS = {
     "Hand", "Grasp", "Analysis", "GraspStack", "Analyses", "Execution", "Program", "Certificate", "TimedTask",
-    "Problem", "Plan", "Infeasible", "Unknown", "Simulation", "Contact",
+    "Problem", "Plan", "Infeasible", "Unknown", "ExactProof", "NoExactProof", "Simulation", "Contact",
+    "Explanation", "Repair", "When",
     "MissingSynergies", "SynergiesNeeded",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""

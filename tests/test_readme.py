@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import shlex
 import subprocess
 import sys
 import tomllib
@@ -24,9 +25,12 @@ VOLATILE = re.compile(rf"{NUMBER} ms(?:, attempt \d+)?|\d+(?:\.\d+)?e[-+]\d+|\d+
 """Residuals, iterations, attempts, times and versions: the machine's, not the answer's."""
 
 
-def following(language: str) -> list[tuple[str, str]]:
+EXPLAIN = BLOCK.findall((ROOT / "docs" / "explain.md").read_text(encoding="utf-8"))
+
+
+def following(language: str, blocks: list[tuple[str, str]] = BLOCKS) -> list[tuple[str, str]]:
     """Blocks of a language, each with the text block right after it."""
-    pairs = pairwise(BLOCKS)
+    pairs = pairwise(blocks)
     return [(code, shown) for (kind, code), (after, shown) in pairs if kind == language and after == "text"]
 
 
@@ -45,9 +49,13 @@ def last_digit(number: str) -> float:
     return 10.0**-digits if digits else 0.0
 
 
-@pytest.mark.parametrize(("code", "shown"), following("bash"), ids=["plan", "no", "analyse", "trajectory", "table"])
+@pytest.mark.parametrize(
+    ("code", "shown"),
+    [*following("bash"), *following("bash", EXPLAIN)],
+    ids=["plan", "no", "analyse", "trajectory", "table", "explain"],
+)
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
-    arguments = code.split(".venv/bin/synergrip ")[-1].split()
+    arguments = shlex.split(code.split("synergrip ", 1)[-1])
     run = subprocess.run(
         [sys.executable, "-m", "synergrip", *arguments], capture_output=True, text=True, cwd=tmp_path, check=False
     )

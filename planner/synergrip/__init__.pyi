@@ -39,7 +39,7 @@ from synergrip.statics import coordinates as coordinates
 from synergrip.statics.responses import respond_many as respond_many
 from synergrip.statics.subspace_groups import subspaces_many as subspaces_many
 from synergrip.statics.subspace_groups import coordinates_many as coordinates_many
-from synergrip.equilibrium.execution import execute as execute
+from synergrip.equilibrium.execute import execute as execute
 from synergrip.equilibrium.execution import Execution as Execution
 from synergrip.equilibrium.states import Loads as Loads
 from synergrip.conic.limits.limit import Limit as Limit
@@ -82,6 +82,7 @@ from synergrip.tasks.wrenches import WrenchTable as WrenchTable
 from synergrip.tasks.pushes import Push as Push
 from synergrip.tasks.palm_motion import Palm as Palm
 from synergrip.tasks.palm_path import PalmPath as PalmPath
+from synergrip.tasks.control import Control as Control
 from synergrip.tasks.task import Task as Task
 from synergrip.tasks.timed_task import TimedTask as TimedTask
 from synergrip.problems.problem import load_problem as load_problem
@@ -90,6 +91,12 @@ from synergrip.planning.planning import plan as plan
 from synergrip.planning.outcome import Plan as Plan
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
+from synergrip.explain.explanation import Explanation as Explanation
+from synergrip.explain.repairs import Repair as Repair
+from synergrip.explain.when import When as When
+from synergrip.explain.exact import exact_proof as exact_proof
+from synergrip.explain.exact import ExactProof as ExactProof
+from synergrip.explain.exact import NoExactProof as NoExactProof
 from synergrip.explain.missing_synergies import missing_synergies as missing_synergies
 from synergrip.explain.missing_synergies import MissingSynergies as MissingSynergies
 from synergrip.explain.synergies_needed import synergies_needed as synergies_needed

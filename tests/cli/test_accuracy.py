@@ -67,7 +67,7 @@ def test_no_verdict_where_the_last_digits_could_turn_it() -> None:
     problem = pinch_that_yields(1e-11)
     told = command_line.document("plan", problem, code=3)
     assert told["verdict"] == "unknown"
-    assert told["why"].startswith("sensitive: what synergy references do to the")
+    assert told["why"]["text"].startswith("sensitive: what synergy references do to the")
     for margin in ("0.1 N", "1e6 N"):  # neither a plan nor a proof
         assert command_line.run("plan", problem, "--set", f"limits.margin={margin}").exit_code == 3
 

@@ -212,6 +212,18 @@ def test_so_is_one_while_the_other_solver_loads(module: str) -> None:
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("form", [(), ("--format", "json")])
+def test_an_interrupt_along_the_motion_tells_how_far_it_had_come(form: Sequence[str]) -> None:
+    passing = f"from synergrip.planning.walk import Walker\nWalker._passed = lambda *_: {INTERRUPT}"
+    done = interrupted("none", "", ("plan", "human-ball", "--set", "task.knots=5", *form), before=passing)
+    told = json.loads(done.stdout)["error"]["message"] if form else done.stderr
+    assert done.returncode == 130
+    assert told.startswith("interrupted; after 0 passes along the motion, at the true equilibrium limits are missed: ")
+    assert told.rstrip().endswith("; nothing was written")
+    assert len(told.splitlines()) == 1
+    assert written() == set()
+
+
 @pytest.mark.parametrize(("name", "signal_"), [("plan.json", signal.SIGINT), ("plan.npz", signal.SIGTERM)])
 def test_a_signal_while_files_are_written_waits_until_they_stand(name: str, signal_: signal.Signals) -> None:
     assert shell("SYNERGRIP plan pinch-soft").returncode == 0

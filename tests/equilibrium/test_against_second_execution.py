@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from second_execution import executed
 
-from synergrip.equilibrium.execution import Execution, execute
+from synergrip.equilibrium.execute import execute
+from synergrip.equilibrium.execution import Execution
 from synergrip.planning.executing import loads
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan_of_start_posture as plan

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from synergrip.equilibrium.execution import Execution, execute
+from synergrip.equilibrium.execute import execute
+from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.setting import setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.errors import InputError

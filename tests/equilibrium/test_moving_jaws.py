@@ -9,7 +9,8 @@ import pytest
 from jaws_that_move import SOFT, jaws
 from scipy.spatial.transform import Rotation
 
-from synergrip.equilibrium.execution import Execution, execute
+from synergrip.equilibrium.execute import execute
+from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.states import Loads
 from synergrip.grasps.contacts.frictionless import Frictionless
 from synergrip.grasps.contacts.patch_contact import PatchContact

@@ -131,9 +131,11 @@ def test_a_way_that_no_program_goes_shortens_the_way_alone() -> None:
     pace = Pace().back(None)
     assert pace.step == 1
     assert pace.way < 1
-    assert not pace.ends(begins=True)
-    assert pace.back(None).ends(begins=True)
     _, begun, _ = started("dlr-ball-move", "task.knots=9")
+    assert not pace.ends(begun)
+    assert pace.back(None).ends(begun)
+    assert pace.ends(replace(begun, gap=begun.largest))  # what it promised is nothing like what happens
+    assert not Pace().ends(replace(begun, gap=begun.largest))
     far = replace(begun, gap=4 * begun.room)
     after = Pace().back(far)
     assert after.way == 1
@@ -167,3 +169,12 @@ def test_what_forces_do_between_the_knots_is_not_asked_for_in_vain() -> None:
     assert isinstance(outcome, Plan)
     assert outcome.between is not None
     assert outcome.between.excess <= 0
+    assert outcome.passes <= 12  # with a full step at the beginning of each round it took 38
+
+
+def test_another_round_of_passes_begins_with_a_step_like_the_last() -> None:
+    _, begun, _ = started("dlr-ball-move", "task.knots=9")
+    assert begun.pace.again == Pace()
+    again = Pace(step=0.1, way=0.1, tries=1, stays=True).again
+    assert 0.1 < again.step < 1
+    assert (again.way, again.tries, again.stays) == (1.0, 0, False)

@@ -25,7 +25,7 @@ from synergrip import (
     load_problem,
     plan,
 )
-from synergrip.equilibrium.execution import execute
+from synergrip.equilibrium.execute import execute
 from synergrip.planning.check import judge_references
 from synergrip.planning.executing import Executor, loads
 from synergrip.planning.planning import plan_of_start_posture

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,18 @@ def test_the_document_tells_the_bounds_of_the_limits_as_at_the_knots():
     told = ("name", "unit", "lower", "upper")
     assert [[each[key] for key in told] for each in found["limits"]] == [[each[key] for key in told] for each in knots]
     assert all(each["lower"] is not None or each["upper"] is not None for each in found["limits"])
+
+
+@pytest.mark.parametrize("knots", [2, 9, 41])
+def test_the_document_tells_at_how_many_instants_a_hand_was_looked_at(knots: int) -> None:
+    problem = load_problem("gripper-bar", [f"task.knots={knots}"])
+    answer = plan(problem.grasp, problem.task)
+    found, times = between_document(answer.between), answer.between.usages[0].times
+    assert found["instants"] == len(times)
+    inside = [np.sum((times > first) & (times < last)) for first, last in pairwise(answer.time)]
+    assert set(inside) == {found["samples"]}
+    assert not found["corners_s"]
+    assert len(times) == knots + (knots - 1) * found["samples"]
 
 
 def test_a_motion_that_falls_between_the_knots_is_noted(tmp_path: Path) -> None:

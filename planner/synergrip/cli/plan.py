@@ -42,11 +42,14 @@ def plan(
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go (default out/PROBLEM).")
     ] = None,
     solver: Annotated[
-        str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation of the same problem.")
+        str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation at the start posture.")
     ] = "clarabel",
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
     ] = None,
+    exact: Annotated[
+        bool, typer.Option("--exact", help="Prove a no again in fractions; proof.json is for anybody to check.")
+    ] = False,
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw the plan over time: .svg, .png or .pdf.")
     ] = None,
@@ -64,6 +67,7 @@ def plan(
 
         loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
 
+        from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
@@ -83,15 +87,16 @@ def plan(
             possible("--save-program", save_program, refuse_unwritable)
 
         def text() -> str:
-            return outcome_text(loaded, outcome, folder, written, color()) + cost + drawn
+            return outcome_text(loaded, outcome, folder, written, color()) + told + cost + drawn
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
-                outcome = _found(make, loaded, answers)
+                outcome = found_by(make, loaded, answers)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
+                told, proof = proven(outcome, document) if exact else ("", None)
                 with writing("--output", folder):
-                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS)
+                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof)
                 ending.keep(*(folder / name for name in written))
             if save_program:
                 with writing("--save-program", save_program):
@@ -102,14 +107,14 @@ def plan(
     raise typer.Exit(outcome.exit_code)
 
 
-def _found(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
+def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
     """Plan; an interrupt keeps what the goals so far have led to."""
     from synergrip.errors import SynergripError
     from synergrip.problems.problem import located
 
     try:
         with heard():
-            return make(problem.grasp, problem.timed, answers)
+            return make(problem.grasp, problem.task, answers)
     except SynergripError as error:
         raise located(problem, error) from None
 

@@ -20,17 +20,20 @@ PATIENCE = 2.0
 
 def telling(answer: Answerer) -> Answerer:
     """Return the same solver, which says what it is about to solve when that, or what came before, takes long."""
-    from synergrip.conic.decide import ATTEMPTS
+    from synergrip.conic.decide import ALONG, ATTEMPTS
+    from synergrip.reports.text.text_problem import many
 
     begun = time.monotonic()
 
     def told(question: Question, program: Program, settings: Settings) -> Solution:
         rows, unknowns = program.A.shape
         if rows >= LONG or time.monotonic() - begun > PATIENCE:
-            where = " along the motion" if question.formulation.along_path else ""
-            what = f"{question.goal.name}{where}, {program.knots} knots: {unknowns} variables, {rows} rows"
-            attempt = ATTEMPTS.index(settings) + 1 if settings in ATTEMPTS else 1
-            again = f", attempt {attempt} of {len(ATTEMPTS)}" if attempt > 1 else ""
+            along = question.formulation.along_path
+            where, attempts = (" along the motion", ALONG) if along else ("", ATTEMPTS)
+            size = f"{many(unknowns, 'variable')}, {many(rows, 'row')}"
+            what = f"{question.goal.name}{where}, {many(program.knots, 'knot')}: {size}"
+            attempt = attempts.index(settings) + 1 if settings in attempts else 1
+            again = f", attempt {attempt} of {len(attempts)}" if attempt > 1 else ""
             print(f"solving  {what}{again} ...", file=sys.stderr, flush=True)
         return answer(question, program, settings)
 

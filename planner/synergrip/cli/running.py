@@ -46,8 +46,9 @@ def answering(form: Format) -> Iterator[None]:
     except SynergripError as error:
         _print_error(error, form)
         raise typer.Exit(error.exit_code) from None
-    except KeyboardInterrupt:
-        _print_error(InterruptError(f"interrupted; {ending.standing()}"), form)
+    except KeyboardInterrupt as interrupt:
+        come = f"{interrupt}; " if str(interrupt) else ""  # how far it had come, where the library knows
+        _print_error(InterruptError(f"interrupted; {come}{ending.standing()}"), form)
         raise typer.Exit(InterruptError.exit_code) from None
     except (typer.Exit, typer.Abort):
         raise

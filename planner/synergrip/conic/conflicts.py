@@ -29,6 +29,10 @@ class Conflict:
     """Contacts, joints or synergies, the heaviest first."""
     friction: bool = False
     """Whether its multipliers say that contacts slip."""
+    sides: tuple[str, ...] = ()
+    """Of each item the side of the limit that it is at, as "highest" or "rising"; empty for a cone."""
+    knots: tuple[int, ...] = ()
+    """Those that carry most of it, in order; none where it is all between them."""
 
 
 def beside_friction(found: Sequence[Conflict]) -> str:
@@ -43,11 +47,16 @@ def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
     Multipliers of the two sides of one limit cancel: what is left is a proof as well, and a stronger one.
     """
     sums: dict[str, dict[tuple[str, bool], Array]] = {}
+    words: dict[tuple[str, str, bool], str] = {}
+    first: dict[str, int] = {}
     for block, rows in program.slices():
         sizes = np.linalg.norm(y[rows].reshape(block.knots, len(block.items), block.dim), axis=2)
         of_limit = sums.setdefault(block.limit, {})
+        first.setdefault(block.limit, block.first_knot)
         for item, size in zip(block.items, sizes.T, strict=True):
-            signed = -size if item.side in LOWER_SIDES else size
+            lower = item.side in LOWER_SIDES
+            signed = -size if lower else size
+            words[block.limit, item.name, lower] = item.side if block.dim == 1 else ""
             place = item.name, block.between
             of_limit[place] = of_limit.get(place, np.zeros(block.knots)) + signed
     friction = {block.limit for block in program.blocks if block.friction}
@@ -59,8 +68,24 @@ def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
         if share > COUNTS:
             ordered = sorted(items, key=lambda item: -items[item])
             heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
-            found.append(Conflict(key, share, tuple(heavy), key in friction))
+            at_knots = {name: net for (name, between), net in sums[key].items() if not between}
+            sides = tuple(words.get((key, name, _net(sums[key], name) < 0), "") for name in heavy)
+            knots = _heavy_knots(at_knots, first[key])
+            found.append(Conflict(key, share, tuple(heavy), key in friction, sides, knots))
     return tuple(sorted(found, key=lambda conflict: -conflict.share))
+
+
+def _net(sums: dict[tuple[str, bool], Array], name: str) -> float:
+    """Return which way the multipliers of an item push in all: below 0 those of its lower bound weigh more."""
+    return sum(float(net.sum()) for (each, _), net in sums.items() if each == name)
+
+
+def _heavy_knots(sums: dict[str, Array], first: int) -> tuple[int, ...]:
+    """Return the knots that carry most of what a limit carries."""
+    if not sums:
+        return ()
+    weight = np.sum([np.abs(net) for net in sums.values()], axis=0)
+    return tuple(int(k) + first for k in np.flatnonzero(weight > HEAVY * weight.max(initial=0.0)))
 
 
 def _weights(sums: dict[tuple[str, bool], Array]) -> dict[str, float]:

@@ -44,6 +44,8 @@ class Balance(Value):
     """The contacts."""
     jacobians: Array
     """(T, n_c, 2, 3, n_q) of the points where the forces act: velocity, and turning of the link; palm axes."""
+    known_inverse: Array | None = None
+    """(T, n, n) of the tangent, when it is known from states very near these."""
 
     @classmethod
     def of(
@@ -56,6 +58,10 @@ class Balance(Value):
         moving, turning = links.jacobian[:, :, 0], links.jacobian[:, :, 1]
         jacobians = np.stack([moving - skews(meeting.place - placed.point) @ turning, turning], axis=2)
         return cls(setting, states, loads, references, placed, meeting, jacobians)
+
+    def under(self, loads: Loads, references: Array) -> Balance:
+        """Return the equations at the same states under other loads and references."""
+        return replace(self, loads=loads, references=references, known_inverse=self.inverse)
 
     def taken(self, places: Places) -> Balance:
         """Return the equations at some of the states."""
@@ -146,6 +152,8 @@ class Balance(Value):
     @cached_property
     def inverse(self) -> Array:
         """(T, n, n) of the tangent: how (lambda, q, u) answer to (r_s, r_q, r_w); least where it is singular."""
+        if self.known_inverse is not None:
+            return self.known_inverse
         scale = self._sizes
         scaled = self.tangent * scale
         rows = np.abs(scaled).max(axis=2, initial=0.0)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 
 from synergrip.equilibrium.balance import Balance
@@ -13,8 +16,12 @@ AT_REST = 1e-11
 """Error of `Balance.error` that counts as equilibrium."""
 FINE = 1e-12
 """An error from which another iteration is made, if only one: two ways to the same state then agree to its digits."""
+ROUGH = 1e-8
+"""An error of states that are known well enough to tell promise from truth."""
 NEAR = 1e-3
 """An error below which the derivatives of the state before are as good: they leave out as much."""
+SAME = 1e-5
+"""How much forces, of the largest, and joints [rad, m] may differ for derivatives to be told of as the same."""
 MOST = 40
 LOST = 1e3
 """An error that no iteration comes back from."""
@@ -23,8 +30,9 @@ LARGEST_STEP = 0.2
 
 
 def settled(
-    setting: Setting, states: States, loads: Loads, references: Array, known: Balance | None = None
-) -> tuple[Balance, int]:
+    setting: Setting, states: States, loads: Loads, references: Array, known: Balance | None = None,
+    enough: Callable[[Array], bool] | None = None,
+) -> tuple[Balance, int]:  # fmt: skip
     """Return the equations at the states that Newton's method ends with, and how many iterations it took.
 
     Rolling contacts remember the way they came: the first state follows the start, each other the one before it.
@@ -35,25 +43,36 @@ def settled(
         loads: (T) on the object.
         references: (T, n_z) synergy references.
         known: the equations at the same states, under other references, when they are known.
+        enough: asked once, of forces (T, n_l) that are known to `ROUGH`: whether more digits are of no use.
 
     Returns:
         the equations; whose `error` is above `AT_REST` where the method did not converge.
     """
-    balance = Balance.of(setting, states, loads, references, known)
-    inverse, rested = None if known is None else known.inverse, None
+    balance = Balance.of(setting, states, loads, references) if known is None else known.under(loads, references)
+    inverse = None if known is None else known.inverse
+    found, rested = None if known is None else known.states, None
     for count in range(MOST):
-        if not np.all(at_rest(balance)):
-            if rested is not None or not np.all(balance.error < LOST):
-                return rested or balance, count
-        elif rested is not None or np.all(balance.error <= FINE):
-            return balance, count
+        error = balance.error
+        if not np.all(error <= AT_REST):
+            if rested is not None or not np.all(error < LOST):
+                balance = rested or balance
+                break
+        elif rested is not None or np.all(error <= FINE):
+            break
         else:
             rested = balance
-        if inverse is None or (count and np.any(balance.error > NEAR)):
-            inverse = balance.inverse
+        if enough is not None and np.all(error <= ROUGH):
+            if enough(balance.states.forces):
+                break
+            enough = None
+        if inverse is None:
+            inverse, found = balance.inverse, balance.states
+        elif count and len(far := np.flatnonzero(error > NEAR)):
+            inverse, found = inverse.copy(), None
+            inverse[far] = balance.taken(far).inverse
         moved = _moved(setting, balance.states, _step(balance, inverse))
         balance = Balance.of(setting, moved, loads, references, balance)
-    return balance, MOST
+    return replace(balance, known_inverse=inverse) if _same(found, balance.states) else balance, count
 
 
 def at_rest(balance: Balance) -> Array:
@@ -82,6 +101,14 @@ def _step(balance: Balance, inverse: Array) -> Array:
     turned, shifted = np.abs(steps[:, n_l:-6]).max(axis=1, initial=0.0), np.abs(steps[:, -6:-3]).max(axis=1)
     largest = np.maximum(np.maximum(turned, shifted / length), np.abs(steps[:, -3:]).max(axis=1))
     return np.asarray(steps * np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None])
+
+
+def _same(one: States | None, other: States) -> bool:
+    """Return whether derivatives at some states are those at others, to the digits that are told of them."""
+    if one is None:
+        return False
+    forces = np.abs(one.forces - other.forces).max(initial=0.0) <= SAME * np.abs(other.forces).max(initial=0.0)
+    return bool(forces and np.abs(one.q - other.q).max(initial=0.0) <= SAME)
 
 
 def _moved(setting: Setting, states: States, change: Array) -> States:

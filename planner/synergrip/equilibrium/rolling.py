@@ -13,7 +13,7 @@ from synergrip.vectors import crossed, skews
 
 BENT = 1e-4
 """Share of a tip's radius over which the bending of the surface is looked at."""
-SAME = 1e-14
+SAME = 1e-12
 """Share of the distance of a tip from the object's origin by which it may still change when its way is found."""
 
 

@@ -41,6 +41,12 @@ class Asked(Value):
         """
         return cls(grasp, task).with_limits((SlipMargin(timed.margin), *timed.limits))
 
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """All limits, the slip margin among them."""
+        task = self.task
+        return (SlipMargin(task.margin), *task.limits) if isinstance(task, TimedTask) else tuple(task.limits)
+
     def with_limits(self, limits: tuple[Limit, ...]) -> Asked:
         """Return the same within other limits."""
         return self.with_task(limits=limits, **({"margin": 0.0} if isinstance(self.task, TimedTask) else {}))

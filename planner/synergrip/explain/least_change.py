@@ -26,7 +26,7 @@ SAME_ROWS = 1e-9
 """Relative difference of rows that are the same but for their unit."""
 STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
 """Factors that are tried until there is a plan, before the least one is looked for."""
-CLOSE = 2e-4
+CLOSE = 5e-5
 """Relative distance at which a bisection ends."""
 
 
@@ -38,7 +38,7 @@ class LeastChange(Value):
     value: float | None
     """The nearest value with a plan; None when there is none, as far as the number goes."""
     proven: bool
-    """Whether the claim about what is short of it, or about all that the number can be, is verified by a certificate."""
+    """Whether a certificate verifies what is said of values short of it, or of all that the number can be."""
     weight: Array | None = None
     """(m,) multipliers of the rows of the task's program: the proof that less does not do."""
 
@@ -50,7 +50,11 @@ class LeastChange(Value):
 
 def solved(name: str, program: Program) -> Decision:
     """Return what comes of a program, verified."""
-    return decide(name, program, lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings))
+    return decide(
+        name,
+        program,
+        lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings),
+    )
 
 
 def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
@@ -72,7 +76,7 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChan
 
 def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array | None:
     """Return (m,) how b changes with the number, per relative turn toward more room; None where A changes too."""
-    unit = _unit(dial)
+    unit = turn_unit(dial)
     sign = 1.0 if dial.eased == "up" else -1.0
     step = STEP if dial.eased == "up" else min(STEP, abs(dial.end - dial.value) / unit)
     other = _posed_at(dial, dial.value + sign * step * unit, posed)
@@ -87,7 +91,8 @@ def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array |
     return frozen((turned.b / ratios - program.b) / step)
 
 
-def _unit(dial: Dial[Asked]) -> float:
+def turn_unit(dial: Dial[Asked]) -> float:
+    """Return what a turn of a number is relative to: itself, or its scale where it is 0."""
     return abs(dial.value) if dial.value else dial.scale
 
 
@@ -100,7 +105,9 @@ def row_ratios(one: Program, other: Program) -> Array | None:
 
     A cone whose rows see no unknown is in the unit of the same item at other knots.
     """
-    sizes = [np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)]
+    sizes = [
+        np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)
+    ]
     ratios = np.ones(len(one.b))
     for block, rows in one.slices():
         shape = (block.knots, len(block.items), block.dim)
@@ -131,8 +138,8 @@ def _of_all(ratio: Array) -> Array:
 
 def _by_one_program(dial: Dial[Asked], program: Program, column: Array) -> LeastChange | None:
     """Return the least turn, by a program with one more unknown; None where nothing verifies."""
-    far = abs(dial.end - dial.value) / _unit(dial)
-    decision = solved("least change", with_turn(program, column, far))
+    far = abs(dial.end - dial.value) / turn_unit(dial)
+    decision = solved("least change", with_turns(program, [column], [far]))
     m = len(program.b)
     if decision.infeasible:
         return LeastChange(dial, None, proven=True, weight=frozen(decision.solution.z[:m]))
@@ -141,20 +148,24 @@ def _by_one_program(dial: Dial[Asked], program: Program, column: Array) -> Least
     turn = max(float(decision.solution.x[-1]), 0.0)
     sign = 1.0 if dial.eased == "up" else -1.0
     weight = frozen(decision.solution.z[:m])
-    return LeastChange(dial, dial.value + sign * turn * _unit(dial), proven=True, weight=weight)
+    return LeastChange(dial, dial.value + sign * turn * turn_unit(dial), proven=True, weight=weight)
 
 
-def with_turn(program: Program, column: Array, far: float) -> Program:
-    """Return the program of the least turn s, from 0 to `far`, with ``b + s column`` in the place of b."""
-    n = len(program.q)
-    ends = [(-1.0, 0.0)] + ([(1.0, far)] if np.isfinite(far) else [])
-    last = sparse.csc_matrix(([sign for sign, _ in ends], (range(len(ends)), [n] * len(ends))), shape=(len(ends), n + 1))
-    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, sparse.csc_matrix(-column[:, None])]), last]))
-    blocks = tuple(Block("turn", Kind.NONNEGATIVE, 1, (Item("turn"),), 0, 1) for _ in ends)
+def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float]) -> Program:
+    """Return the program of the least sum of turns s_i, from 0 to `far` each, with b + s_i columns_i in b's place."""
+    n, k = len(program.q), len(columns)
+    finite = np.flatnonzero(np.isfinite(far))
+    turn = sparse.csr_matrix(sparse.eye_array(k))
+    last = sparse.hstack([sparse.csr_matrix((k + len(finite), n)), sparse.vstack([-turn, turn[finite]])])
+    first = sparse.hstack([program.A, sparse.csc_matrix(-np.column_stack(columns))])
+    ends = np.asarray(far)[finite]
+    blocks = (Block("turn", Kind.NONNEGATIVE, 1, (Item("turn"),), 0, k + len(finite)),)
+    reach = np.where(np.isfinite(far), np.minimum(far, LARGEST), LARGEST)
     return replace(
-        program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A, constant=0.0,
-        b=frozen(np.concatenate([program.b, [bound for _, bound in ends]])),
-        variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), min(far, LARGEST))), blocks=(*program.blocks, *blocks),
+        program, P=sparse.csc_matrix((n + k, n + k)), q=frozen(np.append(np.zeros(n), np.ones(k))), constant=0.0,
+        A=sparse.csc_matrix(sparse.vstack([first, last])), b=frozen(np.concatenate([program.b, np.zeros(k), ends])),
+        variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), reach)),
+        blocks=(*program.blocks, *blocks),
     )  # fmt: skip
 
 
@@ -194,9 +205,13 @@ def _decided_at(dial: Dial[Asked], value: float, posed: Posed) -> Decision | Non
 def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:
     """Return whether it is certified that a change smaller by a share of the value leaves no plan."""
     sign = 1.0 if dial.eased == "up" else -1.0
-    size = abs(value) if value else _unit(dial)
+    size = abs(value) if value else turn_unit(dial)
     before = value - sign * share * size
     if sign * (before - dial.value) <= 0:
         return True  # what is asked itself has none
     decision = _decided_at(dial, before, posed)
-    return decision is not None and decision.infeasible and judge_infeasible(decision.program, decision.solution.z).verified
+    return (
+        decision is not None
+        and decision.infeasible
+        and judge_infeasible(decision.program, decision.solution.z).verified
+    )

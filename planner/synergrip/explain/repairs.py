@@ -1,15 +1,142 @@
-"""Single changes that make an infeasible task feasible, as far as its proof already knows them."""
+"""Single changes after which a task has a plan: the least of each number, rounded toward room, planned again."""
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
-from synergrip.planning.outcome import Infeasible
+from synergrip.conic.limits.dial import Cause, Dial
+from synergrip.documents.naming import made_by
+from synergrip.errors import SynergripError
+from synergrip.explain.asked import Asked, Posed
+from synergrip.explain.least_change import LeastChange, short_of
+from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.planning import plan
+from synergrip.values import Value
+
+DIGITS = 5
+"""Of a value that is told: it is within 1e-4 of the least one."""
+SHORT = 1e-3
+"""Share of a value short of which there is proven to be no plan."""
+ROOM = 2e-6
+"""Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
+MORE = (0.0, 0.002, 0.01, 0.05, 0.2)
+"""How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
+FEWER = (0.0, 0.02)
+"""The same in the short form: each is a plan along the motion."""
+TIE = 0.01
+"""Relative difference below which two changes are as large as each other."""
+ORDER: dict[str, int] = {"friction": 1, "load": 2, "amplitude": 2, "duration": 3, "stiffness": 3}
+"""Which of two changes of the same size is named later; those of the limits that a user states come first."""
 
 
-def repairs(outcome: Infeasible) -> list[dict[str, Any]]:
-    """Return the changes: key, from, to. Only what a verified optimum has shown to be enough is listed."""
-    largest = outcome.largest_margin
-    if outcome.stage == "magnitude" and largest is not None and largest >= 0:
-        return [{"key": "limits.margin", "from_N": outcome.task.margin, "to_N": largest}]
-    return []
+@made_by("answer.explain()")
+@dataclass(frozen=True, eq=False, repr=False)
+class Repair(Value):
+    """A change of one number, and what planning says of it.
+
+    Example:
+        >>> repair = refused.repairs[0]  # of an `Infeasible`  # doctest: +SKIP
+        >>> repair.set, repair.verified  # doctest: +SKIP
+        ('limits.normal_force="16.593 N"', True)
+    """
+
+    cause: Cause
+    key: str
+    was: float
+    to: float
+    unit: str
+    set: str
+    """The argument of ``--set`` that does it."""
+    verified: bool
+    """Whether there is a verified plan with it, of the hand that moves where the task is about that one."""
+    size: float
+    """How large the change is: ``|ln(to / was)|``, or relative to the size of the task where one of them is 0."""
+    proven: bool = False
+    """Whether a certificate shows that 0.1 % short of it there is no plan, in the linear model of the start posture."""
+    outcome: Outcome | None = None
+    """What planning says with it."""
+
+
+def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
+    """Return the changes that help, the smallest first; of such as tie a user's limit before friction and load."""
+    helping = sorted((each for each in found if each.value is not None), key=lambda each: each.size)
+    result: list[LeastChange] = []
+    while helping:
+        smallest = helping[0].size
+        tied = [each for each in helping if each.size <= smallest * (1 + TIE)]
+        chosen = min(tied, key=lambda each: (ORDER.get(each.dial.cause, 0), each.size))
+        helping.remove(chosen)
+        result.append(chosen)
+    return result
+
+
+def repaired(
+    changes: Sequence[LeastChange], posed: Posed, *, most: int | None = None, prove: bool = True,
+    heard: Callable[[Repair], None] = lambda repair: None,
+) -> Iterator[Repair]:  # fmt: skip
+    """Yield the repair of each change, planned again, as it is found.
+
+    Args:
+        changes: that help in the linear model of the start posture, the smallest first.
+        posed: what was asked, as a program of the start posture.
+        most: how many are planned again at most; the others are left out.
+        prove: whether what is short of each is looked at, too, and more values are tried.
+        heard: is told of each.
+    """
+    for change in changes[:most]:
+        repair = _planned(change, posed, prove=prove)
+        heard(repair)
+        yield repair
+
+
+def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
+    """Return a change with the first value beyond the least one of which there is a verified plan."""
+    dial, least = change.dial, change.value
+    assert least is not None
+    tried = None
+    farther = MORE if prove else FEWER
+    for more in farther if posed.analysis.grasp.held is not None else MORE[:1]:
+        value = beyond(dial, least, more)
+        tried = outcome_of(dial.turned(value))
+        if isinstance(tried, Plan):
+            break
+    else:
+        value = beyond(dial, least, 0.0)
+    proven = prove and short_of(dial, value, posed, SHORT)
+    return Repair(
+        dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), isinstance(tried, Plan), dial.size(value),
+        proven, tried,
+    )  # fmt: skip
+
+
+def outcome_of(asked: Asked) -> Outcome | None:
+    """Return what planning says of what is asked; None where it is refused as bad input."""
+    try:
+        return plan(asked.grasp, asked.task)
+    except SynergripError:
+        return None
+
+
+def beyond(dial: Dial[Asked], least: float, more: float) -> float:
+    """Return a value a little beyond the least one, written in few digits, never past the end of the number.
+
+    Args:
+        dial: the number.
+        least: its nearest value with a plan.
+        more: share of the change by which to go farther.
+    """
+    sign = 1.0 if dial.eased == "up" else -1.0
+    size = max(abs(least), abs(least - dial.value))
+    value = rounded(least + sign * max(more, ROOM) * size, up=dial.eased == "up")
+    return min(value, dial.end) if dial.eased == "up" else max(value, dial.end)
+
+
+def rounded(value: float, *, up: bool) -> float:
+    """Return a value in `DIGITS` digits, rounded up or down."""
+    if value == 0:
+        return 0.0
+    digit = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
+    count = (math.ceil if up else math.floor)(value / digit)
+    return float(f"{count * digit:.{DIGITS}g}")

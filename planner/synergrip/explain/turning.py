@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -33,11 +34,11 @@ def dials(asked: Asked, timed: TimedTask, length: float) -> tuple[Dial[Asked], .
         timed: the same at its knots.
         length: characteristic length of the grasp [m].
     """
-    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), _of_friction(asked)))
+    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), *_of_friction(asked)))
 
 
 def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
-    limits = tuple(asked.task.limits)
+    limits = asked.limits
     for index, limit in enumerate(limits):
         for dial in limit.dials(asked.grasp):
             yield _lifted(asked, limits, index, dial)
@@ -54,7 +55,7 @@ def _lifted(asked: Asked, limits: tuple[Limit, ...], index: int, dial: Dial[Limi
 
 def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Asked]]:
     moves = bool(np.any(timed.target.values))
-    if moves or timed.tracking == "compliant":
+    if timed.tracking == "compliant":
         size = float(np.linalg.norm(_displacements(timed, length), axis=1).max(initial=0.0))
         yield Dial(
             "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
@@ -65,7 +66,7 @@ def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Ask
     if moves:
         yield _amplitude(asked, timed)
     task = asked.task
-    if isinstance(task, Task) and _stretches(task) and len(timed.times) > 1:
+    if isinstance(task, Task) and _stretches(task) and _feels_time(task, timed) and len(timed.times) > 1:
         seconds = float(timed.times[-1] - timed.times[0])
         yield Dial(
             "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
@@ -74,7 +75,7 @@ def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Ask
 
 
 def _displacements(timed: TimedTask, length: float) -> np.ndarray:
-    """Return the size (T, m) of a wish, rotations times length; coordinates of rigid motions are lengths as they are."""
+    """Return a wish (T, m) in metres: rotations times length; coordinates of rigid motions are lengths as they are."""
     values = timed.target.values
     return values * ([1.0] * 3 + [length] * 3) if timed.target.kind == "motion" else values
 
@@ -95,8 +96,16 @@ def _amplitude(asked: Asked, timed: TimedTask) -> Dial[Asked]:
 
 def _stretches(task: Task) -> bool:
     """Return whether nothing in a task is bound to times of its own: it may take longer as it is."""
-    bound = [part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None]
+    bound = [
+        part for part in (*task.loads, task.target) if part.lines is not None or part.timed or part.last is not None
+    ]
     return all(isinstance(part, Palm) for part in bound)
+
+
+def _feels_time(task: Task, timed: TimedTask) -> bool:
+    """Return whether it matters how long a task takes: for changes from knot to knot, or for inertia."""
+    inertia = any(isinstance(load, Palm) and load.inertia for load in task.loads)
+    return inertia or any(limit.couples_knots for limit in timed.limits)
 
 
 def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
@@ -108,7 +117,9 @@ def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
             "load", "task.load_factor", 1.0, "",
             lambda v: asked.with_task(wrench=frozen(v * timed.wrench), course=None), "down", 0.0,
         )  # fmt: skip
-    elif held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads):
+    elif (
+        held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads)
+    ):
         yield Dial(
             "load", "object.mass", held.body.mass, "kg", lambda v: replace(asked, grasp=asked.grasp.replace(mass=v)),
             "down", LEAST_MASS,
@@ -119,21 +130,50 @@ def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
         )
 
 
-def _of_friction(asked: Asked) -> Dial[Asked]:
-    """Return the friction of all contacts, by one factor; spin friction goes along."""
+def _of_friction(asked: Asked) -> Iterator[Dial[Asked]]:
+    """Yield the friction of all contacts, by one factor; spin friction goes along."""
+    least = min((contact.friction for contact in asked.grasp.contacts if contact.friction > 0), default=0.0)
+    if least > 0:
+        yield _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least, lambda factor: factor)
+
+
+def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:
+    """Return the friction of each contact by itself."""
+    contacts = [contact for contact in asked.grasp.contacts if contact.friction > 0]
+    return tuple(
+        _friction(asked, (contact.name,), contact.friction, partial(_of_contact, contact.name)) for contact in contacts
+    )
+
+
+def _of_contact(name: str, factor: str) -> str:
+    """Return a factor for one contact as TOML."""
+    return f'{{ "{name}" = {factor} }}'
+
+
+def _friction(asked: Asked, names: tuple[str, ...], least: float, written: Callable[[str], str]) -> Dial[Asked]:
+    """Return the friction of some contacts, the least of which is given, by one factor."""
     grasp = asked.grasp
-    least = min((contact.friction for contact in grasp.contacts if contact.friction > 0), default=0.0)
 
     def turned(value: float) -> Asked:
-        kinds = {contact.name: contact.kind.slippery(value / least) for contact in grasp.contacts}
+        chosen = [contact for contact in grasp.contacts if contact.name in names]
+        kinds = {contact.name: contact.kind.slippery(value / least) for contact in chosen}
         return replace(asked, grasp=grasp.replace(contact=kinds))
 
     return Dial(
-        "friction", friction_key(asked), least, "", turned, end=FRICTION_END * least, smooth=False,
-        written=lambda value: quantity(value / least, ""),
+        "friction", f"{_table(asked)}.friction_factor", least, "", turned, end=FRICTION_END * least, smooth=False,
+        written=lambda value: written(quantity(value / least, "")),
     )  # fmt: skip
 
 
-def friction_key(asked: Asked) -> str:
-    """Return the key by which a problem file multiplies friction."""
-    return "contacts.friction_factor" if asked.grasp.held is not None else "grasp.friction_factor"
+def stiffness_dial(asked: Asked) -> Dial[Asked]:
+    """Return the stiffness of all contacts, by one factor: sets of plans are not nested in it."""
+    grasp = asked.grasp
+    return Dial(
+        "stiffness", f"{_table(asked)}.stiffness_factor", 1.0, "",
+        lambda value: replace(asked, grasp=grasp.replace(C_s=grasp.C_s / value)), smooth=False,
+    )  # fmt: skip
+
+
+def _table(asked: Asked) -> str:
+    """Return the table of a problem file that multiplies friction and stiffness."""
+    return "contacts" if asked.grasp.held is not None else "grasp"

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.conic.certificate import judge_infeasible
-from synergrip.conic.program import Program
-from synergrip.conic.rows import Kind
+from synergrip.conic.decide import Decision
+from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
-from synergrip.explain.asked import Posed
+from synergrip.documents.naming import made_by
+from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import solved
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -21,9 +23,15 @@ NO_MORE = 1e-9
 """By how much cones must be widened for an instant to be tried as one without a plan, in units of the program."""
 
 
+@made_by("answer.explain()")
 @dataclass(frozen=True, eq=False, repr=False)
 class When(Value):
-    """Which instants of a task have no plan, in the linear model of the start posture."""
+    """Which instants of a task have no plan, in the linear model of the start posture.
+
+    Example:
+        >>> refused.when.intervals_s  # of an `Infeasible`  # doctest: +SKIP
+        ((0.0, 1.1),)
+    """
 
     first_s: float | None
     """The first of them; of steps that clash only together, the end of the first stretch that has none. None when it is
@@ -41,15 +49,20 @@ def when(posed: Posed, program: Program) -> When:
         posed: a task without a plan.
         program: of it.
     """
-    times = posed.timed.times
-    at = np.concatenate([np.tile(np.arange(block.knots)[:, None], len(block.items) * block.dim).ravel() + block.first_knot
-                         if not block.between else np.full(block.rows, -1) for block in program.blocks])  # fmt: skip
-    alone = at >= 0
-    alone &= _of_one_knot(program, at)
-    found = _proven_knots(program, at, alone)
+    times, at = posed.timed.times, knots_of_rows(program)
+    found = _proven_knots(program, at, (at >= 0) & _of_one_knot(program, at))
     if np.any(found):
         return When(float(times[found][0]), _stretches(times, found), alone=True)
     return When(_first_together(posed), (), alone=False)
+
+
+def knots_of_rows(program: Program) -> NDArray[np.intp]:
+    """Return the knot that each row (m,) speaks of; -1 between them."""
+    found = np.full(len(program.b), -1, dtype=np.intp)
+    for block, rows in program.slices():
+        if not block.between:
+            found[rows] = block.first_knot + np.repeat(np.arange(block.knots), len(block.items) * block.dim)
+    return found
 
 
 def _of_one_knot(program: Program, at: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -69,30 +82,41 @@ def _proven_knots(program: Program, at: NDArray[np.intp], alone: NDArray[np.bool
 
     One program widens the cones of each knot by as little as possible; its multipliers at a knot are the proof there.
     """
-    T, n = program.knots, len(program.q)
-    heads = np.zeros(len(program.b))
-    for block, rows in program.slices():
-        heads[rows][:: block.dim] = 1.0
-    rows = np.flatnonzero(alone)
-    widened = sparse.csc_matrix((-heads[rows], (np.arange(len(rows)), at[rows])), shape=(len(rows), T))
-    nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
-    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[rows], widened]), nothing]))
-    least = _cut(program, alone, A, np.concatenate([program.b[rows], np.zeros(T)]), np.append(np.zeros(n), np.ones(T)), T)
-    decision = solved("least widening", least)
-    found = np.zeros(T, dtype=bool)
-    for k in np.flatnonzero(decision.solution.x[n:] > NO_MORE) if len(decision.solution.x) == n + T else ():
+    kept, solution = np.flatnonzero(alone), widened(program, at, alone).solution
+    found = np.zeros(program.knots, dtype=bool)
+    if len(solution.x) != len(program.q) + program.knots:
+        return found
+    for k in np.flatnonzero(solution.x[len(program.q) :] > NO_MORE):
         ray = np.zeros(len(program.b))
-        mine = rows[at[rows] == k]
-        ray[mine] = decision.solution.z[: len(rows)][at[rows] == k]
+        mine = at[kept] == k
+        ray[kept[mine]] = solution.z[: len(kept)][mine]
         found[k] = judge_infeasible(program, ray).verified
     return found
 
 
+def widened(program: Program, at: NDArray[np.intp], keep: NDArray[np.bool_]) -> Decision:
+    """Return the answer that keeps some cones but for as little as possible at every knot, all knots counted alike.
+
+    Its last unknowns are how much the cones of each knot are widened, in units of the program.
+
+    Args:
+        program: has no answer.
+        at: (m,) knot of each row.
+        keep: (m,) the rows that count, whole cones.
+    """
+    T, n, kept = program.knots, len(program.q), np.flatnonzero(keep)
+    heads = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        heads[rows][:: block.dim] = 0.0 if block.kind is Kind.ZERO else 1.0
+    wider = sparse.csc_matrix((-heads[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
+    nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[kept], wider]), nothing]))
+    b, q = np.concatenate([program.b[kept], np.zeros(T)]), np.append(np.zeros(n), np.ones(T))
+    return solved("least widening", _cut(program, keep, A, b, q, T))
+
+
 def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Array, q: Array, more: int) -> Program:
     """Return a program of some of the cones, with one more unknown for each knot."""
-    from synergrip.conic.program import Block
-    from synergrip.conic.rows import Item
-
     blocks = []
     for block, rows in program.slices():
         kept = int(np.count_nonzero(keep[rows])) // block.dim
@@ -115,8 +139,6 @@ def _stretches(times: Array, found: NDArray[np.bool_]) -> tuple[tuple[float, flo
 
 def _first_together(posed: Posed) -> float | None:
     """Return the end of the shortest first part of a task that has no plan; None where that is not certain."""
-    from synergrip.explain.asked import Asked
-
     timed, analysis = posed.timed, posed.analysis
     low, high = 1, len(timed.times)  # the first knots by themselves have a plan, all together have none
     while high - low > 1:

@@ -6,20 +6,30 @@ drawn is the business of reports, and whoever holds an answer should not have to
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import Issue, VerdictError, suggest
+from synergrip.errors import Issue, VerdictError, shortened, suggest
 from synergrip.values import Value
 
 if TYPE_CHECKING:
-    from synergrip.planning.outcome import Outcome, Plan
+    from synergrip.explain.explanation import Explanation
+    from synergrip.explain.missing_synergies import MissingSynergies
+    from synergrip.explain.repairs import Repair
+    from synergrip.explain.when import When
+    from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
     from synergrip.planning.provenance import Asked
 
 FORMATS = ("json", "npz", "csv")
 """How an answer is written when nothing else is said; of an answer without a plan there is only the first."""
+
+
+LONG = 200
+"""Characters of a reason that are shown."""
 
 
 class Answer(Value):
@@ -104,6 +114,55 @@ class Tabled(Answer):
         from synergrip.reports.data.saving import draw
 
         return draw(cast("Plan", self), path, title)
+
+
+class Reasoned(Answer):
+    """An answer that gives a reason instead of a plan."""
+
+    why: str
+
+    @cached_property
+    def explanation(self) -> Explanation:
+        """What is to blame, what clashes, when, and the three smallest changes that help, each planned again."""
+        return self._explained(short=True, heard=None)
+
+    @property
+    def repairs(self) -> tuple[Repair, ...]:
+        """The smallest changes of single numbers that help, the smallest first, each planned again."""
+        return self.explanation.repairs
+
+    @property
+    def when(self) -> When:
+        """Which instants have no plan."""
+        return self.explanation.when
+
+    @property
+    def missing_synergies(self) -> MissingSynergies | None:
+        """The fewest columns beside S that the wanted motion takes, and who has them; None where none are missing."""
+        return self.explanation.missing_synergies
+
+    @naming_arguments
+    def explain(self, *, heard: Callable[[Repair], None] | None = None) -> Explanation:
+        """Return all that is known of the no: every change that helps, and proofs that less does not.
+
+        Args:
+            heard: is told of each repair as it is found.
+
+        Example:
+            >>> answer.explain().repairs[0].set  # doctest: +SKIP
+            'limits.normal_force="26.04 N"'
+        """
+        return self._explained(short=False, heard=heard)
+
+    def _explained(self, *, short: bool, heard: Callable[[Repair], None] | None) -> Explanation:
+        from synergrip.explain.explained import explained
+
+        no = cast("Infeasible | Unknown", self)
+        return explained(no, short=short) if heard is None else explained(no, short=short, heard=heard)
+
+    def _repr_html_(self) -> str:
+        """Return the verdict and the reason for notebooks."""
+        return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
 
 
 def _owners(name: str) -> Iterator[str]:

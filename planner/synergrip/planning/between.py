@@ -26,7 +26,8 @@ class Between(Value):
     """A plan between its knots, its references linear there and its loads as they are."""
 
     samples: int
-    """Evenly spaced instants looked at in each piece, between knots and corners, in which load or wish is curved."""
+    """Evenly spaced instants looked at in each piece, between knots and corners, in which load or wish is curved; where
+    the hand really moves in every piece, and more of them where a load bends more elsewhere than in the middle."""
     load_departure: float
     """[N] how far the load leaves the straight line between knots (moments over the length)."""
     path_departure: float

@@ -27,6 +27,7 @@ from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.values import Value
 
+FAILS = "fails"
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
 
@@ -54,8 +55,8 @@ class Judgement(Value):
 
     @property
     def verdict(self) -> str:
-        """The verdict: "feasible" when every check passes."""
-        return "feasible" if all(check.passed for check in self.checks) else "infeasible"
+        """The verdict: "feasible" when every check passes, else "fails": that there is no other plan is not said."""
+        return "feasible" if all(check.passed for check in self.checks) else FAILS
 
     @property
     def exit_code(self) -> int:
@@ -102,7 +103,7 @@ def _claims(judged: Judgement, task: TimedTask, references: References) -> Claim
     chosen = np.ones(len(task.times), dtype=bool) if whole else _inside(references.times, task)
     own = references.times[chosen]
     alone = judged if np.array_equal(own, judged.motion.times) else _judged(analysis, task, references, own)
-    verdict = "feasible" if all(check.passed for check in alone.checks) else "infeasible"
+    verdict = alone.verdict
     expected = stated(alone, references.claimed, verdict, task.times)
     sizes = sizes_of(analysis, alone.motion, alone.usages, alone.between)
     return compared(references.inside(chosen), expected, sizes, references.unchanged)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.equilibrium.execution import Execution, execute
+from synergrip.equilibrium.execute import equilibria
+from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.setting import Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array, frozen
@@ -47,7 +49,10 @@ class Executor:
         fixed = replace(self, setting=setting(own.grasp, "fixed", self.response))
         return fixed.run(executed.times, executed.references, wrench, executed.states)
 
-    def run(self, times: Array, references: Array, wrench: Array, near: Motion | States | Execution) -> Execution:
+    def run(
+        self, times: Array, references: Array, wrench: Array, near: Motion | States | Execution,
+        wrong: Callable[[Array], bool] | None = None,
+    ) -> Execution:  # fmt: skip
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).
 
         Args:
@@ -55,9 +60,10 @@ class Executor:
             references: from those at the start.
             wrench: on the object, about B where it starts.
             near: states near the equilibria, a motion not far from them, or an execution of references near these.
+            wrong: whether forces (T, n_l) known to a few digits are not those that are looked for: no more are found.
         """
         guess = _states(self.setting, near) if isinstance(near, Motion) else near
-        return execute(self.setting, times, references, loads(self.task, times, wrench), guess=guess)
+        return equilibria(self.setting, times, references, loads(self.task, times, wrench), guess, wrong)
 
 
 def analyses_of(execution: Execution, start: Analysis) -> Each:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 
@@ -38,6 +39,8 @@ class Figures(Value):
     motion: Motion
     usages: tuple[Usage, ...]
     elastic_motion: Array  # (T, 6)
+    at_knots: Between
+    """The limits that speak of an instant, at the knots alone."""
     between: Between | None
     checks: tuple[Check, ...]
     missed: tuple[str, ...]
@@ -61,7 +64,9 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Betwee
     checks = (Check("equilibrium", executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
     between, inside, there_missed = _between(walk, walker, formulation, linear)
     missed = (*_missed(usages, rooms), *there_missed)
-    return Figures(replace(motion, du=executed.du), usages, elastic, between, (*checks, *inside), missed)
+    of_instants = [not limit.couples_knots for limit in task.all_limits]
+    at_knots = Between(0, 0.0, 0.0, 0.0, tuple(compress(usages, of_instants)), (), tuple(compress(rooms, of_instants)))
+    return Figures(replace(motion, du=executed.du), usages, elastic, at_knots, between, (*checks, *inside), missed)
 
 
 def _between(
@@ -82,7 +87,8 @@ def _between(
     limits = [limit for limit in task.all_limits if not limit.couples_knots]
     usages = tuple(limit.usage(there, motion) for limit in limits)
     rooms = _rooms(walk, walker, limits, usages)
-    found = replace(linear or Between(1, 0.0, 0.0, 0.0, usages), samples=1, usages=usages, rooms=rooms)
+    known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)
+    found = replace(known, samples=walker.samples, usages=usages, rooms=rooms)
     where = f"{BETWEEN}: "
     if task.between == "report":
         return found, (stable(executed, where),), ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Formulation
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.control import refuse_control
 from synergrip.tasks.scaling import expected_units, units_of
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import followed
@@ -19,9 +20,11 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
         redundancy: whether gamma is an unknown.
 
     Raises:
-        Refusal: the wanted motion is impossible by count or direction.
+        Refusal: the wanted motion, or what is to be controlled, is impossible by count or direction.
         InputError: modes are given that do not fit the grasp.
     """
+    if task.control is not None:
+        refuse_control(analysis, task.control)
     follow = followed(analysis, task)
     sizes = expected_units(analysis, task, follow.beta, follow.target)
     return formulate(

@@ -80,18 +80,16 @@ def grown(walker: Walker, hold: Array) -> Walk:
     part = way.until(0.0)
     here = sure = Grown(part.on(part.executed(hold[:1], None, walker.executor.setting.start)), 0.0, 0.0)
     piece = PIECE if part.arrived(here.walk) else 0.0
-    passes, tried, rough = here.walk.passes, here.walk.tried, True
-    while here.gone < way.end and piece >= SHORTEST:
+    passes, tried, rough, stopped = here.walk.passes, here.walk.tried, True, here.walk.interrupted
+    while here.gone < way.end and piece >= SHORTEST and not stopped:
         to = min(here.gone + piece, way.end)
         part = way.until(to)
-        found = part.on(_begun(part, here, to, way, hold), roughly=True)
-        good = part.near(found)
-        found = found if rough or not good else part.on(found)
-        good = good and (rough or part.arrived(found))
-        LOG.info("%s to %.4g of %.4g m in %d passes", "grown" if good else "not grown", to, way.end, found.passes)
+        found = _on_to(to, part, here, way, hold, rough=rough)
         passes, tried = passes + found.passes, (*tried, *found.tried)
-        if found.interrupted:
+        if stopped := found.interrupted:
             break
+        good = part.near(found) and (rough or part.arrived(found))
+        LOG.info("%s to %.4g of %.4g m in %d passes", "grown" if good else "not grown", to, way.end, found.passes)
         if good:
             here, piece = Grown(found, to, here.gone), min((1 + (found.passes <= QUICK)) * piece, LONGEST)
             sure = here if part.arrived(found) else sure
@@ -100,12 +98,22 @@ def grown(walker: Walker, hold: Array) -> Walk:
         if here is not sure:  # what comes next may be out of reach only because promise and truth are not near enough
             part = way.until(here.gone)
             settled = part.on(here.walk)
-            rough = part.arrived(settled)
+            rough, stopped = part.arrived(settled), settled.interrupted
             here = sure = replace(here, walk=settled) if rough else sure
-    if here.gone == way.end:
+    if here.gone == way.end and not stopped:
         return walker.on(replace(here.walk, passes=passes, tried=tried))
     until = float(np.interp(sure.gone, way.gone, walker.task.times))
-    return replace(sure.walk, until=until, passes=passes, tried=tried, hindered=met or sure.walk.hindered)
+    hindered = met or sure.walk.hindered
+    return replace(sure.walk, until=until, passes=passes, tried=tried, hindered=hindered, stopped=stopped)
+
+
+def _on_to(to: float, part: Walker, here: Grown, way: Way, hold: Array, *, rough: bool) -> Walk:
+    """Return the walk of a piece more; the one so far, in no pass more, when it is interrupted before the first."""
+    try:
+        found = part.on(_begun(part, here, to, way, hold), roughly=True)
+        return found if rough or not part.near(found) else part.on(found)
+    except KeyboardInterrupt:
+        return replace(here.walk, passes=0, tried=(), stopped=True)
 
 
 def _begun(part: Walker, here: Grown, to: float, way: Way, hold: Array) -> Walk:

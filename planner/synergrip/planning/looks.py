@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.conic.intersample import Intersample, Looks
+from synergrip.conic.intersample import Intersample, Looks, shares
 from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import looked_at
 from synergrip.statics.analysis import Analysis
@@ -27,8 +27,7 @@ def looks_between(task: TimedTask, start: Analysis, wanted: Array, sampled: Inte
     """
     known = Looks(task.times, task.wrench, wanted) if sampled is None else sampled.grid
     first, wide = known.times[:-1], np.diff(known.times)
-    parts = int(np.clip(-(-LOOKS // np.count_nonzero(wide)), *PARTS))
-    inner = (first[:, None] + wide[:, None] * np.arange(1, parts) / parts)[wide > 0].ravel()
+    inner = (first[:, None] + wide[:, None] * shares(samples_of(known.times)))[wide > 0].ravel()
     if sampled is not None and not sampled.exact:
         inner = np.unique(np.concatenate([inner, _bent(sampled, start, room)]))
     inside = Looks(inner, *(interpolated(inner, known.times, values) for values in (known.wrench, known.target)))
@@ -36,6 +35,11 @@ def looks_between(task: TimedTask, start: Analysis, wanted: Array, sampled: Inte
         inside = looked_at(task, task.course, inner, start)
     whole = known.and_then(inside)
     return whole.of(np.argsort(whole.times, kind="stable"))
+
+
+def samples_of(times: Array) -> int:
+    """Return how many evenly spaced instants inside each piece between knots and corners (G,) [s] are looked at."""
+    return int(np.clip(-(-LOOKS // np.count_nonzero(np.diff(times))), *PARTS)) - 1
 
 
 def _bent(sampled: Intersample, start: Analysis, room: float) -> Array:

@@ -19,11 +19,12 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Refusal, shortened
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.planning.answer import Answer, Tabled
+from synergrip.planning.answer import LONG, Reasoned, Tabled
 from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
+from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Kept, Value
 
@@ -45,8 +46,6 @@ class Check(Kept):
 
 BETWEEN = "between the knots"
 """How the names of checks begin that are about what happens there on the hand that moves."""
-LONG = 200
-"""Characters of a reason that are shown."""
 
 
 @made_by("plan(grasp, task)")
@@ -153,16 +152,6 @@ class Plan(Tabled):
             yield usage.title, value, shortened(str(usage.items[i])), when, ends
 
 
-class Reasoned(Answer):
-    """An answer that gives a reason instead of a plan."""
-
-    why: str
-
-    def _repr_html_(self) -> str:
-        """Return the verdict and the reason for notebooks."""
-        return f"<p><b>{escape(self.verdict)}</b>: {escape(shortened(self.why, 2 * LONG))}</p>"
-
-
 @made_by("plan(grasp, task)")
 @dataclass(frozen=True, eq=False, repr=False)
 class Infeasible(Reasoned):
@@ -192,10 +181,12 @@ class Infeasible(Reasoned):
     """The limits that the proof rests on, when the program itself is infeasible."""
     hints: tuple[str, ...] = ()
     """What in the problem may not say what its author means, and what would come of it; computed, not guessed."""
+    asked: Task | TimedTask | None = None
+    """The task as it was asked, for what would come of another one."""
 
     verdict: ClassVar[str] = "infeasible"
     exit_code: ClassVar[int] = 1
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "conflicts", "hints", "certificate")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "conflicts", "repairs", "when", "hints", "certificate")
 
     def __repr__(self) -> str:
         """Return stage and reason."""
@@ -235,6 +226,8 @@ class Unknown(Reasoned):
     """The true states that the references found lead to, at the stages "reach" and "execution"."""
     usages: tuple[Usage, ...] = ()
     """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
+    asked: Task | TimedTask | None = None
+    """The task as it was asked, for what would come of another one."""
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""

@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.planning.walk_so_far import NEARER, Walk
+if TYPE_CHECKING:
+    from synergrip.planning.walk_so_far import Walk
 
 SHORTER, SHORTER_WAY, SHORTEST = 1 / 3, 1 / 9, 1e-3
 """By how much a step is shorter after one in vain, and a way that no program goes; the shortest of both."""
 TRIES, VAIN = 2, 2
 """How often a true walk is tried to be brought nearer, and how often a first pass is tried: no way leads from where it
-begins then."""
+begins then, nor where no program goes it from a walk that is lost."""
 AIMED, AFTER_GOOD, SHORTEST_CUT, LONGER = 0.5, 0.9, 0.05, 2.0
 """The difference that a step aims at, as a share of what is allowed, after one in vain and after a good one; the least
 and the largest share of itself that a step is cut or made longer to."""
+ROUND = 3.0
+"""How much longer than the last one a step is where another round of passes begins."""
+NEARER = 0.9
+"""Factor by which a pass must bring the object nearer for another to be worth it."""
 
 
 @dataclass(frozen=True)
@@ -36,17 +42,19 @@ class Pace:
         return f"step {self.step:.2g}, way {self.way:.2g}"
 
     @property
+    def again(self) -> Pace:
+        """For another round of passes, which asks for more: farther than the last one that was good, if not by much."""
+        return Pace(min(1.0, ROUND * self.step))
+
+    @property
     def settled(self) -> bool:
         """Whether nothing is to be gained for a walk that is true."""
         return self.tries == TRIES
 
-    def ends(self, *, begins: bool) -> bool:
-        """Return whether no further pass is worth it.
-
-        Args:
-            begins: whether none was good so far.
-        """
-        return min(self.step, self.way) < SHORTEST or (begins and self.tries == VAIN)
+    def ends(self, best: Walk) -> bool:
+        """Return whether no further pass is worth it, from the best walk so far."""
+        vain = best.stage is None and (self.tries == VAIN or (best.lost and self.way < 1))
+        return min(self.step, self.way) < SHORTEST or vain
 
     def on(self, before: Walk, now: Walk, allowed: float) -> Pace:
         """Return the pace after a good pass.
@@ -69,7 +77,10 @@ class Pace:
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
         shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))
-        return replace(again, step=self.step * shorter)
+        way = (
+            self.way * SHORTER_WAY if self.tries else self.way
+        )  # a shorter step did not do: it is the way that is long
+        return replace(again, step=self.step * shorter, way=way)
 
 
 def _fitting(found: Walk, aimed: float) -> float:

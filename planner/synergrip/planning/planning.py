@@ -34,7 +34,8 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     Args:
         grasp: who plans; its `Analysis` instead, when the same grasp is planned many times.
         task: what is asked.
-        solver: "clarabel", or "cvxpy" for the second formulation of the same problem; or a function that answers.
+        solver: "clarabel", or "cvxpy" for the second formulation of the same problem at the start posture (passes along
+            the motion are "clarabel"'s); or a function that answers.
 
     Returns:
         A verified `Plan`, an `Infeasible` with its proof, or `Unknown` when nothing can be trusted.
@@ -53,7 +54,7 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     answers = answerer(solver, "solver")
     outcome = _on_the_hand(plan_of_start_posture(grasp, task, answers), answers)
     LOG.info("%r", outcome)
-    return outcome
+    return outcome if isinstance(outcome, Plan) else replace(outcome, asked=task)
 
 
 def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:

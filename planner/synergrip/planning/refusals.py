@@ -11,6 +11,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.control import Control, ControlError, outside
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import RIGID_TOLERANCE, apart_by
 
@@ -28,7 +29,21 @@ def refusal_certificate(grasp: Grasp, task: TimedTask, analysis: Analysis | None
         return Certificate("infeasible", bool(counts and refusal.asked > grasp.n_z), 0.0, 0.0, -ratio)
     if isinstance(refusal, MotionDirectionError) and analysis is not None:
         return _outside(task, analysis, scale, refusal)
+    if isinstance(refusal, ControlError) and analysis is not None and task.control is not None:
+        return _uncontrolled(task.control, analysis, refusal)
     return Certificate("none", False)
+
+
+def _uncontrolled(control: Control, analysis: Analysis, refusal: ControlError) -> Certificate:
+    """Verify that more directions are asked for than there are, by the dimensions that add up to n_z (34)."""
+    forces, motions, redundant = analysis.spaces.dimensions
+    adds_up = forces + motions + redundant == analysis.grasp.n_z
+    if refusal.stage == "count":
+        short = control.asked > analysis.grasp.n_z
+    else:
+        short = control.forces > forces or control.reconfiguration > redundant
+        short = short or bool(outside(analysis, control.motions))
+    return Certificate("infeasible", bool(adds_up and short), 0.0, 0.0, -1.0)
 
 
 def _free(grasp: Grasp, scale: Scale, twists: Array) -> Certificate:

@@ -95,7 +95,8 @@ def between_document(between: Between | None) -> dict[str, Any] | None:
     if between is None:
         return None
     return {
-        "samples": between.samples, "corners_s": list(between.corners), "exact": between.exact,
+        "samples": between.samples, "instants": len(between.usages[0].times),
+        "corners_s": list(between.corners), "exact": between.exact,
         "load_departure_N": between.load_departure, "path_departure_m": between.path_departure,
         "holds": bool(between.excess <= LIMIT), "limits": [usage_document(usage) for usage in between.usages],
         "worst_margin_N": float(between.usages[0].value.min()),

@@ -8,7 +8,7 @@ step it took; a step that was too long is taken back and tried again shorter.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -26,13 +26,13 @@ from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
-from synergrip.planning.looks import looks_between
+from synergrip.planning.looks import looks_between, samples_of
 from synergrip.planning.near_rows import left_out, near_rows
 from synergrip.planning.pace import Pace
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
-from synergrip.planning.walk_so_far import FOLLOWED, Walk
+from synergrip.planning.walk_so_far import FOLLOWED, Walk, differs, gap_to, what_came
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.goals import unasked_goals
@@ -78,18 +78,22 @@ class Walker:
             return whole
         alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
         held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
-        grown = self.grown(frozen(held))
-        return replace(grown, passes=whole.passes + grown.passes, tried=(*whole.tried, *grown.tried))
+        return self.grown(frozen(held)).after(whole)
 
     def grown(self, hold: Array) -> Walk:
-        """Return the walk that comes of following the wanted motion a little farther at a time (`growing`).
+        """Return the walk that comes of bringing a hold along (`brought`), or a little farther at a time (`growing`).
 
         Args:
             hold: (T, n_z) references of a plan for the same loads without the motion; they change with the load.
         """
+        from synergrip.planning.brought import brought
         from synergrip.planning.growing import grown
 
-        return grown(self, hold)
+        begun = brought(self, hold)
+        if begun is None:
+            return grown(self, hold)
+        walk = self.on(begun)
+        return walk if walk.interrupted or self.arrived(walk) else grown(self, hold).after(walk)
 
     def kept_between(self, walk: Walk) -> Walk:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
@@ -121,25 +125,25 @@ class Walker:
             best: where they begin.
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
-        pace = Pace()
+        pace = best.pace.again
         for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
             there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
             done = done or best.interrupted or (roughly and (pace.tries > 0 or self.near(best)))
-            if best.way is None or done or pace.ends(begins=best.stage is None):
+            if best.way is None or done or pace.ends(best):
                 break
             try:
                 answered, found = self._passed(best, pace)
             except KeyboardInterrupt:
                 return replace(best, stopped=True)
             good = found is not None and found.better_than(best)
-            LOG.info("pass %d, %s: %s", count, pace, _told(found, good))
+            LOG.info("pass %d, %s: %s", count, pace, what_came(found, good=good))
             tried = (*best.tried, answered.decision)
             met = best.hindered  # a shorter step is hindered by being short, too
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             now = found if good and found is not None else best
             pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
-            best = replace(now, passes=count, tried=tried, hindered=met)
+            best = replace(now, passes=count, tried=tried, hindered=met, pace=pace)
         return best
 
     def _passed(self, best: Walk, pace: Pace) -> tuple[Answered, Walk | None]:
@@ -151,7 +155,7 @@ class Walker:
         entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
         near = near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
-        known = answered.decision.infeasible and best.hindered is not None  # what hinders is told of all limits
+        known = answered.decision.infeasible and (best.hindered is not None or best.lost)  # told of all limits, once
         unsure = not known if stage is None else left_out(near, stage)
         if unsure and near is not limits:
             answered, stage = self._asked(best, pace, limits, wait=wait)
@@ -186,9 +190,9 @@ class Walker:
             promised: forces; None when nothing was promised, which any pass then improves on.
             near: states, a motion or an execution that are not far from what they do.
         """
-        executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near)
-        forces = executed.states.forces
-        gap = np.inf if promised is None else float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
+        wrong = partial(differs, promised)
+        executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near, wrong)
+        gap = gap_to(promised, executed.states.forces)
         if not executed.whole:
             return Walk(frozen(references), executed, gap, None)
         each = analyses_of(executed, self.start)
@@ -214,6 +218,11 @@ class Walker:
     def looks(self, walk: Walk) -> Looks:
         """Return the instants at and between the knots at which limits count."""
         return looks_between(self.task, self.start, self.wanted, self._sampled, walk.kept_to)
+
+    @property
+    def samples(self) -> int:
+        """How many evenly spaced instants are looked at in each piece between knots and corners, at least."""
+        return samples_of(self.task.times if self._sampled is None else self._sampled.grid.times)
 
     @property
     def _holds_between(self) -> bool:
@@ -249,12 +258,3 @@ class Walker:
             each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(formulation, path)
-
-
-def _told(found: Walk | None, good: bool) -> str:
-    if found is None:
-        return "no answer"
-    if found.way is None:
-        return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
-    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
-    return told if good else f"{told}, taken back"

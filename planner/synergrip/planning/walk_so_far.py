@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from synergrip.conic.decide import Decision
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array
 from synergrip.planning.hindrances import Hindrance
+from synergrip.planning.pace import NEARER, Pace
 from synergrip.planning.stages import Stage
 from synergrip.tasks.tracking_along import Steps
 from synergrip.values import Value
@@ -24,8 +25,8 @@ ALIKE = 0.3
 """Share of the largest force up to which forces between the knots bend as they will when promise is truth."""
 BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
-FOLLOWED, NEARER = 1e-5, 0.9
-"""[m] How near the object is brought to where it is wanted, as long as a pass brings it nearer by this factor."""
+FOLLOWED = 1e-5
+"""[m] How near the object is brought to where it is wanted, as long as passes bring it nearer by `NEARER`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,6 +53,8 @@ class Walk(Value):
     """Whether somebody interrupted it."""
     left_out: bool = False
     """Whether goals after the first are left for a later pass."""
+    pace: Pace = field(default_factory=Pace)
+    """How far the next pass goes."""
 
     @property
     def interrupted(self) -> bool:
@@ -75,9 +78,14 @@ class Walk(Value):
         return self.way is not None and known
 
     @property
+    def lost(self) -> bool:
+        """Whether what was promised is nothing like what happens."""
+        return bool(np.isfinite(self.gap)) and self.gap > ALIKE * self.largest
+
+    @property
     def room(self) -> float:
         """[N] difference up to which a promise counts as what happens."""
-        return max(TRUE, OF_FORCES * self.largest)
+        return room_of(self.executed.states.forces)
 
     @property
     def kept_to(self) -> float:
@@ -94,6 +102,10 @@ class Walk(Value):
         """How far the rigid motion is behind the wanted one [m], at most; infinitely where knots were not reached."""
         return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
 
+    def after(self, before: Walk) -> Walk:
+        """Return it with the passes of another one, which led nowhere, before it."""
+        return replace(self, passes=before.passes + self.passes, tried=(*before.tried, *self.tried))
+
     def better_than(self, other: Walk) -> bool:
         """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""
         if self.way is None:
@@ -103,3 +115,28 @@ class Walk(Value):
         if other.true:
             return self.true and self.behind < NEARER * other.behind
         return self.true or self.gap < BETTER * other.gap
+
+
+def what_came(found: Walk | None, *, good: bool) -> str:
+    """Return what came of a pass, in words."""
+    if found is None:
+        return "no answer"
+    if found.way is None:
+        return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
+    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
+    return told if good else f"{told}, taken back"
+
+
+def gap_to(promised: Array | None, forces: Array) -> float:
+    """Return by how much [N] forces (K, n_l) differ from those promised (T, n_l), infinitely where these are None."""
+    return np.inf if promised is None else float(np.abs(forces - promised[: len(forces)]).max(initial=0.0))
+
+
+def differs(promised: Array | None, forces: Array) -> bool:
+    """Return whether forces are not those that were promised."""
+    return gap_to(promised, forces) > room_of(forces)
+
+
+def room_of(forces: Array) -> float:
+    """Return the difference [N] from forces (T, n_l) up to which a promise counts as what happens."""
+    return max(TRUE, OF_FORCES * float(np.abs(forces).max(initial=0.0)))

@@ -87,7 +87,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
     found = figures(walk, walker, linear.formulation, linear.between)
-    if kept := _kept_between(walk, walker, found):
+    if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
@@ -98,12 +98,14 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     return _with(_decided(linear, walk), walk, walker, found, told)
 
 
-def _kept_between(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
-    """Return a walk that asks for more at the knots for what limits miss between them; None when no such one helps."""
-    if walker.task.between == "report" or found.between is None:
-        return None
+def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
+    """Return a walk that asks for more at the knots for what limits miss between them; None when no such one helps.
+
+    Where limits count at the knots only, it is for what they miss there by as much as promise and truth may differ.
+    """
+    counts = found.at_knots if walker.task.between == "report" or found.between is None else found.between
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
-    if (more_still := more.for_what_is_missing(found.between, walker.task)) is None:
+    if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
     harder = replace(walker, more=more_still)
     again = harder.on(replace(walk, gap=np.inf))
@@ -115,16 +117,26 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     """Return the plan that an interrupted walk has come to, when all that it asks holds at its true states.
 
     Raises:
-        KeyboardInterrupt: it does not.
+        KeyboardInterrupt: it does not; with how far it had come.
     """
-    if float(off(walk, walker).max()) > walker.allowed:
-        raise KeyboardInterrupt
+    come = f"after {walk.passes} pass{'es' * (walk.passes != 1)} along the motion, "
+    if (most := float(off(walk, walker).max())) > walker.allowed:
+        strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
+        raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
-    if not all(check.passed for check in found.checks):
-        raise KeyboardInterrupt
+    if missed := _missed(found):
+        raise KeyboardInterrupt(come + missed)
     note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
     return _with(plan, walk, walker, found, (*_goal_notes(walk), note))
+
+
+def _until(walk: Walk, walker: Walker) -> str:
+    """Return until when a walk of fewer knots than the task has got."""
+    if walk.until is None:
+        return f"the hand does not get through all knots: {walk.executed.why}"
+    where = f"until t = {walk.until:.3g} s" if walker.arrived(walk) else "at no knot yet"
+    return f"the object is where it is wanted {where}"
 
 
 def _decided(linear: Plan, walk: Walk) -> Plan:

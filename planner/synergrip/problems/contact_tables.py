@@ -25,7 +25,7 @@ from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.grasps.contact_at import SOFTEST
 from synergrip.grasps.contacts.kinds import KINDS, PARAMETERS, described_parameter
 from synergrip.grasps.matrices import MOST_CONTACTS
-from synergrip.problems.friction_factor import FRICTION_FACTOR, FrictionFactor
+from synergrip.problems.contact_factors import FRICTION_FACTOR, STIFFNESS_FACTOR, Factor, FrictionFactor
 
 
 def _rigid_or(kind: str) -> Callable[[Any], float]:
@@ -120,6 +120,7 @@ class ContactsTable(ContactTable):
         default=(), max_length=MOST_CONTACTS, description="names of the hand's pads that touch the object"
     )
     friction_factor: FrictionFactor | None = Field(default=None, description=FRICTION_FACTOR)
+    stiffness_factor: Factor | None = Field(default=None, description=STIFFNESS_FACTOR)
 
 
 class ContactEntry(ContactTable):

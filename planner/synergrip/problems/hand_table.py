@@ -24,7 +24,7 @@ from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
 from synergrip.hands.follower_ranges import FollowerRanges
 from synergrip.hands.synergies.select import SetChoice
-from synergrip.problems.friction_factor import FRICTION_FACTOR, FrictionFactor
+from synergrip.problems.contact_factors import FRICTION_FACTOR, STIFFNESS_FACTOR, Factor, FrictionFactor
 
 
 def _posture(value: object) -> str | dict[str, float]:
@@ -135,6 +135,7 @@ class GraspTable(Table):
 
     file: Text = Field(description="JSON file with the matrices, relative to this file")
     friction_factor: FrictionFactor | None = Field(default=None, description=FRICTION_FACTOR)
+    stiffness_factor: Factor | None = Field(default=None, description=STIFFNESS_FACTOR)
 
 
 class ComplianceTable(Table):

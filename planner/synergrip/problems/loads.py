@@ -54,7 +54,8 @@ def task_of(table: TaskTable, folder: Path) -> tuple[Task, Keys]:
     task = Task(
         duration=duration, knots=table.knots, target=target or Hold(), loads=loads, tracking=table.tracking,
         tolerance=table.tolerance or 0.0, axes=table.axes, drift=table.drift, between=table.between,
-        linearise=table.linearise, load_factor=table.load_factor, motion_factor=table.motion_factor,
+        linearise=table.linearise, control=None if table.control is None else table.control.value(),
+        load_factor=table.load_factor, motion_factor=table.motion_factor,
     )  # fmt: skip
     return task, keys
 

@@ -22,7 +22,7 @@ from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
-from synergrip.problems.friction_factor import with_friction
+from synergrip.problems.contact_factors import with_factors
 from synergrip.problems.limits_table import limits_of
 from synergrip.problems.loads import Keys, stated_at, task_of
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
@@ -194,12 +194,11 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
         from synergrip.grasps.given import read_given
 
         matrices = path.parent / file.grasp.file
-        grasp = with_friction(read_given(matrices, "grasp.file"), file.grasp.friction_factor, "grasp.friction_factor")
+        grasp = with_factors(read_given(matrices, "grasp.file"), file.grasp, "grasp")
         return _Touching(grasp, (*_spot_notes(matrices), *frame_notes(grasp)))
     from synergrip.problems.holding import hand_grasp
 
-    factor = None if file.contacts is None else file.contacts.friction_factor
-    grasp = with_friction(hand_grasp(file, path.parent), factor, "contacts.friction_factor")
+    grasp = with_factors(hand_grasp(file, path.parent), file.contacts, "contacts")
     notes = grasp.held.notes if grasp.held else ()
     return _Touching(grasp, (*notes, *frame_notes(grasp)))
 

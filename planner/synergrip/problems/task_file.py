@@ -26,6 +26,7 @@ from synergrip.documents.numbers import number_or
 from synergrip.documents.quantities import kind_of, without_unit
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, repeated
+from synergrip.problems.control_table import ControlTable
 from synergrip.problems.motion_tables import MoveTable, PalmTable, WaypointTable, waypoint_issues
 from synergrip.problems.push_table import PushTable
 from synergrip.tasks.knots import MOST_KNOTS
@@ -93,6 +94,9 @@ class TaskTable(Table):
     tolerance: Size | None = Field(default=None, description="largest distance between wanted and planned motion")
     axes: Annotated[tuple[AxisName, ...], Field(min_length=1)] = Field(
         default=AXES, description="on which axes about B the wanted motion is asked for: x, y, z, rx, ry, rz"
+    )
+    control: ControlTable | None = Field(
+        default=None, description="how many directions are to be controlled independently of each other"
     )
     between: Literal["report", "hold"] | None = Field(
         default=None,

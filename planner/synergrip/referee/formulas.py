@@ -20,7 +20,7 @@ from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.friction_cone import FRICTION, FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.joint_torque import JointTorque
@@ -61,9 +61,7 @@ def write_goal(model: Model, goal: Goal) -> Written:
     return GOALS[type(goal)](model, goal)
 
 
-def friction(
-    model: Model, margin: Expression, key: str = "limits.margin", ratios: Array | None = None
-) -> tuple[Cone, ...]:
+def friction(model: Model, margin: Expression, key: str = FRICTION, ratios: Array | None = None) -> tuple[Cone, ...]:
     """Write ``slip margin >= margin`` of every contact down, margin in force units (docs/theory.md).
 
     `ratios` (n_c,) are the shares of the friction that may be used.

@@ -15,6 +15,7 @@ from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
 from synergrip.tasks.arguments import TaskArguments, keep
+from synergrip.tasks.control import Control
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.hold import Hold
 from synergrip.tasks.knots import MOST_KNOTS
@@ -51,6 +52,8 @@ class Task(ByContent):
         drift: how far the object may move on the other axes [m]; None when as far as it likes.
         between: what happens between the knots: "report" it, or "hold" the limits there too, in the linear model as
             well; None: the limits hold there on the hand that moves, and are reported for a grasp given as matrices.
+        control: how many directions of force, motion and reconfiguration are to be controlled independently; the task
+            is refused where the synergies do not.
         load_factor: by which the whole load is multiplied.
         motion_factor: by which the wanted motion is multiplied.
         linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
@@ -76,6 +79,7 @@ class Task(ByContent):
     axes: tuple[AxisName, ...] = AXES
     drift: float | None = None
     between: Literal["report", "hold"] | None = None
+    control: Control | None = None
     load_factor: float = 1.0
     motion_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
@@ -102,6 +106,8 @@ class Task(ByContent):
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
             *word_issues(self.tracking, self.linearise, self.between),
         ]  # fmt: skip
+        if self.control is not None:
+            judge.one("control", self.control, Control, 'Control(forces=1, motions=("z",))')
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)
         keep(self, judge, duration=duration, knots=knots, loads=loads, limits=limits, goals=goals, axes=axes,

@@ -19,6 +19,7 @@ from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.linalg import Array
+from synergrip.tasks.control import Control
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues, times_of, word_issues, wrench_of
 from synergrip.values import Value
@@ -92,6 +93,8 @@ class TimedTask(Value):
     between: Literal["report", "hold"] | None = None
     """Whether what happens between the knots is reported, or also kept within all limits; None: reported in the linear
     model, kept by the hand that moves."""
+    control: Control | None = None
+    """What is to be controlled independently."""
     linearise: Literal["once", "along"] = "along"
     """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
 

@@ -47,7 +47,7 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
         times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
         margin=0.0, limits=tuple(task.limits), goals=tuple(task.goals), tolerance=task.tolerance,
         tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
-        linearise=task.linearise,
+        linearise=task.linearise, control=task.control,
     ).on(grasp)  # fmt: skip
 
 

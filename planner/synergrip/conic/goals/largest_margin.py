@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal, Objective
-from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
+from synergrip.conic.limits.friction_cone import FRICTION, FrictionCone, friction_rows
 from synergrip.conic.rows import Rows
 from synergrip.documents.naming import naming_arguments
 
@@ -29,7 +29,7 @@ class LargestMargin(Goal):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the friction cones with s in the margin's place."""
-        return friction_rows(formulation, 0.0, -1.0, "limits.margin")
+        return friction_rows(formulation, 0.0, -1.0, FRICTION)
 
     def objective(self, formulation: Formulation) -> Objective:
         """Return -s."""

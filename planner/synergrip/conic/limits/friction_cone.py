@@ -17,6 +17,8 @@ from synergrip.statics.motion import Motion, largest_term
 
 CANCELLED = 1e-9
 """Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
+FRICTION = "friction cone"
+"""What a cone is called that no margin is asked of: physics, and no key of a file."""
 SLIPPERY = 0.1
 """Friction below which a cone as it stands, to a tolerance e, allows a pull of more than ten times e."""
 
@@ -29,7 +31,7 @@ class FrictionCone(Limit):
     """
 
     margin: float = 0.0  # [N]
-    key: str = field(default="limits.margin", repr=False)
+    key: str = field(default=FRICTION, repr=False)
     watches = "forces"
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:

@@ -21,7 +21,7 @@ from synergrip.documents.fields import Written
 from synergrip.documents.naming import naming_arguments
 from synergrip.documents.numbers import number
 from synergrip.documents.validation import shown
-from synergrip.errors import InputError
+from synergrip.errors import InputError, suggest
 from synergrip.hands.units import joint_kinds, unit_of
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -189,12 +189,14 @@ def _ranges(value: object) -> str | float:
         return number(value["wider"], at_least=0)
     if value in ("hand", "none"):
         return str(value)
-    raise InputError.at("", f'expected "hand", "none" or {{ wider = 0.05 }}, got {shown(value)}')
+    near = suggest(value, ["hand", "none"]) if isinstance(value, str) else ""
+    raise InputError.at("", f"expected 'hand', 'none' or {{ wider = 0.05 }}, got {shown(value)}{near}")
 
 
+_NOT_NEGATIVE = {"type": "number", "minimum": 0}
 _WIDER = {
-    "type": "object", "properties": {"wider": {"type": "number", "minimum": 0}}, "required": ["wider"],
-    "additionalProperties": False,
+    "type": "object", "properties": {"wider": {**_NOT_NEGATIVE, "description": "share of every range"}},
+    "required": ["wider"], "additionalProperties": False,
 }  # fmt: skip
 _Ranges = Annotated[Literal["hand", "none"] | float, Written(_ranges, {"anyOf": [{"enum": ["hand", "none"]}, _WIDER]})]
 """Ranges of the hand, none, or those of the hand with a share of half of each more at both ends."""

@@ -9,6 +9,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.told import structure_document
 from synergrip.statics.analysis import Analysis
+from synergrip.tasks.control import ControlError
 
 
 def analysis_document(analysis: Analysis) -> dict[str, Any]:
@@ -55,4 +56,6 @@ def refusal_document(refusal: Refusal) -> dict[str, Any]:
                 "size_m": refusal.size}  # fmt: skip
     if isinstance(refusal, MotionCountError):
         return {"asked": refusal.asked, "n_z": refusal.available, "directions": refusal.directions.T.tolist()}
+    if isinstance(refusal, ControlError):
+        return {"asked": refusal.asked, "available": refusal.available}
     return {}

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
-from synergrip.explain.repairs import repairs
+from synergrip.explain.explanation import Explanation
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
@@ -30,15 +30,22 @@ from synergrip.planning.told import (
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
+from synergrip.reports.data.json_no import no_document
 from synergrip.tasks.scaling import units_of
 
 
 def outcome_document(
-    title: str, grasp: Grasp, outcome: Outcome, notes: Sequence[str] = (), source: Source | None = None
+    title: str,
+    grasp: Grasp,
+    outcome: Outcome,
+    notes: Sequence[str] = (),
+    source: Source | None = None,
+    known: Explanation | None = None,
 ) -> dict[str, Any]:
     """Return the document of a plan, a proof of infeasibility, or an unknown; SI units throughout.
 
     The notes are those of the problem; a plan's own come before them. The source is its text, for provenance.
+    Of a no, what is known of it is its short form when that is None.
     """
     document: dict[str, Any] = {
         "title": title,
@@ -54,12 +61,13 @@ def outcome_document(
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
     if isinstance(outcome, Infeasible):
-        return document | _infeasible(outcome)
+        return document | _infeasible(outcome) | no_document(known or outcome.explanation, outcome.task.times)
     certificate, reached = {"kind": "none", "verified": False}, outcome.reached
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
     }  # fmt: skip
-    document |= {"why": outcome.why, "stage": outcome.stage, "certificate": certificate, "reached": told}
+    document |= {"stage": outcome.stage, "certificate": certificate, "reached": told}
+    document |= no_document(known or outcome.explanation, outcome.task.times)
     if outcome.executed is not None and outcome.usages:
         document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
         document["limits"] = [usage_document(usage) for usage in outcome.usages]
@@ -89,15 +97,12 @@ def _plan(plan: Plan) -> dict[str, Any]:
 
 
 def _infeasible(outcome: Infeasible) -> dict[str, Any]:
-    certificate = certificate_document(outcome.certificate)
+    certificate = certificate_document(outcome.certificate) | {"scope": "start"}
     if outcome.decisions:
         certificate["solver"] = outcome.decisions[-1].solution.solver
     document: dict[str, Any] = {
-        "stage": outcome.stage, "why": outcome.why, "certificate": certificate, "repairs": repairs(outcome),
-        "hints": list(outcome.hints),
+        "stage": outcome.stage, "certificate": certificate, "hints": list(outcome.hints),
     }  # fmt: skip
-    if outcome.conflicts:
-        document["conflicts"] = [{"key": c.key, "share": c.share, "items": list(c.items)} for c in outcome.conflicts]
     if outcome.largest_margin is not None:
         document["largest_margin_N"] = outcome.largest_margin
     return document | ({"refusal": refusal_document(outcome.refusal)} if outcome.refusal else {})

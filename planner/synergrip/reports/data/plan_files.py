@@ -1,4 +1,4 @@
-"""A plan on disk: plan.json, plan.npz and plan.csv, which change together or not at all."""
+"""A plan on disk: plan.json, plan.npz and plan.csv, or a no with its proof; they change together or not at all."""
 
 from __future__ import annotations
 
@@ -19,14 +19,21 @@ from synergrip.planning.digest import digest
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.together import refuse_others, replace_together
 
-NAMES = tuple(f"plan.{suffix}" for suffix in FORMATS)
+PROOF = "proof.json"
+NAMES = (*(f"plan.{suffix}" for suffix in FORMATS), PROOF)
 
 
-def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, formats: tuple[str, ...]) -> list[str]:
+def write_outcome(
+    folder: Path,
+    document: dict[str, Any],
+    outcome: Outcome,
+    formats: tuple[str, ...],
+    proof: dict[str, Any] | None = None,
+) -> list[str]:
     """Write an outcome into `folder` and return the names of the files written.
 
-    An outcome without a plan has only a document. Files of an earlier run that are not written anew are removed,
-    so that the folder never holds the answer to another question, nor files of two answers.
+    An outcome without a plan has only a document, and perhaps an exact proof. Files of an earlier run that are not
+    written anew are removed, so that the folder never holds the answer to another question, nor files of two answers.
 
     Raises:
         OSError: it cannot be done; the folder is as it was.
@@ -42,9 +49,11 @@ def write_outcome(folder: Path, document: dict[str, Any], outcome: Outcome, form
     def write(new: Path) -> None:
         for suffix in chosen:
             writers[suffix](new / f"plan.{suffix}")
+        if proof is not None:
+            (new / PROOF).write_text(to_json(proof) + "\n", encoding="utf-8")
 
     replace_together(folder, NAMES, write)
-    return [f"plan.{suffix}" for suffix in chosen]
+    return [f"plan.{suffix}" for suffix in chosen] + [PROOF] * (proof is not None)
 
 
 def refuse_place(folder: Path) -> None:

@@ -38,7 +38,7 @@ class Chart:
 
 def charts(plan: Plan) -> tuple[Chart, ...]:
     """Return the charts of a plan: the object's motion, each limit, and the references."""
-    return tuple([*_motion(plan), *(_usage(usage) for usage in plan.usages), *_unlimited(plan)])
+    return tuple([*_motion(plan), *(usage_chart(usage) for usage in plan.usages), *_unlimited(plan)])
 
 
 def _motion(plan: Plan) -> Iterator[Chart]:
@@ -49,7 +49,8 @@ def _motion(plan: Plan) -> Iterator[Chart]:
         yield Chart(title, shown, ("x", "y", "z"), factor * reached[:, part], target=factor * wanted[:, part])
 
 
-def _usage(usage: Usage) -> Chart:
+def usage_chart(usage: Usage) -> Chart:
+    """Return the chart of a limit."""
     factor, unit = SHOWN_IN.get(usage.unit, (1.0, usage.unit))
     order = np.argsort(-(usage.excess / usage.scale).max(axis=0), kind="stable")
     levels = [bound for side in (usage.lower, usage.upper) if len(bound := np.unique(side)) == 1]

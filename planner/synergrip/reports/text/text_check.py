@@ -7,7 +7,7 @@ from typing import Any
 
 from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
-from synergrip.planning.check import Judgement
+from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.claims import Claims, Difference
 from synergrip.planning.told import (
     between_document,
@@ -29,11 +29,11 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
     """Return what was judged, every check, what the file claims, and what the plan uses of every limit."""
     own = [check for check in judgement.checks if check not in judgement.claims.checks or not check.passed]
     rows = [(c.name, f"{c.error:.2e}", f"{c.tolerance:.0e}", "✓" if c.passed else "FAILS") for c in own]
-    word = verdict_word(judgement.verdict, color)
+    word = verdict_word("this plan fails" if judgement.verdict == FAILS else judgement.verdict, color)
     failed = [check.name for check in judgement.checks if not check.passed]
     missed = judgement.between is not None and judgement.between.excess > LIMIT
     kept = f"this plan keeps every limit of the problem{' at its knots, and not between them' * missed}"
-    why = f"this plan breaks: {', '.join(failed)}" if failed else kept
+    why = f"it breaks: {', '.join(failed)}" if failed else kept
     lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
     if judgement.between is not None:
         lines += looked_at(judgement.between, judgement.task.between)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,16 +14,20 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
-from synergrip.explain.repairs import repairs
+from synergrip.errors import Issue
+from synergrip.explain.explanation import Explanation
 from synergrip.linalg import Array
 from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
+from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
-_STYLES = {"feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m"}
+_STYLES = {
+    "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
+}  # fmt: skip
 _END = "\x1b[0m"
 ROUNDING = 1e-9
 """A motion this small beside the length of the grasp is rounding."""
@@ -41,16 +44,27 @@ def outcome_text(
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
 
 
-def verdict_lines(problem: Problem, outcome: Outcome, color: bool = False) -> list[str]:
-    """Return what was read, asked, solved and checked, the verdict and its notes."""
+def explanation_text(problem: Problem, outcome: Outcome, known: Explanation | None, color: bool = False) -> str:
+    """Return why there is no plan, all that is known of it; of a plan that there is one."""
+    if isinstance(outcome, Plan):
+        word = verdict_word(outcome.verdict, color)
+        return "\n".join([*problem_lines(problem), "", f"{word}  there is a plan; nothing is to be explained"])
+    return "\n".join(verdict_lines(problem, outcome, color, known))
+
+
+def verdict_lines(
+    problem: Problem, outcome: Outcome, color: bool = False, known: Explanation | None = None
+) -> list[str]:
+    """Return what was read, asked, solved and checked, the verdict and its notes; of a no what is known of it."""
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
         lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [_proof(outcome), "", *_infeasible(outcome, word)]
+        lines += [*_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
+        lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
     notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
@@ -187,22 +201,35 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         yield title, f"{shown} {unit}".rstrip(), where, f"{sign}{limit} {unit}".rstrip()
 
 
-def _proof(outcome: Infeasible) -> str:
+def _proof(outcome: Infeasible) -> Iterator[str]:
+    """Yield that the proof was re-checked, and on a hand what it is about."""
     c = outcome.certificate
+    told = f"proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
     if outcome.refusal is not None:
-        return f"check    proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
-    ray = f"‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
-    return f"check    proof re-checked: {ray}"
+        told = f"proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
+    yield f"check    {told}"
+    if outcome.grasp.held is not None:
+        yield "         it is about the linear model at the start posture: contacts, G and J stay as they are there"
 
 
-def _infeasible(outcome: Infeasible, word: str) -> Iterator[str]:
-    yield from refused_lines(word, outcome.stage, outcome.why)
-    for i, conflict in enumerate(outcome.conflicts):
-        yield f"{'Clashes' if i == 0 else '':8} {conflict.share:4.0%}  {conflict.key}  ({', '.join(conflict.items)})"
+def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
+    yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage})"
+    yield from no_lines(known, outcome.task.times, placed(problem))
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
-    for change in repairs(outcome):
-        yield f"Repair   {change['key']}: from {change['from_N']:.4g} N to {_rounded_down(change['to_N']):.4g} N"
+
+
+def placed(problem: Problem) -> Callable[[str], str]:
+    """Return what says where in the file of a problem a key stands; empty where it does not."""
+
+    def place(key: str) -> str:
+        found = problem.document.locate(Issue("", key=key))
+        if not found.file:
+            return ""
+        stands = found.source and key.rsplit(".", 1)[-1] in found.source
+        return found.file if found.file.startswith("--set") else f"line {found.line}" if stands else ""
+
+    return place
 
 
 def verdict_word(verdict: str, color: bool) -> str:
@@ -212,17 +239,5 @@ def verdict_word(verdict: str, color: bool) -> str:
 
 def refused_lines(word: str, stage: str, why: str) -> Iterator[str]:
     """Yield the verdict with what the stage means, and the reason."""
-    names = {
-        "restraint": "the object is not held", "count": "too many motions for the synergies",
-        "direction": "the synergies cannot produce this motion", "magnitude": "the limits leave no plan",
-    }  # fmt: skip
-    yield f"{word}  {names.get(stage, stage)} (stage: {stage})"
+    yield f"{word}  {HEADS.get(stage, stage)} (stage: {stage})"
     yield from wrapped("Why      ", why)
-
-
-def _rounded_down(value: float) -> float:
-    """Return `value` to four digits, never more than it is: what is printed can be typed in and holds."""
-    if value <= 0:
-        return value
-    digit = 10.0 ** (math.floor(math.log10(value)) - 3)
-    return math.floor(value / digit) * digit

@@ -1,0 +1,28 @@
+"""The option ``--exact`` of ``synergrip plan``."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from synergrip.planning.outcome import Outcome
+
+
+def proven(outcome: Outcome, document: dict[str, Any]) -> tuple[str, dict[str, Any] | None]:
+    """Return the line that an exact proof adds to the answer's text, and the proof; put its sum into the document."""
+    from synergrip.explain.exact import ExactProof, exact_proof
+    from synergrip.planning.outcome import Infeasible
+
+    if not isinstance(outcome, Infeasible):
+        print("only a no has an exact proof, so 'proof.json' was not written", file=sys.stderr)
+        return "", None
+    found = exact_proof(outcome)
+    keys: dict[str, Any] = {"sum": None, "problem_sha256": None, "why": None}
+    document["certificate"]["exact"] = keys
+    if not isinstance(found, ExactProof):
+        keys["why"] = found.why
+        return f"\n{found.why}", None
+    keys |= {"sum": float(found.sum), "problem_sha256": found.of}
+    line = f"\nproof re-checked in exact arithmetic: sum = {float(found.sum):.4g} < 0; problem SHA-256 {found.of}"
+    return line, found.document()

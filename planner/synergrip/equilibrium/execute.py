@@ -1,0 +1,150 @@
+"""From references to the equilibria that they lead through."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+import numpy as np
+
+from synergrip.documents.judging import Arguments, described
+from synergrip.documents.naming import naming_arguments
+from synergrip.equilibrium.balance import Balance
+from synergrip.equilibrium.execution import Execution
+from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
+from synergrip.equilibrium.newton import AT_REST, ROUGH, at_rest, on_faces, settled, why_not
+from synergrip.equilibrium.setting import ContactModel, Setting, setting
+from synergrip.equilibrium.states import Loads, States
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
+from synergrip.statics.response import Response
+
+SHORTEST = Fraction(1, 640)
+"""Share of a step from one instant to the next below which it is given up."""
+
+
+@naming_arguments
+def execute(
+    grasp: Grasp | Setting, times: Array, references: Array, loads: Loads, *, contact_model: ContactModel = "rolling",
+    response: Response | None = None, guess: States | Execution | None = None,
+) -> Execution:  # fmt: skip
+    """Return the equilibria of a hand that synergy references lead through.
+
+    Args:
+        grasp: on a hand, as it is before the first reference; or its `setting`, which has a model and forces already.
+        times: (T,) [s], increasing; an instant at which the load jumps may stand twice, with the same references.
+        references: (T, n_z) of the synergies, from those at the start [rad, m or as the synergies are scaled].
+        loads: (T) on the object.
+        contact_model: "rolling" or "fixed", see `setting`.
+        response: of the grasp, when it is known.
+        guess: (T) states near the equilibria, or an execution of references near these; all are then tried at once
+            first. What is found is the same, up to the way that tips roll where shorter steps are needed.
+
+    Returns:
+        the equilibria; it ends where there is none to be found, and says why.
+
+    Raises:
+        InputError: a grasp given as matrices, no such contact model, arguments that do not fit each other.
+
+    Example:
+        >>> execute(grasp, [0.0], [[0.0, 0.01, 0.01, 0.01]], Loads.of(np.zeros((1, 6)))).margins.shape
+        (1, 3)
+    """
+    own = grasp if isinstance(grasp, Setting) else setting(grasp, contact_model, response)
+    return equilibria(own, *_judged(own, times, references, loads, guess), loads, guess)
+
+
+def equilibria(
+    own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution | None,
+    wrong: Callable[[Array], bool] | None = None,
+) -> Execution:  # fmt: skip
+    """Return the equilibria that references lead through, as `execute` does.
+
+    Args:
+        own: the grasp.
+        times: (T,) [s].
+        references: (T, n_z).
+        loads: (T).
+        guess: (T) states near the equilibria, or an execution of references near these.
+        wrong: says of forces (T, n_l) that are known to `ROUGH` whether they are not those that are looked for, so that
+            more digits of them are of no use.
+    """
+    lead = squeezes(own)
+    if guess is not None:
+        way = led(own, references, loads, lead)
+        near, known = _near(own, guess, lead, len(times))
+        enough = None if wrong is None else lambda forces: wrong(forces[lead:])
+        balance, count = settled(own, near, way.loads, way.references, known, enough)
+        if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(near):
+            return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
+    return _followed(own, times, references, loads)
+
+
+def _judged(
+    own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution | None
+) -> tuple[Array, Array]:
+    """Return times (T,) and references (T, n_z) as arrays, when all arguments fit each other."""
+    judge = Arguments("")
+    instants = judge.numbers("times", times, "times (T,)")
+    if instants is not None and (instants.ndim != 1 or not len(instants)):
+        judge.refuse("times", f"expected times (T,) [s], one at least; got {described(times)}")
+    elif instants is not None and np.any(early := np.diff(instants) < 0):
+        before, after = instants[int(np.argmax(early)) :][:2]
+        judge.refuse("times", f"times must increase: {after:g} s comes after {before:g} s; sort them")
+    count = len(instants) if instants is not None and not judge.issues else 0
+    if instants is not None and count:
+        wanted = (count, own.grasp.n_z)
+        references = judge.array("references", references, wanted, ", a row for each time, a column for each synergy")
+        twice = (np.diff(instants) == 0) & np.any(np.diff(references, axis=0) != 0, axis=1)
+        if np.any(twice):
+            at = f"{instants[int(np.argmax(twice))]:g} s stands twice with two references"
+            judge.refuse("times", f"{at}; give each instant one, or move one of them (only loads may jump)")
+    else:
+        judge.numbers("references", references, "references (T, n_z)")
+    if judge.one("loads", loads, Loads, "Loads.of(np.zeros((T, 6)))") is not None and count and len(loads) != count:
+        judge.refuse("loads", f"expected loads at {count} times, got {len(loads)}")
+    states, example = guess.states if isinstance(guess, Execution) else guess, "another execution, or its states"
+    if states is not None and judge.one("guess", states, States, example) is not None and count:
+        known, start = [(count, own.grasp.n_q), (squeezes(own) + count, own.grasp.n_q)], own.start
+        if states.q.shape not in known or states.forces.shape != (len(states), start.forces.shape[1]):
+            judge.refuse("guess", f"expected states of this grasp at {count} times, got joints {states.q.shape}")
+    judge.finish()
+    return np.asarray(instants), references
+
+
+def _near(own: Setting, guess: States | Execution, lead: int, count: int) -> tuple[States, Balance | None]:
+    """Return states to begin at, those of the first squeeze, too, and the equations there when they are known."""
+    if isinstance(guess, Execution):
+        if guess.setting is own and len(guess.path.states) == lead + count:
+            return guess.path.states, guess.path
+        guess = guess.states
+    return guess if len(guess) == lead + count else led_states(own, guess, lead), None
+
+
+def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:
+    """Follow the equilibria from the start, in steps as short as it takes."""
+    here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
+    path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
+    for k in range(len(times)):
+        gone, step = Fraction(0), Fraction(1, SQUEEZE if k == 0 else 1)
+        from_z, from_w, to_w = z, w, loads.taken([k])
+        while gone < 1 and not why:
+            there = float(min(Fraction(1), gone + step))
+            z, w = (1 - there) * from_z + there * references[[k]], from_w.between(to_w, there)
+            balance, iterations = settled(here, state, w, z)
+            count += iterations
+            if at_rest(balance)[0] and on_faces(balance):
+                here, state, gone = balance.moved_on(), balance.states, gone + step
+                path.append((state, z, w))
+            elif step / 2 >= SHORTEST:
+                step /= 2
+            else:
+                why = why_not(balance)
+        if why:
+            break
+        kept.append(len(path) - 1)
+    states, zs, ws = (
+        zip(*path[: kept[-1] + 1], strict=True) if kept else ((own.start,), (0 * z,), (own.unloaded(loads),))
+    )
+    whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
+    return Execution(times, references, whole, np.array(kept, dtype=int), count, why)

@@ -1,0 +1,112 @@
+"""Why there is no plan: what is to blame, what clashes, when, and what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from synergrip.conic.conflicts import Conflict
+from synergrip.conic.limits.dial import Cause
+from synergrip.explain.asked import Asked
+from synergrip.explain.explanation import STAGES, Explanation
+from synergrip.explain.least_change import LeastChange, least_change, solved
+from synergrip.explain.long_form import completed
+from synergrip.explain.refused import refused
+from synergrip.explain.repairs import Repair, ranked, repaired
+from synergrip.explain.turning import dials
+from synergrip.explain.when import When, when
+from synergrip.explain.words import blamed, most_margin
+from synergrip.planning.outcome import Infeasible, Unknown
+
+NOT_KNOWN = When(None, (), alone=False)
+BEST = 3
+"""Repairs of the short form."""
+
+
+def explained(
+    no: Infeasible | Unknown, *, short: bool = False, heard: Callable[[Repair], None] = lambda repair: None
+) -> Explanation:
+    """Return why there is no plan.
+
+    Args:
+        no: what `plan` said.
+        short: whether the three smallest changes are enough, and what is short of them is not looked at.
+        heard: is told of each repair as it is found.
+    """
+    timed = no.task
+    asked = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed)
+    posed = asked.posed(no.analysis)
+    if posed is None or (isinstance(no, Infeasible) and no.stage in STAGES):
+        return refused(no, asked, short=short)
+    program = posed.program()
+    if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
+        return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=not short)
+    numbers = dials(asked, timed, posed.analysis.response.scale.length)
+    found = [least_change(dial, posed, program) for dial in numbers]
+    helping = ranked([each for each in found if each.size > 0])
+    tried, interrupted = _as_found(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
+    held = tuple(tried)
+    cause, known = _blamed(no, held, helping)
+    first = Explanation(
+        cause,
+        _text(no, held, known),
+        known,
+        held,
+        _in_vain(found),
+        when(posed, program),
+        not short,
+        interrupted,
+        posed=posed,
+    )
+    return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
+
+
+def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:
+    """Return repairs, and whether somebody interrupted before they were all there."""
+    found: list[Repair] = []
+    try:
+        for repair in repairs:
+            found.append(repair)
+    except KeyboardInterrupt:
+        return found, True
+    return found, False
+
+
+def _cause(no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange]) -> Cause:
+    if held:
+        return held[0].cause
+    if isinstance(no, Unknown):
+        return STAGES.get(no.stage, "reach")
+    if helping:
+        return helping[0].dial.cause
+    chief = next((each for each in no.conflicts if not each.friction), None)
+    return "friction" if chief is None else "limit"
+
+
+def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...]) -> str:
+    """Return what is to blame, where it shows, and since when; the reason of the answer where no change helps."""
+    if isinstance(no, Unknown) or not held:
+        none = "" if isinstance(no, Unknown) else "no single change of a number helps; "
+        return f"{none}{no.why}"
+    cones = next((each for each in known if each.friction), None)
+    shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""
+    margin = "" if no.largest_margin is None or no.largest_margin < 0 or not no.task.margin else most_margin(no)
+    there = "" if held[0].verified else " in the linear model of the start posture (no plan was found with it)"
+    return blamed(held[0]) + there + margin + shows
+
+
+def _blamed(
+    no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange]
+) -> tuple[Cause, tuple[Conflict, ...]]:
+    """Return what is to blame, and what clashes, with what is to blame first."""
+    cause = _cause(no, held, helping)
+    known = no.conflicts if isinstance(no, Infeasible) else ()
+    blamed = next((each.dial.key for each in helping if each.dial.cause == cause), "")
+    if cause == "friction":
+        return cause, tuple(sorted(known, key=lambda each: not each.friction))
+    return cause, tuple(sorted(known, key=lambda each: each.key != blamed))
+
+
+def _in_vain(found: list[LeastChange]) -> tuple[Cause, ...]:
+    """Return the causes of which no number helps, proven of each."""
+    helps = {each.dial.cause for each in found if each.value is not None}
+    return tuple(dict.fromkeys(e.dial.cause for e in found if e.dial.cause not in helps and e.proven))

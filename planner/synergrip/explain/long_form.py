@@ -1,0 +1,69 @@
+"""What takes longer to find out of a no: which limits clash, pairs of changes, single contacts, stiffness."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+from synergrip.conic.limits.dial import Dial
+from synergrip.conic.program import Program
+from synergrip.explain.asked import Asked, Posed
+from synergrip.explain.clashing import clashing
+from synergrip.explain.explanation import Explanation
+from synergrip.explain.least_change import least_change
+from synergrip.explain.missing_synergies import missing_synergies
+from synergrip.explain.pairs import pairs
+from synergrip.explain.repairs import Repair, outcome_of, ranked, repaired
+from synergrip.explain.turning import contact_dials, stiffness_dial
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
+
+STIFFER = (2.0, 0.5, 5.0, 0.2)
+"""Factors of stiffness that are tried; no claim is made of others."""
+
+
+def completed(
+    no: Infeasible | Unknown, first: Explanation, asked: Asked, posed: Posed, program: Program,
+    numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None],
+) -> Explanation:  # fmt: skip
+    """Return an explanation with what takes longer; an interrupt keeps what is found.
+
+    Args:
+        no: what `plan` said.
+        first: what is known so far.
+        asked: what is asked.
+        posed: the same, as a program of the start posture.
+        program: that program.
+        numbers: all that could be others.
+        heard: is told of each repair as it is found.
+    """
+    known = first
+    try:
+        known = replace(known, clashing=clashing(asked))
+        for other in _others(asked, posed, program, heard):
+            known = replace(known, others=(*known.others, other))
+        for pair in () if any(each.verified for each in first.repairs) else pairs(numbers, posed, program):
+            known = replace(known, pairs=(*known.pairs, pair))
+        if isinstance(no, Infeasible):
+            known = replace(known, missing_synergies=missing_synergies(no))
+    except KeyboardInterrupt:
+        return replace(known, interrupted=True)
+    return known
+
+
+def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repair], None]) -> Iterator[Repair]:
+    """Yield changes of the friction of single contacts, and of the stiffness, with which there is a plan."""
+    alone = [least_change(dial, posed, program) for dial in contact_dials(asked)]
+    for repair in repaired(ranked(alone), posed, heard=heard):
+        if repair.verified:
+            yield repair
+    dial = stiffness_dial(asked)
+    for value in STIFFER:
+        outcome = outcome_of(dial.turned(value))
+        if isinstance(outcome, Plan):
+            found = Repair(
+                dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), True, dial.size(value), False,
+                outcome,
+            )  # fmt: skip
+            heard(found)
+            yield found
+            return

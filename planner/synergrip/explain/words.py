@@ -1,0 +1,60 @@
+"""A no in words of a grasping engineer: what is to blame, from what value to which."""
+
+from __future__ import annotations
+
+from synergrip.conic.conflicts import Conflict
+from synergrip.documents.quantities import SHOWN_IN, apart
+from synergrip.explain.repairs import Repair
+from synergrip.planning.outcome import Infeasible
+
+TOO: dict[str, str] = {
+    "friction": "friction is too low", "load": "the load is too heavy",
+    "force_cap": "the normal forces are capped too low",
+    "torque": "the joint torques are limited too tightly", "effort": "the actuators are limited too tightly",
+    "margin": "the slip margin asked for is too large", "tolerance": "the tolerance is too tight",
+    "drift": "the object may move too little", "rate": "the synergies may change too slowly",
+    "acceleration": "the synergies may speed up too slowly", "duration": "the task is too short",
+    "synergy_range": "the synergies may not go far enough", "joint_range": "the joint ranges are too narrow",
+    "amplitude": "the motion is too large", "stiffness": "the contacts are not as stiff as would do",
+    "limit": "a limit is too tight",
+}  # fmt: skip
+"""Cause -> what is wrong with it, while another value of the same would do."""
+LEAST_FORCE = "the normal forces must not be that large everywhere"
+FACTORS = {
+    "task.load_factor": "times the load", "task.motion_factor": "times the motion",
+    "limits.joint_range": "times the ranges",
+}  # fmt: skip
+"""Key -> what its number is a multiple of."""
+
+
+def blamed(repair: Repair) -> str:
+    """Return what is wrong, and what would do."""
+    was, to = values(repair)
+    what = LEAST_FORCE if repair.cause == "force_cap" and repair.to < repair.was else TOO[repair.cause]
+    return f"{what}: {was} ({repair.key}), and {to} would do"
+
+
+def most_margin(no: Infeasible) -> str:
+    """Return how large a slip margin the other limits leave, beside the one that is asked for."""
+    most, asked = apart(no.largest_margin or 0.0, no.task.margin)
+    return f"; as it is the largest slip margin is {most} N, {asked} N are asked for"
+
+
+def values(repair: Repair) -> tuple[str, str]:
+    """Return the value and the one that would do, in units that people read."""
+    factor, unit = SHOWN_IN.get(repair.unit, (1.0, repair.unit))
+    if repair.unit == "kg" and max(repair.was, repair.to) < 1:
+        factor, unit = 1e3, "g"
+    was, to = apart(factor * repair.was, factor * repair.to)
+    unit = unit or FACTORS.get(repair.key, "")
+    return f"{was} {unit}".strip(), f"{_digits(factor * repair.to, to)} {unit}".strip()
+
+
+def _digits(value: float, short: str) -> str:
+    """Return a value in as many digits as it holds with; what is printed can be typed in."""
+    return f"{value:.5g}" if float(short) != value else short
+
+
+def named(conflict: Conflict) -> str:
+    """Return a limit with the items that carry most of it."""
+    return f"{conflict.key} ({', '.join(conflict.items)})"

@@ -1,0 +1,120 @@
+"""A no as text: what is to blame, when, what clashes, and what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from shlex import quote
+
+from synergrip.explain.explanation import Explanation
+from synergrip.explain.missing_synergies import MissingSynergies
+from synergrip.explain.repairs import Repair
+from synergrip.explain.words import values
+from synergrip.linalg import Array
+from synergrip.reports.text.tables import table, wrapped
+
+HEADS = {
+    "restraint": "the object is not held", "count": "too many motions for the synergies",
+    "direction": "out of reach of these synergies", "magnitude": "limits too tight",
+}  # fmt: skip
+"""Stage -> what it means."""
+BEST = 3
+"""Items of a limit that are named."""
+
+
+def no_lines(found: Explanation, times: Array, place: Callable[[str], str]) -> Iterator[str]:
+    """Yield why there is no plan.
+
+    Args:
+        found: what is known.
+        times: (T,) knots [s] of the task.
+        place: says where in the problem file a key stands.
+    """
+    yield from wrapped("Why      ", found.text)
+    yield from more_lines(found, times, place)
+
+
+def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) -> Iterator[str]:
+    """Yield what is known beyond the reason; arguments as of `no_lines`."""
+    if where := _when(found, times):
+        yield from wrapped("Where    ", where)
+    if found.conflicts:
+        yield from ("", "What clashes")
+        rows = []
+        for each in found.conflicts:
+            more = f" and {len(each.items) - BEST} more" if len(each.items) > BEST else ""
+            share = f"{each.share:.0%}" if each.share >= 0.01 else "< 1%"
+            rows.append((each.key, share, ", ".join(each.items[:BEST]) + more, place(each.key)))
+        yield table(("limit", "share of the proof", "at", "in the file"), rows, right=(1,))
+    yield from _repairs(found)
+
+
+def _repairs(found: Explanation) -> Iterator[str]:
+    if found.repairs:
+        smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
+        yield from ("", f"What would help{smallest}")
+        yield _changes([(each,) for each in found.repairs])
+    if found.missing_synergies is not None:
+        yield from _missing(found.missing_synergies)
+    if found.others:
+        yield from ("", "What would help, too, tried and planned, and not the least there is")
+        yield _changes([(each,) for each in found.others])
+    if found.pairs:
+        yield from ("", "No single change helps; pairs that do")
+        yield _changes(found.pairs)
+    if found.clashing is not None:
+        yield from wrapped("Clash    ", _clash(found.clashing))
+    if found.cannot_help:
+        words = ", ".join(cause.replace("_", " ") for cause in found.cannot_help)
+        yield from wrapped("No help  ", f"proven, whatever the value: {words}")
+
+
+def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
+    """Return a table of changes, each of one number or of several."""
+    cells = [
+        (each.key if k == 0 else f"and {each.key}", *values(each), f"--set {quote(each.set)}")
+        for row in rows
+        for k, each in enumerate(row)
+    ]
+    planned = [("a plan" if each.verified else "no plan found",) for row in rows for each in row]
+    whole = [(*cell[:3], *said, cell[3]) for cell, said in zip(cells, planned, strict=True)]
+    return table(("change", "from", "to", "planned again", "with"), whole)
+
+
+def _missing(missing: MissingSynergies) -> Iterator[str]:
+    """Yield how many synergies are missing, and who has columns that would do."""
+    yield from wrapped("Missing  ", missing.why)
+    if missing.candidates:
+        rows = []
+        for each in missing.candidates:
+            said = each.verdict if not each.stage else f"{each.verdict} (stage: {each.stage})"
+            setting = f"--set {quote(each.setting)}" if each.setting else ""
+            rows.append((" + ".join(each.names), each.set, said, setting))
+        yield from ("", "Columns that would give the motion")
+        yield table(("columns", "of", "with them", "with"), rows)
+
+
+def _clash(keys: Sequence[str]) -> str:
+    """Return which limits cannot hold together."""
+    if not keys:
+        return "load, motion and friction leave no plan by themselves, whatever the limits"
+    if len(keys) == 1:
+        return f"{keys[0]} with load, motion and friction: without it these have a plan, or are not proven to have none"
+    return f"{', '.join(keys[:-1])} and {keys[-1]} cannot hold together; none of them can be left out of the proof"
+
+
+def _when(found: Explanation, times: Array) -> str:
+    """Return which instants have no plan."""
+    late = found.when
+    if late.first_s is None or len(times) < 2:
+        return ""
+    if not late.alone:
+        together = f"together they have none up to t = {late.first_s:.4g} s"
+        return f"every instant has a plan by itself; for the steps between them, {together}"
+    ends = [_stretch(start, end, times) for start, end in late.intervals_s]
+    return f"{', '.join(ends)}: none of these instants has a plan even by itself"
+
+
+def _stretch(start: float, end: float, times: Array) -> str:
+    if start <= times[0] and end >= times[-1]:
+        return "throughout"
+    return f"t = {start:.4g} s" if start == end else f"t = {start:.4g} s to {end:.4g} s"

@@ -1,0 +1,37 @@
+"""What a long solve tells while it runs is what it does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from synergrip import load_problem, plan
+from synergrip.cli import progress
+from synergrip.conic.solution import Claim
+from synergrip.planning.solvers import SOLVERS
+
+
+def test_a_first_attempt_is_told_as_one_also_along_the_motion(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(progress, "PATIENCE", -1.0)
+    problem = load_problem("table2-soft-motors")
+    plan(problem.grasp, problem.task, progress.telling(SOLVERS["clarabel"]))
+    told = capsys.readouterr().err.splitlines()
+    assert any("along the motion, 1 knot: " in line for line in told)
+    assert any("along the motion" not in line for line in told)
+    assert not any("attempt" in line for line in told)
+
+
+def test_what_is_asked_again_is_told_as_that(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def failing(question, program, settings):
+        found = SOLVERS["clarabel"](question, program, settings)
+        return replace(found, claim=Claim.NOTHING, x=0 * found.x)
+
+    monkeypatch.setattr(progress, "PATIENCE", -1.0)
+    problem = load_problem("pinch-soft")
+    plan(problem.grasp, problem.task, progress.telling(failing))
+    assert "rows, attempt 2 of 5 ..." in capsys.readouterr().err

@@ -1,0 +1,132 @@
+"""Why there is no plan: answers whose causes, instants and repairs are known in closed form."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import synergrip as sg
+from synergrip.explain.compromise import compromise
+from synergrip.reports.data.json_no import no_document
+
+
+def refused(name: str, *overrides: str) -> sg.Infeasible:
+    problem = sg.load_problem(name, overrides)
+    answer = sg.plan(problem.grasp, problem.task)
+    assert isinstance(answer, sg.Infeasible)
+    return answer
+
+
+def by_cause(repairs: tuple[sg.Repair, ...]) -> dict[str, sg.Repair]:
+    return {repair.cause: repair for repair in repairs}
+
+
+def test_three_fingers_that_carry_a_newton_each_want_a_quarter_more_of_anything() -> None:
+    """mu n = 1 N at n = 1 N and mu = 0.8: the cap, the friction or the load is off by 1.25, a tie in |ln|."""
+    found = refused("tripod", 'limits.normal_force="1 N"').explain()
+    repairs = by_cause(found.repairs)
+    assert repairs["force_cap"].to == pytest.approx(1.25, rel=2e-4)
+    assert repairs["friction"].to == pytest.approx(1.0, rel=4e-4)
+    assert repairs["load"].to == pytest.approx(0.8, rel=2e-4)
+    assert all(repair.verified and repair.proven for repair in found.repairs)
+    assert found.cause == found.repairs[0].cause == "force_cap"  # of a tie the user's limit
+    assert found.conflicts[0].key == "limits.normal_force"
+    assert found.clashing == ("limits.normal_force",)
+
+
+def test_the_weight_comes_on_within_a_fifth_of_a_second_and_with_it_the_no() -> None:
+    late = refused("tripod", 'limits.normal_force="1 N"').when
+    assert late.alone
+    assert late.first_s == pytest.approx(0.2)
+    assert np.allclose(late.intervals_s, [(0.2, 1.0)])
+
+
+def test_rates_clash_with_steps_and_with_no_instant() -> None:
+    answer = refused("tripod", "limits.synergy_rate=0.001", 'task.linearise="once"')
+    assert answer.explanation.cause == "rate"
+    assert not answer.when.alone
+    assert answer.when.intervals_s == ()
+    assert answer.when.first_s is not None
+
+
+def test_what_is_told_can_be_typed_in_and_holds() -> None:
+    changes = ["limits.margin=12 N"]
+    for repair in refused("pinch-soft", *changes).repairs:
+        problem = sg.load_problem("pinch-soft", [*changes, repair.set])
+        assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+
+
+def test_no_load_helps_a_grasp_that_cannot_press_hard_enough_for_its_margin() -> None:
+    found = refused("pinch-soft", "limits.margin=12 N").explanation
+    assert found.cannot_help == ("load",)
+
+
+def test_a_friction_cone_without_a_margin_is_called_one() -> None:
+    keys = [conflict.key for conflict in refused("tripod", 'limits.normal_force="1 N"').conflicts]
+    assert "friction cone" in keys
+    assert "limits.margin" not in keys
+
+
+def test_where_no_single_change_helps_pairs_do() -> None:
+    """Weak joints and a low cap: each alone keeps the pinch from its margin."""
+    overrides = ("limits.margin=8 N", 'limits.normal_force="2 N"', "limits.joint_torque=0.05")
+    found = refused("pinch-soft", *overrides).explain()
+    assert not any(repair.verified for repair in found.repairs)
+    assert found.pairs
+    for one, two in found.pairs:
+        problem = sg.load_problem("pinch-soft", [*overrides, one.set, two.set])
+        assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+
+
+def test_a_motion_out_of_reach_says_which_tolerance_and_how_many_synergies_would_do() -> None:
+    answer = refused("barrett-ball-lift", 'task.linearise="once"')
+    found = answer.explanation
+    assert (found.cause, found.missing_synergies is not None) == ("direction", True)
+    assert answer.missing_synergies is not None
+    assert answer.missing_synergies.count == 1
+    assert found.when.alone
+
+
+@pytest.mark.parametrize("name", ["tripod", "barrett-ball-lift"])
+def test_the_document_has_all_keys_and_is_json(name: str) -> None:
+    answer = refused(name, *(['limits.normal_force="1 N"'] if name == "tripod" else []))
+    document: dict[str, Any] = no_document(answer.explanation, answer.task.times)
+    keys = {"why", "conflicts", "repairs", "cannot_help", "when", "missing_synergies", "others", "pairs", "clashing"}
+    assert set(document) == keys
+    json.dumps(document, allow_nan=False)
+    assert set(document["why"]) == {"text", "cause"}
+
+
+def test_the_compromise_misses_what_is_told_and_nothing_where_there_is_a_plan() -> None:
+    answer = refused("tripod", 'limits.normal_force="1 N"')
+    posed = answer.explanation.posed
+    assert posed is not None
+    least = compromise(posed)
+    assert least is not None
+    late = least.times >= 0.2 - 1e-9
+    assert np.all(least.missing[late] > 0.01)
+    assert np.all(least.missing[~late] < 1e-6)
+
+
+def test_an_interrupt_keeps_what_is_found() -> None:
+    heard: list[sg.Repair] = []
+
+    def stop(repair: sg.Repair) -> None:
+        heard.append(repair)
+        if len(heard) == 2:
+            raise KeyboardInterrupt
+
+    found = refused("tripod", 'limits.normal_force="1 N"').explain(heard=stop)
+    assert found.interrupted
+    assert [repair.cause for repair in found.repairs] == [heard[0].cause]
+
+
+def test_an_explanation_survives_a_pickle() -> None:
+    answer = refused("tripod", 'limits.normal_force="1 N"')
+    assert answer.explanation.cause == "force_cap"
+    again = pickle.loads(pickle.dumps(answer))
+    assert again.explanation.cause == "force_cap"
