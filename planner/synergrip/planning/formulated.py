@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Formulation
+from synergrip.planning.free import refuse_use_of_free
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.scaling import expected_units, units_of
 from synergrip.tasks.timed_task import TimedTask
@@ -19,9 +20,11 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
         redundancy: whether gamma is an unknown.
 
     Raises:
-        Refusal: the wanted motion is impossible by count or direction.
+        Refusal: load or wanted motion need what the contacts leave free, or the motion is impossible by count or
+            direction.
         InputError: modes are given that do not fit the grasp.
     """
+    refuse_use_of_free(analysis, task)
     follow = followed(analysis, task)
     sizes = expected_units(analysis, task, follow.beta, follow.target)
     return formulate(
