@@ -19,7 +19,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
-from synergrip.statics.restraint import free_directions, refuse_load, restraint, supported, twists_of, without_support
+from synergrip.statics.restraint import NONE, refuse_load, restraint, supported, twists_of, without_support
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
 from synergrip.values import ByName, Value
@@ -123,7 +123,7 @@ class Response(Maps):
     @cached_property
     def free(self) -> Array:
         """(6, k) the motions of the object that no contact resists, orthonormal in scaled coordinates; k = 0 mostly."""
-        return free_directions(self.scale.scaled_grasp(self.grasp.G), 6 - self.restraint.rank)
+        return NONE if self.restraint.rank == 6 else restraint(self.grasp, self.scale)[1]
 
     @property
     def free_twists(self) -> Array:
@@ -160,8 +160,7 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     expected("grasp", grasp, Grasp, "make_grasp(...)")
     held = np.atleast_2d(grasp.w_0) if load is None else wrenches("load", load)
     scale = scale_of(grasp)
-    decision = restraint(grasp, scale)
-    free = free_directions(scale.scaled_grasp(grasp.G), 6 - decision.rank)
+    decision, free = restraint(grasp, scale)
     refuse_load(grasp, scale, free, held)
     refuse_rigid_contacts(grasp, scale)
     maps, known = _worked_out(*supported(Matrices.of(grasp), scale, free))

@@ -23,9 +23,15 @@ NO_LOAD = frozen(np.zeros(6))
 """As the load of a grasp: it works on no motion, so that whatever is left free is no refusal yet."""
 
 
-def restraint(grasp: Grasp, scale: Scale) -> Decision:
-    """Return the rank decision on G': 6 when the object is restrained."""
-    return decided(scale.scaled_grasp(grasp.G)).at(())
+NONE = frozen(np.zeros((6, 0)))
+"""No free motion."""
+
+
+def restraint(grasp: Grasp, scale: Scale) -> tuple[Decision, Array]:
+    """Return the rank decision on G', 6 when the object is restrained, and the free motions (6, k), k = 6 - rank."""
+    of_object = scale.scaled_grasp(grasp.G)
+    decision = decided(of_object).at(())
+    return decision, NONE if decision.rank == 6 else free_directions(of_object, 6 - decision.rank)
 
 
 def free_directions(of_object: Array, count: int) -> Array:
