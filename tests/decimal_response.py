@@ -13,37 +13,42 @@ DIGITS = 80
 Row = list[Decimal]
 
 
-def decimal_maps(grasp: Grasp) -> dict[str, Array]:
+def decimal_maps(grasp: Grasp, held: Array | None = None) -> dict[str, Array]:
     """Return the nine maps, rounded to float64 at the very end.
 
     Unknown are lambda, u, q, z (as many as rows): ``C_s lambda + G' u - J q = 0``, ``G lambda = -w``,
     ``q - S z + C_q tau = 0`` and ``z + C_z sigma = z_r`` with ``tau = J' lambda`` and ``sigma = S' tau``.
+    Where the object is free to move, u is made of the columns of `held` (6, r) alone, and only these are balanced.
     """
+    held = np.eye(6) if held is None else held
+    m = held.shape[1]
     with localcontext() as context:
         context.prec = DIGITS
         G, J, S, C_s, C_q, C_z = (_exact(getattr(grasp, name)) for name in ("G", "J", "S", "C_s", "C_q", "C_z"))
+        G = _product(_transposed(_exact(held), 6, m), G)
         n_l, n_q, n_z = grasp.n_l, grasp.n_q, grasp.n_z
         torque, effort = _transposed(J, n_l, n_q), _product(_transposed(S, n_q, n_z), _transposed(J, n_l, n_q))
         zero = Decimal(0)
         rows: list[Row] = []
         for i in range(n_z):  # z first: its pivots are 1 and cost nothing
-            row = _row(_product([C_z[i]], effort)[0], [zero] * 6, [zero] * n_q, _unit(i, n_z))
-            rows.append(row + _unit(i, n_z) + [zero] * 6)
+            row = _row(_product([C_z[i]], effort)[0], [zero] * m, [zero] * n_q, _unit(i, n_z))
+            rows.append(row + _unit(i, n_z) + [zero] * m)
         for i in range(n_q):
-            row = _row(_product([C_q[i]], torque)[0], [zero] * 6, _unit(i, n_q), [-x for x in S[i]])
-            rows.append(row + [zero] * (n_z + 6))
+            row = _row(_product([C_q[i]], torque)[0], [zero] * m, _unit(i, n_q), [-x for x in S[i]])
+            rows.append(row + [zero] * (n_z + m))
         for i in range(n_l):
             row = _row(C_s[i], [line[i] for line in G], [-x for x in J[i]], [zero] * n_z)
-            rows.append(row + [zero] * (n_z + 6))
-        for i in range(6):
-            row = _row(G[i], [zero] * 6, [zero] * n_q, [zero] * n_z)
-            rows.append(row + [zero] * n_z + [-x for x in _unit(i, 6)])
+            rows.append(row + [zero] * (n_z + m))
+        for i in range(m):
+            row = _row(G[i], [zero] * m, [zero] * n_q, [zero] * n_z)
+            rows.append(row + [zero] * n_z + [-x for x in _unit(i, m)])
         solved = _solved(rows)
-        z, q, force, u = (solved[a:b] for a, b in _slices((n_z, n_q, n_l, 6)))
+        z, q, force, u = (solved[a:b] for a, b in _slices((n_z, n_q, n_l, m)))
         tau, sigma = _product(torque, force), _product(effort, force)
         both = {"dlambda": force, "du": u, "dq": q, "dtau": tau, "dsigma": sigma, "dz": z}
         maps = {f"{name}_dzr": _rounded(values, 0, n_z) for name, values in both.items()}
-        return maps | {f"{name}_dw": _rounded(both[name], n_z, n_z + 6) for name in ("dlambda", "du", "dq")}
+        maps |= {f"{name}_dw": _rounded(both[name], n_z, n_z + m) @ held.T for name in ("dlambda", "du", "dq")}
+        return maps | {name: held @ maps[name] for name in ("du_dzr", "du_dw")}
 
 
 def yields_everywhere(grasp: Grasp) -> bool:

@@ -84,6 +84,19 @@ def motion_at_centroid(grasp: Grasp, u: Array) -> Array:
     return np.hstack([u[:, :3] + np.cross(u[:, 3:], middle), length * u[:, 3:]])
 
 
+def held_motions(grasp: Grasp) -> Array:
+    """Return object motions (6, r) about B that contacts see, at right angles to those that none sees.
+
+    Right angles are those of motions of the centroid and of rotations times length.
+    """
+    length, _ = length_of(grasp)
+    scaled = motion_at_centroid(grasp, np.eye(6)).T
+    rows = np.array([length if component == "m" else 1.0 for _, component in grasp.components])
+    _, values, motions = np.linalg.svd((rows * grasp.G).T @ np.linalg.inv(scaled))
+    rank = int(np.sum(values > 1e-8 * values[0]))
+    return np.eye(6) if rank == 6 else np.linalg.solve(scaled, motions[:rank].T)
+
+
 def sizes_on(grasp: Grasp, axes: tuple[str, ...], u: Array) -> Array:
     """Return sizes (T,) of small motions (T, 6) on some axes about B, rotations times length [m]."""
     length, _ = length_of(grasp)

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from decimal_response import decimal_maps, yields_everywhere
-from elastic_grasp import length_of
+from elastic_grasp import held_motions, length_of
 from random_grasps import random_grasp
 
-from synergrip.errors import NotRestrainedError, RigidContactError
+from synergrip.errors import RigidContactError
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 from synergrip.statics import respond
@@ -76,7 +76,7 @@ class Judged:
     """What became of one grasp."""
 
     verdict: str
-    """"right", "inaccurate", "rigid" or "not restrained"."""
+    """"right", "inaccurate" or "rigid"."""
     wrong: list[str]
     error: float = 0.0
     """The largest of any map, relative to its largest entry."""
@@ -89,12 +89,10 @@ def judged(seed: int) -> Judged:
     grasp = stiff_grasp(seed)
     try:
         response = respond(grasp)
-    except NotRestrainedError:
-        return Judged("not restrained", [])
     except RigidContactError as error:
         return Judged("rigid", [f"refused although it yields: {error}"] * yields_everywhere(grasp))
     wrong = [] if yields_everywhere(grasp) else ["some direction is rigid"]
-    errors, maps = {}, decimal_maps(grasp)
+    errors, maps = {}, decimal_maps(grasp, held_motions(grasp))
     for name, true in maps.items():
         errors[name] = _error(grasp, name, getattr(response, name), true, _natural(grasp, maps))
         said = response.accuracy[name].error

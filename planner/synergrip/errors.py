@@ -152,12 +152,12 @@ class Refusal(SynergripError):
 
 
 class NotRestrainedError(Refusal):
-    """The contacts leave the object a motion that no contact force resists: null(G') is not 0."""
+    """The contacts leave the object a motion that they do not resist, and the task loads it or asks for it."""
 
     stage = "restraint"
 
     def __init__(self, message: str, free_twists: np.ndarray, unsupported: np.ndarray) -> None:
-        """Carry the free twists, shape (6, k), and the unsupported part of w_0, shape (6,)."""
+        """Carry the free twists, shape (6, k), and the part of the load on them, shape (6,): 0 when motion asks."""
         super().__init__(message)
         self.free_twists, self.unsupported = free_twists, unsupported
 

@@ -101,9 +101,10 @@ def test_the_document_holds_the_same_table(name: str) -> None:
 
 def test_a_table_says_why_it_has_no_numbers() -> None:
     words = " ".join(run("pinch-hard", "--table").stdout.split())
-    assert "hard the contacts do not restrain the object" in words
+    assert "hard the object may turn about the line through left and right; the dimensions are those of" in words
     assert "soft the matrices do not say how the contacts transmit moments about the normals" in words
-    assert document("pinch-hard", "--table", code=1)["table"] == [{"n_z": 1, "hard": None, "soft": None}]
+    hard = {"dim_E_s": 1, "dim_Gamma_ucs": 0, "dim_Gamma_zr": 0, "ambiguous": False}
+    assert document("pinch-hard", "--table", code=1)["table"] == [{"n_z": 1, "hard": hard, "soft": None}]
 
 
 def test_ambiguous_rows_are_marked() -> None:

@@ -17,6 +17,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.planning.formulated import formulated
 from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
@@ -70,7 +71,7 @@ class Asked(Value):
         try:
             timed = self.timed
             grasp = at_start(self.grasp, timed.wrench[0])
-            analysis = analyse(grasp, timed.wrench) if known is None else _of(known, grasp)
+            analysis = analyse(grasp, NO_LOAD) if known is None else _of(known, grasp)
             formulation = formulated(analysis, timed, redundancy=timed.watches_references)
         except SynergripError:
             return None

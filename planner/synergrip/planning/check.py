@@ -22,6 +22,7 @@ from synergrip.planning.stated import stated
 from synergrip.planning.verified import between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
+from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.marks import SAME_TIME, distinct
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
@@ -76,7 +77,7 @@ def judge_references(grasp: Grasp, task: TimedTask, references: References) -> J
     """
     task = task.on(grasp)
     times = _common_times(task, references)
-    analysis = analyse(grasp, task.wrench)
+    analysis = analyse(grasp, NO_LOAD)
     _refuse(analysis, task)
     judged = _judged(analysis, task, references, times)
     claims = _claims(judged, task, references)
@@ -111,7 +112,7 @@ def _claims(judged: Judgement, task: TimedTask, references: References) -> Claim
 
 def _judged(analysis: Analysis, task: TimedTask, references: References, times: Array) -> Judgement:
     """Judge references at some knots and between them; what the file claims is another matter."""
-    if analysis.grasp.held is not None:
+    if analysis.grasp.held is not None and analysis.response.restraint.rank == 6:
         return _judged_along(analysis, *_linear(analysis, task, references, times))
     return judged_at_start(analysis, task, references, times)
 

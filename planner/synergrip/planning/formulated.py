@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Formulation
+from synergrip.planning.free import refuse_use_of_free
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import refuse_control
 from synergrip.tasks.scaling import expected_units, units_of
@@ -20,9 +21,11 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
         redundancy: whether gamma is an unknown.
 
     Raises:
-        Refusal: the wanted motion, or what is to be controlled, is impossible by count or direction.
+        Refusal: load or wanted motion need what the contacts leave free, or the motion, or what is to be controlled, is
+            impossible by count or direction.
         InputError: modes are given that do not fit the grasp.
     """
+    refuse_use_of_free(analysis, task)
     if task.control is not None:
         refuse_control(analysis, task.control)
     follow = followed(analysis, task)

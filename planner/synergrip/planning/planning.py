@@ -19,6 +19,7 @@ from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answerer, answerer
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
@@ -59,8 +60,9 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
 
 def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:
     """Return the answer about the hand that moves, where there is one."""
-    if outcome.grasp.held is None:
-        return outcome
+    analysis = outcome.analysis
+    if outcome.grasp.held is None or (analysis is not None and analysis.response.restraint.rank < 6):
+        return outcome  # an object that is free to move has no stiffness there, and no true equilibrium to look for
     if isinstance(outcome, Plan):
         from synergrip.planning.walked import on_the_hand
 
@@ -78,12 +80,7 @@ def plan_of_start_posture(
     """Return what the linear model says, with contacts, G and J as they are at the start; arguments as of `plan`."""
     answers = answerer(solver, "solver")
     known, asked = _judged(grasp, task)
-    if isinstance(known, Analysis):
-        return _planned(known, asked, answers)
-    try:
-        analysis = analyse(known, asked.wrench)
-    except NotRestrainedError as refusal:
-        return _refused(known, asked, None, refusal)
+    analysis = known if isinstance(known, Analysis) else analyse(known, NO_LOAD)
     return _planned(analysis, asked, answers)
 
 
@@ -105,7 +102,7 @@ def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | An
 
 
 def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
-    """Plan a task on a grasp that can hold its object."""
+    """Plan a task on a grasp, as far as it can hold its object."""
     grasp = analysis.grasp
     LOG.info("planning on %d contacts with %d synergies: %r", grasp.n_c, grasp.n_z, task)
     LOG.info("%r", analysis)
@@ -130,11 +127,12 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
 
 def _again(grasp: Grasp, task: TimedTask) -> Outcome:
     """Plan a task on another grasp, which holds at the start what it says."""
-    return _planned(analyse(grasp, task.wrench), task, SOLVERS["clarabel"])
+    return _planned(analyse(grasp, NO_LOAD), task, SOLVERS["clarabel"])
 
 
-def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: Refusal) -> Infeasible:
-    certificate = refusal_certificate(grasp, task, analysis, refusal)
+def _refused(grasp: Grasp, task: TimedTask, analysis: Analysis, refusal: Refusal) -> Infeasible:
+    certificate = refusal_certificate(task, analysis, refusal)
     if not certificate.verified:
         raise SelfCheckError(f"the refusal does not verify ({refusal}); please report this problem")
-    return Infeasible(task, grasp, analysis, refusal.stage, str(refusal), refusal, certificate, None, (), None)
+    known = None if isinstance(refusal, NotRestrainedError) else analysis
+    return Infeasible(task, grasp, known, refusal.stage, str(refusal), refusal, certificate, None, (), None)

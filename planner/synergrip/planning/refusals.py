@@ -10,26 +10,29 @@ from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrain
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Scale, scale_of
 from synergrip.linalg import RANK_TOLERANCE, Array
+from synergrip.planning.free import needs_free
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import Control, ControlError, outside
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import RIGID_TOLERANCE, apart_by
 
 
-def refusal_certificate(grasp: Grasp, task: TimedTask, analysis: Analysis | None, refusal: Refusal) -> Certificate:
+def refusal_certificate(task: TimedTask, analysis: Analysis, refusal: Refusal) -> Certificate:
     """Return the verified proof behind a refusal; not verified when the numbers do not bear it out."""
+    grasp = analysis.grasp
     scale = scale_of(grasp)
     if isinstance(refusal, NotRestrainedError):
-        return _free(grasp, scale, refusal.free_twists)
+        needed = needs_free(analysis, task, refusal.free_twists)
+        return _free(grasp, scale, refusal.free_twists, needed=needed)
     if isinstance(refusal, MotionCountError):
         wish = scale.twist(task.target.values)
         size = float(np.linalg.norm(wish, axis=1).max(initial=0.0))
         counts = apart_by(wish, refusal.asked) > max(RIGID_TOLERANCE * size, task.tolerance)
         ratio = apart_by(wish, refusal.asked) / max(size, 1e-300)
         return Certificate("infeasible", bool(counts and refusal.asked > grasp.n_z), 0.0, 0.0, -ratio)
-    if isinstance(refusal, MotionDirectionError) and analysis is not None:
+    if isinstance(refusal, MotionDirectionError):
         return _outside(task, analysis, scale, refusal)
-    if isinstance(refusal, ControlError) and analysis is not None and task.control is not None:
+    if isinstance(refusal, ControlError) and task.control is not None:
         return _uncontrolled(task.control, analysis, refusal)
     return Certificate("none", False)
 
@@ -46,13 +49,14 @@ def _uncontrolled(control: Control, analysis: Analysis, refusal: ControlError) -
     return Certificate("infeasible", bool(adds_up and short), 0.0, 0.0, -1.0)
 
 
-def _free(grasp: Grasp, scale: Scale, twists: Array) -> Certificate:
-    """Verify that the twists move no contact although they move the object."""
+def _free(grasp: Grasp, scale: Scale, twists: Array, *, needed: bool) -> Certificate:
+    """Verify that the twists move no contact although they move the object, and that the task needs them held."""
     moved = grasp.G.T @ twists / scale.force[:, None]
     size = float(np.linalg.norm(grasp.G.T @ np.linalg.inv(scale.motion) / scale.force[:, None], 2))
     leak = float(np.abs(moved).max(initial=0.0)) / max(size, 1e-300)
     lengths = np.linalg.norm(scale.twist(twists.T), axis=1)
-    return Certificate("infeasible", bool(leak <= 10 * RANK_TOLERANCE and np.all(lengths > 0.5)), leak, 0.0, -1.0)
+    free = leak <= 10 * RANK_TOLERANCE and np.all(lengths > 0.5)
+    return Certificate("infeasible", bool(free and needed), leak, 0.0, -1.0)
 
 
 def _outside(task: TimedTask, analysis: Analysis, scale: Scale, refusal: MotionDirectionError) -> Certificate:

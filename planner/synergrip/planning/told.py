@@ -19,7 +19,7 @@ def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any
     """Return the counts and dimensions; the dimensions are null when the object is not restrained."""
     counts: dict[str, Any] = {"n_c": grasp.n_c, "n_l": grasp.n_l, "n_q": grasp.n_q, "n_z": grasp.n_z}
     if analysis is None:
-        unknown = ("dim_E_s", "dim_Gamma_ucs", "dim_Gamma_zr", "singular_values", "ambiguous")
+        unknown = ("dim_E_s", "dim_Gamma_ucs", "dim_Gamma_zr", "singular_values", "ambiguous", "free_twists")
         return counts | dict.fromkeys(unknown)
     forces, motions, redundant = analysis.spaces.dimensions
     decisions = analysis.spaces.decisions
@@ -28,6 +28,7 @@ def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any
         "singular_values": {name: decision.singular_values.tolist() for name, decision in decisions.items()},
         "ambiguous": analysis.spaces.ambiguous,
         "characteristic_length_m": analysis.response.scale.length,
+        "free_twists": analysis.response.free_twists.T.tolist(),
     }  # fmt: skip
 
 

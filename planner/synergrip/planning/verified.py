@@ -15,6 +15,7 @@ from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import Between, between
+from synergrip.planning.free import free_notes
 from synergrip.planning.let_go import ranges_left
 from synergrip.planning.outcome import Check, Plan
 from synergrip.planning.stages import Stage
@@ -62,9 +63,10 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     return Plan(
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*accuracy_notes(analysis.response), *stage.notes, *ranges_left(task, analysis.grasp, motion.dq),
-         *_far(analysis, motion), *passed_over(found), *frame_notes(analysis.grasp)), found,
-         interrupted=stage.interrupted,
+        (*free_notes(analysis), *accuracy_notes(analysis.response), *stage.notes,
+         *ranges_left(task, analysis.grasp, motion.dq), *_far(analysis, motion), *passed_over(found),
+         *frame_notes(analysis.grasp)), found,
+        interrupted=stage.interrupted,
     )  # fmt: skip
 
 

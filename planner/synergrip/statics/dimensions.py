@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.errors import NotRestrainedError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind
@@ -21,6 +20,7 @@ from synergrip.grasps.placing import moved_to
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen
 from synergrip.statics import respond, subspaces
+from synergrip.statics.restraint import told_as_free
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,8 @@ class DimensionColumn:
     """For the first 1, 2, ... n_z synergies; empty when there is a reason."""
     reason: str
     """Why there are none; else empty."""
+    free: str = ""
+    """What the object may do that such contacts do not resist, if anything; the dimensions are those of the rest."""
 
 
 def dimension_table(grasp: Grasp) -> tuple[DimensionColumn, DimensionColumn]:
@@ -63,11 +65,10 @@ def _column(whole: Grasp, kind: ContactKind) -> DimensionColumn:
     if grasp is None:
         lacking = "moments about the normals" if kind.name == "soft" else "forces across the normals"
         return DimensionColumn(kind.name, (), f"the matrices do not say how the contacts transmit {lacking}")
-    try:
-        rows = tuple(_dimensions(chosen(grasp, range(count))) for count in range(1, grasp.n_z + 1))
-    except NotRestrainedError as error:
-        return DimensionColumn(kind.name, (), str(error))
-    return DimensionColumn(kind.name, rows, "")
+    rows = tuple(_dimensions(chosen(grasp, range(count))) for count in range(1, grasp.n_z + 1))
+    response = respond(grasp)
+    free = told_as_free(grasp, response.scale, response.free_twists) if response.free.size else ""
+    return DimensionColumn(kind.name, rows, "", free)
 
 
 def with_kind(grasp: Grasp, kind: ContactKind) -> Grasp | None:

@@ -19,7 +19,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, Scale, scale_of
 from synergrip.grasps.stack import Matrices
 from synergrip.linalg import SINGULAR, Array, Decision, frozen
-from synergrip.statics.restraint import restraint
+from synergrip.statics.restraint import NONE, refuse_load, restraint, supported, twists_of, without_support
 from synergrip.statics.saddle import DOUBLED, FLOAT64, Answer, Arithmetic, about_centroid, answer
 from synergrip.statics.yielding import refuse_rigid_contacts
 from synergrip.values import ByName, Value
@@ -86,7 +86,11 @@ def shares(amounts: Array, figures: Array) -> Array:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Maps(Value):
-    """Linear maps of a restrained grasp, or of each of many (leading axes ...); SI units. Forces act on the object."""
+    """Linear maps of a grasp, or of each of many (leading axes ...); SI units. Forces act on the object.
+
+    Where contacts leave the object a free motion, they speak of loads that do not work on it, and of the rest of the
+    object's motion: along the free one it is taken as 0.
+    """
 
     dlambda_dzr: Array  # (..., n_l, n_z) (28)
     du_dzr: Array  # (..., 6, n_z) (27)
@@ -117,6 +121,16 @@ class Response(Maps):
     """Of every map, by its name."""
 
     @cached_property
+    def free(self) -> Array:
+        """(6, k) the motions of the object that no contact resists, orthonormal in scaled coordinates; k = 0 mostly."""
+        return NONE if self.restraint.rank == 6 else restraint(self.grasp, self.scale)[1]
+
+    @property
+    def free_twists(self) -> Array:
+        """(6, k) the same about B [m, rad], of length 1 in scaled coordinates."""
+        return twists_of(self.free, self.scale)
+
+    @cached_property
     def K(self) -> Array:
         """(n_l, n_l) total stiffness C^-1 [N/m]; for sizes: where compliances differ much it holds few digits."""
         grasp, JS = self.grasp, self.grasp.J @ self.grasp.S
@@ -132,11 +146,11 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
 
     Args:
         grasp: the grasp.
-        load: (T, 6) wrenches it is to hold, for a refusal to tell about (default: w_0).
+        load: (T, 6) wrenches it is to hold (default: w_0).
 
     Raises:
         InputError: no grasp, or no wrenches.
-        NotRestrainedError: the contacts leave the object a free motion.
+        NotRestrainedError: the contacts leave the object a free motion, and the load works on it.
         RigidContactError: some contact direction has no compliance at all.
 
     Example:
@@ -146,9 +160,11 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     expected("grasp", grasp, Grasp, "make_grasp(...)")
     held = np.atleast_2d(grasp.w_0) if load is None else wrenches("load", load)
     scale = scale_of(grasp)
-    decision = restraint(grasp, scale, held)
+    decision, free = restraint(grasp, scale)
+    refuse_load(grasp, scale, free, held)
     refuse_rigid_contacts(grasp, scale)
-    maps, known = _worked_out(Matrices.of(grasp), scale)
+    maps, known = _worked_out(*supported(Matrices.of(grasp), scale, free))
+    maps = without_support(maps, scale, free)
     accuracy = accuracies(known)
     return Response(**{name: frozen(each) for name, each in maps.items()},
                     grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip

@@ -1,45 +1,143 @@
-"""Is the object held at all? The assumption null(G') = 0 of Theorem 1, and the refusal when it fails."""
+"""Is the object held at all? The free twists of null(G'), and the refusal when a load works on one of them.
+
+Theorem 1 assumes null(G') = 0. Where the contacts leave the object a motion, everything is as it would be if that
+motion were held by a support without a force of its own: the support carries what part of the load works on the free
+motion, and where there is none it carries nothing and may be thought away. `supported` adds it, so that the formulas
+of a restrained grasp give forces on range(G) and motions on the complement of null(G') (docs/theory.md).
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from synergrip.errors import NotRestrainedError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.scale import Scale
-from synergrip.linalg import RANK_TOLERANCE, Array, Decision, canonical, decided, frozen, split
+from synergrip.grasps.scale import Metric, Scale
+from synergrip.grasps.stack import Matrices
+from synergrip.linalg import RANK_TOLERANCE, Array, Decision, canonical, decided, frozen
 from synergrip.statics.twists import describe_twist
 
+NO_LOAD = frozen(np.zeros(6))
+"""As the load of a grasp: it works on no motion, so that whatever is left free is no refusal yet."""
 
-def restraint(grasp: Grasp, scale: Scale, load: Array) -> Decision:
-    """Return the rank decision on G' (6 when restrained).
+
+NONE = frozen(np.zeros((6, 0)))
+"""No free motion."""
+
+
+def restraint(grasp: Grasp, scale: Scale) -> tuple[Decision, Array]:
+    """Return the rank decision on G', 6 when the object is restrained, and the free motions (6, k), k = 6 - rank."""
+    of_object = scale.scaled_grasp(grasp.G)
+    decision = decided(of_object).at(())
+    return decision, NONE if decision.rank == 6 else free_directions(of_object, 6 - decision.rank)
+
+
+def free_directions(of_object: Array, count: int) -> Array:
+    """Return (..., 6, count), the free motions of the object in scaled coordinates, orthonormal.
+
+    Args:
+        of_object: (..., n_l, 6) the G' that `Metric.scaled_grasp` makes.
+        count: how many there are, 6 less the rank.
+    """
+    if not count:
+        return np.zeros((*of_object.shape[:-2], 6, 0))
+    return canonical(np.linalg.svd(of_object)[2][..., 6 - count :, :].mT)
+
+
+def supported(matrices: Matrices, metric: Metric, free: Array) -> tuple[Matrices, Metric]:
+    """Return a grasp, or many (leading axes ...), with a support of every free motion as force components of its own.
+
+    The last components of its forces are those of the support. It yields as contacts do on the average, which is of
+    no account: without a load on it, it carries no force.
+
+    Args:
+        matrices: of the grasp.
+        metric: its scaled coordinates.
+        free: (..., 6, k) from `free_directions`; with k = 0 the grasp comes back as it is.
+    """
+    count = free.shape[-1]
+    if not count:
+        return matrices, metric
+    J, n_l = metric.scaled_rows(matrices.J), matrices.G.shape[-1]
+    JS = J @ matrices.S
+    C_s = metric.scaled_rows(matrices.C_s) / metric.force[..., None, :]
+    total = C_s + J @ matrices.C_q @ J.mT + JS @ matrices.C_z @ JS.mT
+    yields = np.trace(total, axis1=-2, axis2=-1)[..., None, None] / n_l
+    leading = matrices.G.shape[:-2]
+    beside = np.zeros((*leading, n_l, count))
+    C_s = np.concatenate([
+        np.concatenate([matrices.C_s, beside], axis=-1),
+        np.concatenate([beside.mT, yields * np.eye(count)], axis=-1),
+    ], axis=-2)  # fmt: skip
+    G = np.concatenate([matrices.G, metric.motion.mT @ free], axis=-1)
+    J = np.concatenate([matrices.J, np.zeros((*leading, count, matrices.J.shape[-1]))], axis=-2)
+    force = np.concatenate([metric.force, np.ones((*leading, count))], axis=-1)
+    return Matrices(G, J, matrices.S, C_s, matrices.C_q, matrices.C_z), Metric(metric.motion, force)
+
+
+def without_support(maps: dict[str, Array], scale: Scale, free: Array) -> dict[str, Array]:
+    """Return the maps of a grasp from those of the same with a support of its free motions (6, k).
+
+    What the support carries is taken out, and what it would let the object move.
+    """
+    if not (count := free.shape[1]):
+        return maps
+    kept = np.linalg.solve(scale.motion, np.eye(6) - free @ free.T) @ scale.motion
+    forces = {name: maps[name][:-count] for name in ("dlambda_dzr", "dlambda_dw")}
+    return maps | forces | {"du_dzr": kept @ maps["du_dzr"], "du_dw": kept @ maps["du_dw"] @ kept.T}
+
+
+def twists_of(free: Array, scale: Scale) -> Array:
+    """Return (6, k) the free motions in SI units about B, of length 1 in scaled coordinates."""
+    return frozen(np.linalg.solve(scale.motion, free))
+
+
+def refuse_load(grasp: Grasp, scale: Scale, free: Array, load: Array, when: Sequence[str] = ()) -> None:
+    """Refuse loads that work on a free motion, to the rank tolerance of the largest of them.
 
     Args:
         grasp: the grasp.
         scale: its scale.
-        load: (T, 6) wrenches that the grasp is to hold, for the refusal to tell about.
+        free: (6, k) from `free_directions`.
+        load: (T, 6) wrenches that the grasp is to hold [N, N m].
+        when: the words before "the load", for each of them; none when there is no telling.
 
     Raises:
-        NotRestrainedError: a motion of the object moves no contact; it carries the free twists and
-            the largest part of the load that no contact force can balance.
+        NotRestrainedError: with the free twists and the largest part of the load that no contact force can balance.
     """
-    decision = decided(scale.scaled_grasp(grasp.G)).at(())
-    if decision.rank == 6:
-        return decision
-    free = canonical(split(scale.scaled_grasp(grasp.G)).null_space)
-    twists = np.asarray(np.linalg.solve(scale.motion, free), dtype=np.float64)
-    parts = scale.wrench(load) @ free
-    worst = parts[int(np.argmax(np.linalg.norm(parts, axis=1)))]
-    counts = np.linalg.norm(worst) > RANK_TOLERANCE * float(np.linalg.norm(scale.wrench(load), axis=1).max())
-    unsupported = scale.motion.T @ free @ worst if counts else np.zeros(6)
-    raise NotRestrainedError(_message(grasp, scale, twists, unsupported), frozen(twists), frozen(unsupported))
+    if not free.size:
+        return
+    scaled = scale.wrench(load)
+    parts = scaled @ free
+    k = int(np.argmax(np.linalg.norm(parts, axis=1)))
+    if np.linalg.norm(parts[k]) <= RANK_TOLERANCE * float(np.linalg.norm(scaled, axis=1).max()):
+        return
+    unsupported = scale.motion.T @ free @ parts[k]
+    force = ", ".join(f"{x:.3g}" for x in np.round(unsupported, 12) + 0.0)
+    what = f"{when[k] if when else ''}the load has a part that no contact force can balance: ({force}) N, N m"
+    raise not_restrained(grasp, scale, free, what, unsupported)
 
 
-def _message(grasp: Grasp, scale: Scale, twists: Array, unsupported: Array) -> str:
+def not_restrained(grasp: Grasp, scale: Scale, free: Array, what: str, unsupported: Array) -> NotRestrainedError:
+    """Return the refusal: the free motions, and what of the task asks for one of them."""
+    twists, count = twists_of(free, scale), free.shape[1]
     described = "; ".join(describe_twist(twist, grasp.contacts, scale.length) for twist in twists.T)
-    count = twists.shape[1]
-    text = f"the contacts do not restrain the object: {count} free motion{'s' if count > 1 else ''} ({described})"
-    if np.any(unsupported):
-        force = ", ".join(f"{x:.3g}" for x in np.round(unsupported, 12) + 0.0)
-        text += f", and the load has a part that no contact force can balance: ({force}) N, N m"
-    return text + "; add a contact, or make one a soft finger"
+    text = (
+        f"the contacts do not restrain the object: {count} free motion{'s' if count > 1 else ''} ({described}), and "
+        f"{what}; add a contact, or make one a soft finger"
+    )
+    return NotRestrainedError(text, twists, frozen(unsupported))
+
+
+def told_as_free(grasp: Grasp, scale: Scale, twists: Array) -> str:
+    """Return what the object may do that no contact resists, such as "turn about the line through A and B"."""
+    described = (describe_twist(twist, grasp.contacts, scale.length) for twist in twists.T)
+    verbs = (("rotation about ", "turn about "), ("translation along ", "move along "))
+    said = []
+    for words in described:
+        for noun, verb in verbs:
+            words = verb + words.removeprefix(noun) if words.startswith(noun) else words
+        said.append(words)
+    return f"the object may {', and '.join(said)}"

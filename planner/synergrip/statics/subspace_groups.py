@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -13,6 +13,7 @@ from synergrip.documents.judging import expected, place_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Decisions, Places, frozen
 from synergrip.statics.responses import Responses
+from synergrip.statics.restraint import free_directions, supported
 from synergrip.statics.subspaces import (
     Bases,
     ContactMotions,
@@ -61,7 +62,8 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
 
     Returns:
         one group for each triple of dimensions that occurs, the largest dim E_s first, then the largest dim
-        Gamma_ucs; within a group the grasps keep their order.
+        Gamma_ucs; within a group the grasps keep their order. Grasps that leave the object free motions stand in
+        groups of their own, after those that leave fewer.
 
     Raises:
         InputError: no responses.
@@ -72,15 +74,22 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
         (3, 1, 0) [0 1] (2, 9, 3)
     """
     expected("responses", responses, Responses, "respond_many(grasps)")
+    groups: list[SubspaceGroup] = []
+    for rank, alike in _by_rank(responses.restraint.ranks):
+        groups += _alike(responses if isinstance(alike, slice) else responses.taken(alike), 6 - rank)
+    return tuple(groups)
+
+
+def _alike(responses: Responses, count: int) -> Iterator[SubspaceGroup]:
+    """Yield the groups of grasps each of which leaves its object so many free motions."""
     grasps = responses.grasps
-    moved = ContactMotions.of(grasps.matrices, grasps.metric, grasps.of_object)
-    groups = []
+    matrices, metric = supported(grasps.matrices, grasps.metric, free_directions(grasps.of_object, count))
+    moved = ContactMotions.of(matrices, metric, metric.scaled_grasp(matrices.G) if count else grasps.of_object)
     for rank, alike in _by_rank(moved.rigid.ranks):
         same, theirs = moved.taken(alike), responses.taken(alike)
         moving = same.moving(rank)
         for moves, within in _by_rank(moving.ranks):
-            groups.append(_group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves))
-    return tuple(groups)
+            yield _group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves)
 
 
 @naming_arguments

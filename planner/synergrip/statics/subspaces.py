@@ -30,6 +30,7 @@ from synergrip.linalg import (
     singular_values,
 )
 from synergrip.statics.response import Response
+from synergrip.statics.restraint import supported
 from synergrip.values import ByName, Value
 
 
@@ -96,8 +97,9 @@ def subspaces(response: Response) -> Subspaces:
         (3, 1, 0)
     """
     expected("response", response, Response, "respond(grasp)")
-    matrices, scale = Matrices.of(response.grasp), response.scale
-    moved = ContactMotions.of(matrices, scale, scale.scaled_grasp(matrices.G))
+    scale = response.scale
+    matrices, metric = supported(Matrices.of(response.grasp), scale, response.free)
+    moved = ContactMotions.of(matrices, metric, metric.scaled_grasp(matrices.G))
     rank, known = int(moved.rigid.ranks), response.accuracy["dlambda_dzr"]
     moving = moved.moving(rank)
     E_s, forces = controllable_forces(response.dlambda_dzr, np.array(known.unknown), moved, response.scale, rank)
@@ -129,7 +131,7 @@ class ContactMotions(Value):
     triangle: Array
     """(..., 6, 6) contact motion of object motions in that basis."""
     internal: Array
-    """(..., n_l, n_l - 6) orthonormal basis of the null space of G: internal forces."""
+    """(..., n_l, n_l - 6) orthonormal basis of the null space of G: internal forces; n_l counts supports, too."""
     sizes: Array
     """(...) The largest singular value of J S, or 0 where J S is nothing but rounding."""
     redundancy: Decisions
@@ -207,5 +209,6 @@ def controllable_forces(
     relative = np.where(counted[..., None] > 0, values / np.where(values[..., :1] > 0, values[..., :1], 1.0), 0.0)
     # grey values are no news here: they come with stiff contacts, and (34) has settled the rank
     decision = Decisions(counted, relative, counted != rank)
-    internal = moved.internal @ (moved.internal.mT @ internal)  # G E_s = 0 to the last digit
+    kept = moved.internal[..., : scaled.shape[-2], :]  # a support of free motions has no part in it
+    internal = kept @ (kept.mT @ internal)  # G E_s = 0 to the last digit
     return frozen(canonical(internal) / metric.force[..., None]), decision

@@ -7,6 +7,7 @@ from typing import Any
 from synergrip.errors import MotionCountError, MotionDirectionError, NotRestrainedError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.accuracy import accuracy_notes
+from synergrip.planning.free import free_dimensions
 from synergrip.planning.told import structure_document
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import ControlError
@@ -27,7 +28,7 @@ def analysis_document(analysis: Analysis) -> dict[str, Any]:
         "structure": structure_document(grasp, analysis),
         "maps": {name: getattr(response, name).tolist() for name in maps},
         "accuracy": {name: {"error": each.error, "sensitivity": each.sensitivity} for name, each in known.items()},
-        "notes": list(accuracy_notes(response)),
+        "notes": [*free_dimensions(analysis), *accuracy_notes(response)],
         "bases": {name: getattr(spaces, name).tolist() for name in bases},
         "theorem1": {"M": analysis.coordinates.M.tolist(), "condition": analysis.coordinates.condition},
         "grasp": {name: getattr(grasp, name).tolist() for name in ("G", "J", "S", "C_s", "C_q", "C_z", "w_0")},

@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.planning.accuracy import accuracy_notes
+from synergrip.planning.free import free_dimensions
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_problem import problem_lines
@@ -72,5 +73,5 @@ def _values(analysis: Analysis) -> Iterator[str]:
         yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
     length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
     yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"
-    for note in accuracy_notes(analysis.response):
+    for note in (*free_dimensions(analysis), *accuracy_notes(analysis.response)):
         yield from wrapped("note     ", note, WIDTH)

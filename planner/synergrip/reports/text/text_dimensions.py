@@ -32,6 +32,8 @@ def dimensions_text(columns: Sequence[DimensionColumn], synergies: Sequence[str]
     for column in columns:
         if column.reason:
             lines += wrapped(f"{column.kind}  ", column.reason)
+        if column.free:
+            lines += wrapped(f"{column.kind}  ", f"{column.free}; the dimensions are those of the rest of its motion")
     return "\n".join(lines)
 
 
