@@ -1,4 +1,4 @@
-"""Numbers of limits that could be others: what is made of the same number is the same, of one with more room loosened."""
+"""Numbers of limits that could be others: the same one changes nothing, and one with more room gives more room."""
 
 from __future__ import annotations
 
