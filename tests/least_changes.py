@@ -6,7 +6,7 @@ the unknowns; forces, torques and motions follow from `elastic_grasp.course`, wh
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -96,11 +96,12 @@ class LeastChanges:
         self.turn, self.wider = cp.Variable(), cp.Variable()
         self.y = z = cp.Variable((len(task.times), grasp.n_z))  # references in `unit`
         self.force_at = self.maps["force"].at(self.unit * z, 1.0)
-        self.asked = self._rows(z, lambda k: 1.0, 0.0)
-        by_turn = self._rows(z, lambda k: 1.0 + self.chosen[k] * self.turn, 0.0)
-        self.least = cp.Problem(cp.Minimize(self.turn), [*by_turn, self.turn >= 0, self.turn <= self.most])
-        by_room = self._rows(z, lambda k: self.factors[k], self.wider)
-        self.widening = cp.Problem(cp.Minimize(self.wider), [*by_room, self.wider >= -0.1])
+        self.asked = self._rows(z, np.ones(len(self.names)), 0.0)
+        by, times = cp.Variable(len(self.names)), cp.Variable(len(self.names))  # of both programs: the factors
+        rows = [*self._rows(z, by, 0.0), by == 1 + self.chosen * self.turn, self.turn >= 0, self.turn <= self.most]
+        self.least = cp.Problem(cp.Minimize(self.turn), rows)
+        rows = [*self._rows(z, times, self.wider), times == self.factors, self.wider >= -0.1]
+        self.widening = cp.Problem(cp.Minimize(self.wider), rows)
 
     def _numbers(self) -> list[str]:
         task = self.task
@@ -117,10 +118,10 @@ class LeastChanges:
                 found += [name for name, kind in BOUNDS.items() if isinstance(limit, kind)]
         return found
 
-    def _rows(self, y: Any, factor: Callable[[int], Any], wider: Any) -> list[Any]:
+    def _rows(self, y: Any, factor: Any, wider: Any) -> list[Any]:
         """Return everything that is asked, each number times its factor and wider by a share of it."""
         z = self.unit * y
-        task, grasp, known = self.task, self.grasp, {name: factor(k) for k, name in enumerate(self.names)}
+        task, grasp, known = self.task, self.grasp, {name: factor[k] for k, name in enumerate(self.names)}
         load = known.get("load", 1.0)
         force = self.maps["force"].at(z, load)
         rows: list[Any] = []
@@ -232,7 +233,8 @@ class LeastChanges:
         """Return the value, infinity where there is none, and no number where the solver gives up."""
         for tolerance in (1e-10, 1e-8):
             try:
-                program.solve(solver=cp.CLARABEL, tol_gap_abs=tolerance, tol_gap_rel=tolerance, tol_feas=tolerance)
+                with warnings.catch_warnings(action="ignore"):
+                    program.solve(solver=cp.CLARABEL, tol_gap_abs=tolerance, tol_gap_rel=tolerance, tol_feas=tolerance)
             except cp.SolverError:
                 continue
             if program.status == "optimal":

@@ -43,7 +43,7 @@ def altered(rng: np.random.Generator, number: str, hand: str | None = None) -> Q
         return None
     tight = HARD if number in DOWN else 1 / HARD
     factor = LeastChanges(*turned(*found, number, tight)).factor(number)
-    if not 0 < factor < np.inf or factor == 1:
+    if not 0 < factor < np.inf or abs(factor - 1) < 1e-6:
         return None
     beyond = 1 + 10 ** rng.uniform(-2.5, -0.3)
     return turned(*found, number, tight * factor * (beyond if number in DOWN else 1 / beyond))
@@ -52,6 +52,8 @@ def altered(rng: np.random.Generator, number: str, hand: str | None = None) -> Q
 def with_plan(rng: np.random.Generator, number: str, hand: str | None = None) -> Question | None:
     """Return a task whose limits leave some room around a plan; that of a number is among them."""
     grasp, task = _on_matrices(rng, number) if hand is None else _on_hand(rng, number, hand)
+    if len(task.times) < min(KNOTS.get(number, (1,))):
+        return None
     plan = some_plan(rng, grasp, task)
     if plan is None:
         return None
