@@ -220,7 +220,7 @@ def test_the_cones_of_a_patch_are_told_apart_by_name_and_side() -> None:
     grasp, task = on_a_table(patch, [0, 0, -2.0, 0, 2.0 * 0.0072, 0])
     found = plan(grasp, task)
     assert isinstance(found, Infeasible)
-    assert [(conflict.key, conflict.items) for conflict in found.conflicts] == [("limits.margin", ("C",))]
+    assert [(conflict.key, conflict.items) for conflict in found.conflicts] == [("friction cone", ("C",))]
     assert found.program is not None
     items = {item for block in found.program.blocks for item in block.items if block.limit == "limits.margin"}
     assert items == {Item("C", "slip"), Item("C", "tipping")}

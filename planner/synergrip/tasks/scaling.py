@@ -81,7 +81,7 @@ def _caps(analysis: Analysis, task: TimedTask) -> list[float]:
             found.append(float(np.min(limit.limit)) / length)
         elif isinstance(limit, SynergyReference):
             forces = np.abs(response.scale.force[:, None] * response.dlambda_dzr)
-            found.append(float((forces * np.where(np.isfinite(limit.limit), limit.limit, np.inf)).max(initial=0.0)))
+            found.append(float((forces * np.where(forces > 0, limit.limit, 0.0)).max(initial=0.0)))
     return [size for size in found if 0 < size < np.inf]
 
 
