@@ -222,7 +222,7 @@ def test_the_cones_of_a_patch_are_told_apart_by_name_and_side() -> None:
     assert isinstance(found, Infeasible)
     assert [(conflict.key, conflict.items) for conflict in found.conflicts] == [("friction cone", ("C",))]
     assert found.program is not None
-    items = {item for block in found.program.blocks for item in block.items if block.limit == "limits.margin"}
+    items = {item for block in found.program.blocks for item in block.items if block.limit == "friction cone"}
     assert items == {Item("C", "slip"), Item("C", "tipping")}
 
 
