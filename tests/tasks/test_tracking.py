@@ -116,9 +116,9 @@ def test_a_refused_direction_comes_with_a_verified_proof() -> None:
 
 @pytest.mark.parametrize("residual", [[0, 0, 0.003, 0, 0, 0], [0, 0.003, 0, 0, 0, 0]])
 def test_a_direction_that_the_synergies_reach_or_nobody_asks_for_proves_nothing(residual: list[float]) -> None:
-    problem, analysis = _tripod()
+    _, analysis = _tripod()
     refusal = MotionDirectionError("", frozen(residual), 0.0, 0.5, 0.003)
-    assert not refusal_certificate(problem.grasp, _task(SIDEWAYS), analysis, refusal).verified
+    assert not refusal_certificate(_task(SIDEWAYS), analysis, refusal).verified
 
 
 def _independent(count: int) -> np.ndarray:
@@ -137,7 +137,7 @@ def test_more_motions_than_synergies_are_refused_by_count() -> None:
     assert "asks for 5 independent object motions, the hand has n_z = 4" in str(refusal)
     scaled = scale_of(problem.grasp).twist(np.vstack([refusal.directions.T, wanted]))
     assert np.linalg.matrix_rank(scaled, tol=1e-9) == 5  # they span what was asked
-    assert refusal_certificate(problem.grasp, _task(wanted), analysis, refusal).verified
+    assert refusal_certificate(_task(wanted), analysis, refusal).verified
 
 
 def test_as_many_motions_as_synergies_are_not_refused_by_count() -> None:
@@ -147,11 +147,11 @@ def test_as_many_motions_as_synergies_are_not_refused_by_count() -> None:
 
 @pytest.mark.parametrize("asked", [4, 6])
 def test_a_count_that_does_not_hold_is_not_verified(asked: int) -> None:
-    problem, analysis = _tripod()
+    _, analysis = _tripod()
     refusal = MotionCountError("", asked, 4, frozen(np.zeros((6, asked))))
     wanted = _independent(5)
     task = _task(np.vstack([wanted, wanted]))
-    assert not refusal_certificate(problem.grasp, task, analysis, refusal).verified
+    assert not refusal_certificate(task, analysis, refusal).verified
 
 
 def test_a_refused_count_is_an_outcome_with_a_verified_proof() -> None:

@@ -73,7 +73,7 @@ class Walker:
         Args:
             linear: the motion that the plan promises.
         """
-        whole = self.on(self.executed(linear.dz_r, linear.forces, linear))
+        whole = self.on(self.executed(linear.dz_r, linear.forces, linear, fewer=True))
         if whole.interrupted or (whole.true and whole.behind <= self.allowed):
             return whole
         alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
@@ -162,7 +162,8 @@ class Walker:
         if stage is None:
             return answered, None
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
-        return answered, replace(self.executed(references, promised, best.executed), stage=stage, left_out=wait)
+        found = self.executed(references, promised, best.executed, fewer=True)
+        return answered, replace(found, stage=stage, left_out=wait)
 
     def _wait(self, best: Walk) -> bool:
         """Return whether goals after the first wait until promises are near what happens."""
@@ -182,15 +183,14 @@ class Walker:
             stage = replace(stage, notes=(*stage.notes, left))
         return answered, through(stage, () if wait else others, unasked_goals(self.task), self.solver)
 
-    def executed(self, references: Array, promised: Array | None, near: Motion | States | Execution) -> Walk:
+    def executed(
+        self, references: Array, promised: Array | None, near: Motion | States | Execution, *, fewer: bool = False
+    ) -> Walk:
         """Return references (T, n_z) executed, beside the contact forces (T, n_l) [N] that were promised.
 
-        Args:
-            references: at the knots of the task.
-            promised: forces; None when nothing was promised, which any pass then improves on.
-            near: states, a motion or an execution that are not far from what they do.
+        None stand for no promise; `near` is not far from what comes; `fewer` digits do where promises do not hold.
         """
-        wrong = partial(differs, promised)
+        wrong = partial(differs, promised) if fewer else None
         executed = self.executor.run(self.task.times, frozen(references), self.task.wrench, near, wrong)
         gap = gap_to(promised, executed.states.forces)
         if not executed.whole:
