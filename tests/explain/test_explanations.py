@@ -94,6 +94,12 @@ def test_a_motion_out_of_reach_says_which_tolerance_and_how_many_synergies_would
     assert found.when.alone
 
 
+def test_a_motion_out_of_reach_is_told_as_that_also_where_nothing_bounds_the_margin() -> None:
+    unbounded = ("limits={}", 'goal={maximise="margin"}', "task={move=[{axis='x',lift='1 mm'}],wrench=[0,0,-3,0,0,0]}")
+    found = refused("tripod", *unbounded).explanation
+    assert (found.cause, found.repairs) == ("direction", ())
+
+
 @pytest.mark.parametrize("name", ["tripod", "barrett-ball-lift"])
 def test_the_document_has_all_keys_and_is_json(name: str) -> None:
     answer = refused(name, *(['limits.normal_force="1 N"'] if name == "tripod" else []))

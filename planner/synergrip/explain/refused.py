@@ -9,11 +9,11 @@ from synergrip.errors import MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
-from synergrip.explain.repairs import ROOM, Repair, rounded
+from synergrip.explain.repairs import ROOM, Repair, outcome_of, rounded
 from synergrip.explain.when import When
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
-from synergrip.planning.planning import plan, plan_of_start_posture
+from synergrip.planning.planning import plan_of_start_posture
 from synergrip.tasks.control import ControlError
 from synergrip.tasks.tracking import target_displacement
 
@@ -67,8 +67,7 @@ def _by_tolerance(no: Infeasible | Unknown, asked: Asked, outside: float) -> lis
         "tolerance", "task.tolerance", no.task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size
     )
     value = rounded(least * (1 + ROOM), up=True)
-    turned = dial.turned(value)
-    outcome = plan(turned.grasp, turned.task)
+    outcome = outcome_of(dial.turned(value))
     if not isinstance(outcome, Plan):
         return []
     return [
