@@ -100,6 +100,12 @@ def test_a_motion_out_of_reach_is_told_as_that_also_where_nothing_bounds_the_mar
     assert (found.cause, found.repairs) == ("direction", ())
 
 
+def test_no_tolerance_is_tried_where_too_much_control_is_asked_for() -> None:
+    compliant = ('task={tracking="compliant",tolerance="1 mm",control={forces=9},wrench=[0,0,-2,0,0,0]}',)
+    found = refused("tripod", *compliant).explanation
+    assert (found.cause, found.repairs) == ("count", ())
+
+
 @pytest.mark.parametrize("name", ["tripod", "barrett-ball-lift"])
 def test_the_document_has_all_keys_and_is_json(name: str) -> None:
     answer = refused(name, *(['limits.normal_force="1 N"'] if name == "tripod" else []))

@@ -43,14 +43,19 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
 
 def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | None:
     """Return which synergies are missing for a motion."""
-    if not isinstance(no, Infeasible) or no.stage == "restraint" or isinstance(no.refusal, ControlError):
+    if not isinstance(no, Infeasible) or no.stage == "restraint" or _of_control(no):
         return None
     return missing_synergies(no, most=FEW, judge=plan_of_start_posture) if short else missing_synergies(no)
 
 
+def _of_control(no: Infeasible | Unknown) -> bool:
+    """Return whether it is `task.control` that is refused, which no tolerance helps."""
+    return isinstance(no, Infeasible) and isinstance(no.refusal, ControlError)
+
+
 def _outside(no: Infeasible | Unknown) -> Array | None:
     """Return how far (T,) the wish is outside the rigid motions of the hand [m]; None when it cannot be told."""
-    if no.analysis is None or no.stage not in ("direction", "count"):
+    if no.analysis is None or no.stage not in ("direction", "count") or _of_control(no):
         return None
     scale = no.analysis.response.scale
     wish = scale.twist(target_displacement(no.analysis, no.task, no.task.target.values))
