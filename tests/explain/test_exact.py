@@ -20,7 +20,16 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit
 from synergrip.explain import check_proof
 from synergrip.explain.bare_limits import plain_number, values_of
-from synergrip.explain.exact import OF_RANK, ExactProof, NoExactProof, exact_proof, marked, multipliers_of, rechecked
+from synergrip.explain.exact import (
+    OF_FREE,
+    OF_RANK,
+    ExactProof,
+    NoExactProof,
+    exact_proof,
+    marked,
+    multipliers_of,
+    rechecked,
+)
 from synergrip.explain.weighed_limits import Weighed, on_references, stated
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan, plan_of_start_posture
@@ -235,6 +244,14 @@ def test_a_no_of_rank_says_that_it_has_no_exact_proof(problem: str, stage: str) 
     assert isinstance(outcome, Infeasible)
     assert outcome.stage == stage
     assert exact_proof(outcome) == NoExactProof(OF_RANK)
+
+
+def test_an_object_that_stays_free_to_move_has_no_exact_proof() -> None:
+    asked = sg.load_problem("pinch-hard", ["task.wrench=[0,0,-2,0,0,0]", "limits.normal_force=1 N"])
+    outcome = plan(asked.grasp, asked.task)
+    assert isinstance(outcome, Infeasible)
+    assert outcome.stage == "magnitude"
+    assert exact_proof(outcome) == NoExactProof(OF_FREE)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ import pytest
 import synergrip as sg
 from synergrip.explain.compromise import compromise
 from synergrip.reports.data.json_no import no_document
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
 
 
 def refused(name: str, *overrides: str) -> sg.Infeasible:
@@ -91,6 +94,18 @@ def test_a_motion_out_of_reach_says_which_tolerance_and_how_many_synergies_would
     assert found.when.alone
 
 
+def test_a_motion_out_of_reach_is_told_as_that_also_where_nothing_bounds_the_margin() -> None:
+    unbounded = ("limits={}", 'goal={maximise="margin"}', "task={move=[{axis='x',lift='1 mm'}],wrench=[0,0,-3,0,0,0]}")
+    found = refused("tripod", *unbounded).explanation
+    assert (found.cause, found.repairs) == ("direction", ())
+
+
+def test_no_tolerance_is_tried_where_too_much_control_is_asked_for() -> None:
+    compliant = ('task={tracking="compliant",tolerance="1 mm",control={forces=9},wrench=[0,0,-2,0,0,0]}',)
+    found = refused("tripod", *compliant).explanation
+    assert (found.cause, found.repairs) == ("count", ())
+
+
 @pytest.mark.parametrize("name", ["tripod", "barrett-ball-lift"])
 def test_the_document_has_all_keys_and_is_json(name: str) -> None:
     answer = refused(name, *(['limits.normal_force="1 N"'] if name == "tripod" else []))
@@ -123,6 +138,34 @@ def test_an_interrupt_keeps_what_is_found() -> None:
     found = refused("tripod", 'limits.normal_force="1 N"').explain(heard=stop)
     assert found.interrupted
     assert [repair.cause for repair in found.repairs] == [heard[0].cause]
+
+
+@pytest.mark.parametrize("during", ["least_change", "when"])
+def test_an_interrupt_while_it_is_searched_keeps_what_was_said(during: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*args: object) -> None:
+        raise KeyboardInterrupt
+
+    answer = refused("tripod", 'limits.normal_force="1 N"')
+    monkeypatch.setattr(f"synergrip.explain.explained.{during}", stop)
+    found = answer.explain()
+    assert found.interrupted
+    assert found.conflicts
+    assert found.when.first_s is None
+    assert bool(found.repairs) == (during == "when")
+    assert json.dumps(no_document(found, answer.task.times), allow_nan=False)
+
+
+def test_a_name_with_a_backslash_can_be_typed_in(tmp_path: Path) -> None:
+    grasp = json.loads((PROBLEMS / "pinch-soft.json").read_text(encoding="utf-8"))
+    grasp["contacts"][1] |= {"name": "it's [a].b \\ ü", "friction": 0.05}
+    (tmp_path / "pinch-soft.json").write_text(json.dumps(grasp), encoding="utf-8")
+    (tmp_path / "odd.toml").write_text((PROBLEMS / "pinch-soft.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    odd = str(tmp_path / "odd.toml")
+    others = [each for each in refused(odd).explain().others if each.cause == "friction"]
+    assert others
+    for repair in others:
+        problem = sg.load_problem(odd, [repair.set])
+        assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
 
 
 def test_an_explanation_survives_a_pickle() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -85,7 +86,7 @@ class Extending(Value):
         except SynergripError:
             return ""
         added = further.columns[:, [further.names.index(name) for name in names]]
-        listed = ", ".join(f'"{name}"' for name in every)
+        listed = ", ".join(json.dumps(name, ensure_ascii=False) for name in every)
         return f"hand.synergies=[{listed}]" if np.array_equal(again, np.hstack([grasp.S, added])) else ""
 
 

@@ -43,6 +43,7 @@ CLAIM = (
 NEGLIGIBLE = (1e-2, 1e-4, 0.0)
 """Share of the largest multiplier up to which others are left out; if no proof comes of it, less."""
 OF_RANK = "no exact proof: this no is one of rank, and rank is a matter of tolerance"
+OF_FREE = "no exact proof: the contacts leave the object free to move, and which way is a matter of tolerance"
 
 
 @made_by("exact_proof(answer)")
@@ -110,6 +111,8 @@ def exact_proof(no: Infeasible) -> ExactProof | NoExactProof:
     posed = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed).posed(no.analysis)
     if posed is None:
         return NoExactProof("no exact proof: the start posture has no program")
+    if posed.analysis.response.free.size:  # the equations of the document have no single answer
+        return NoExactProof(OF_FREE)
     return _proven(posed)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
@@ -41,7 +42,11 @@ def explained(
     if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
         return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=not short)
     numbers = dials(asked, timed, posed.analysis.response.scale.length)
-    found = [least_change(dial, posed, program) for dial in numbers]
+    try:
+        found = [least_change(dial, posed, program) for dial in numbers]
+    except KeyboardInterrupt:  # what plan said is known all the same
+        cause, known = _blamed(no, (), [])
+        return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
     tried, interrupted = _as_found(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
     held = tuple(tried)
@@ -52,11 +57,15 @@ def explained(
         known,
         held,
         _in_vain(found),
-        when(posed, program),
+        NOT_KNOWN,
         not short,
         interrupted,
         posed=posed,
     )
+    try:
+        first = replace(first, when=when(posed, program))
+    except KeyboardInterrupt:
+        return replace(first, interrupted=True)
     return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
 
 

@@ -9,11 +9,11 @@ from synergrip.errors import MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
-from synergrip.explain.repairs import ROOM, Repair, rounded
+from synergrip.explain.repairs import ROOM, Repair, outcome_of, rounded
 from synergrip.explain.when import When
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
-from synergrip.planning.planning import plan, plan_of_start_posture
+from synergrip.planning.planning import plan_of_start_posture
 from synergrip.tasks.control import ControlError
 from synergrip.tasks.tracking import target_displacement
 
@@ -43,14 +43,19 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
 
 def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | None:
     """Return which synergies are missing for a motion."""
-    if not isinstance(no, Infeasible) or no.stage == "restraint" or isinstance(no.refusal, ControlError):
+    if not isinstance(no, Infeasible) or no.stage == "restraint" or _of_control(no):
         return None
     return missing_synergies(no, most=FEW, judge=plan_of_start_posture) if short else missing_synergies(no)
 
 
+def _of_control(no: Infeasible | Unknown) -> bool:
+    """Return whether it is `task.control` that is refused, which no tolerance helps."""
+    return isinstance(no, Infeasible) and isinstance(no.refusal, ControlError)
+
+
 def _outside(no: Infeasible | Unknown) -> Array | None:
     """Return how far (T,) the wish is outside the rigid motions of the hand [m]; None when it cannot be told."""
-    if no.analysis is None or no.stage not in ("direction", "count"):
+    if no.analysis is None or no.stage not in ("direction", "count") or _of_control(no):
         return None
     scale = no.analysis.response.scale
     wish = scale.twist(target_displacement(no.analysis, no.task, no.task.target.values))
@@ -67,8 +72,7 @@ def _by_tolerance(no: Infeasible | Unknown, asked: Asked, outside: float) -> lis
         "tolerance", "task.tolerance", no.task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size
     )
     value = rounded(least * (1 + ROOM), up=True)
-    turned = dial.turned(value)
-    outcome = plan(turned.grasp, turned.task)
+    outcome = outcome_of(dial.turned(value))
     if not isinstance(outcome, Plan):
         return []
     return [

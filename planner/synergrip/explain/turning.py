@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
@@ -147,7 +148,7 @@ def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:
 
 def _of_contact(name: str, factor: str) -> str:
     """Return a factor for one contact as TOML."""
-    return f'{{ "{name}" = {factor} }}'
+    return f"{{ {json.dumps(name, ensure_ascii=False)} = {factor} }}"
 
 
 def _friction(asked: Asked, names: tuple[str, ...], least: float, written: Callable[[str], str]) -> Dial[Asked]:
