@@ -184,7 +184,8 @@ def _proof(outcome: Infeasible) -> list[str]:
             wrong += [f"{block.limit} leaves its cone"] * bool(outside.max() > 1e-15 * np.abs(y).max())
     drop = float(program.b @ y + np.abs(program.A.T @ y) @ program.variable_bounds)
     wrong += [f"proves nothing: {drop:.1e}"] * (not drop < 0)
-    stated = {"friction cone", "limits.margin", "task.tolerance", "task.drift", *(limit.key for limit in outcome.task.limits)}
+    known = {"friction cone", "limits.margin", "task.tolerance", "task.drift"}
+    stated = {*known, *(limit.key for limit in outcome.task.limits)}
     return wrong + [f"{each.key} conflicts unstated" for each in outcome.conflicts if each.key not in stated]
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
-from synergrip.explain.asked import Asked
+from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.least_change import LeastChange, least_change, solved
-from synergrip.explain.long_form import completed
+from synergrip.explain.long_form import completed, tried_along
 from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.turning import dials
@@ -40,7 +40,7 @@ def explained(
         return refused(no, asked, short=short)
     program = posed.program()
     if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
-        return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=not short)
+        return _of_the_motion(no, asked, posed, short=short, heard=heard)
     numbers = dials(asked, timed, posed.analysis.response.scale.length)
     try:
         found = [least_change(dial, posed, program) for dial in numbers]
@@ -51,22 +51,24 @@ def explained(
     tried, interrupted = _as_found(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
     held = tuple(tried)
     cause, known = _blamed(no, held, helping)
-    first = Explanation(
-        cause,
-        _text(no, held, known),
-        known,
-        held,
-        _in_vain(found),
-        NOT_KNOWN,
-        not short,
-        interrupted,
-        posed=posed,
-    )
+    text = _text(no, held, known)
+    first = Explanation(cause, text, known, held, _in_vain(found), NOT_KNOWN, not short, interrupted, posed=posed)
     try:
         first = replace(first, when=when(posed, program))
     except KeyboardInterrupt:
         return replace(first, interrupted=True)
     return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
+
+
+def _of_the_motion(
+    no: Unknown, asked: Asked, posed: Posed, *, short: bool, heard: Callable[[Repair], None]
+) -> Explanation:
+    """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
+    cause = _cause(no, (), [])
+    numbers = () if short else dials(asked, no.task, posed.analysis.response.scale.length)
+    found, interrupted = _as_found(tried_along(numbers, heard))
+    others = tuple(sorted(found, key=lambda each: each.size))
+    return Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short, interrupted, others=others)
 
 
 def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:

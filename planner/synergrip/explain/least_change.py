@@ -79,7 +79,7 @@ def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array |
     unit = turn_unit(dial)
     sign = 1.0 if dial.eased == "up" else -1.0
     step = STEP if dial.eased == "up" else min(STEP, abs(dial.end - dial.value) / unit)
-    other = _posed_at(dial, dial.value + sign * step * unit, posed)
+    other = _posed_at(dial, dial.value + sign * step * unit, posed) if step > 0 else None
     if other is None:
         return None
     turned = other.program()

@@ -17,6 +17,8 @@ from synergrip.explain.repairs import Repair, outcome_of, ranked, repaired
 from synergrip.explain.turning import contact_dials, stiffness_dial
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 
+ALONG = (1.25, 2.0, 5.0, 20.0, 100.0)
+"""Factors that are tried of each number where only the hand that moves has no plan."""
 STIFFER = (2.0, 0.5, 5.0, 0.2)
 """Factors of stiffness that are tried; no claim is made of others."""
 
@@ -57,8 +59,27 @@ def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repai
         if repair.verified:
             yield repair
     dial = stiffness_dial(asked)
-    for value in STIFFER:
-        outcome = outcome_of(dial.turned(value))
+    yield from _first_with_a_plan(dial, STIFFER, heard)
+
+
+def tried_along(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
+    """Yield of each number the first of some values with which there is a plan along the motion.
+
+    Args:
+        numbers: that could be others.
+        heard: is told of each.
+    """
+    for dial in numbers:
+        factors = ALONG if dial.eased == "up" else [1 / factor for factor in ALONG]
+        low, high = sorted((dial.value, dial.end))
+        values = [value for value in (dial.value * factor for factor in factors) if low <= value <= high]
+        yield from _first_with_a_plan(dial, values, heard)
+
+
+def _first_with_a_plan(dial: Dial[Asked], values: Sequence[float], heard: Callable[[Repair], None]) -> Iterator[Repair]:
+    """Yield the first of some values with which there is a plan."""
+    for value in values:
+        outcome = outcome_of(dial.turned(value)) if value != dial.value else None
         if isinstance(outcome, Plan):
             found = Repair(
                 dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), True, dial.size(value), False,

@@ -61,6 +61,9 @@ def _repairs(found: Explanation) -> Iterator[str]:
     if found.pairs:
         yield from ("", "No single change helps; pairs that do")
         yield _changes(found.pairs)
+    if found.whole and not found.pairs and not any(each.verified for each in (*found.repairs, *found.others)):
+        pair = "" if found.posed is None else ", nor any pair of changes"
+        yield from wrapped("Help     ", f"no single change that was tried gives a plan{pair}")
     if found.clashing is not None:
         yield from wrapped("Clash    ", _clash(found.clashing))
     if found.cannot_help:
@@ -98,7 +101,7 @@ def _clash(keys: Sequence[str]) -> str:
     if not keys:
         return "load, motion and friction leave no plan by themselves, whatever the limits"
     if len(keys) == 1:
-        return f"{keys[0]} with load, motion and friction: without it these have a plan, or are not proven to have none"
+        return f"{keys[0]} with load, motion and friction: without any limits these are not proven to have no plan"
     return f"{', '.join(keys[:-1])} and {keys[-1]} cannot hold together; none of them can be left out of the proof"
 
 
