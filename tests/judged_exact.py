@@ -27,9 +27,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 from random_formulations import LIMITS
 from random_tasks import random_task_on_grasp
 
-import synergrip.explain.check_proof as checker
+import synergrip.explain.exact.check_proof as checker
 from synergrip.errors import SynergripError
-from synergrip.explain.exact import ExactProof, exact_proof, marked
+from synergrip.explain.exact.exact_proof import ExactProof, exact_proof, marked
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 

@@ -18,7 +18,7 @@ import numpy as np
 from random_grasps import random_grasp
 
 from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
+from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import chosen
 from synergrip.hands.hand import SynergySet

@@ -94,13 +94,13 @@ from synergrip.planning.outcome import Unknown as Unknown
 from synergrip.explain.explanation import Explanation as Explanation
 from synergrip.explain.repairs import Repair as Repair
 from synergrip.explain.when import When as When
-from synergrip.explain.exact import exact_proof as exact_proof
-from synergrip.explain.exact import ExactProof as ExactProof
-from synergrip.explain.exact import NoExactProof as NoExactProof
-from synergrip.explain.missing_synergies import missing_synergies as missing_synergies
-from synergrip.explain.missing_synergies import MissingSynergies as MissingSynergies
-from synergrip.explain.synergies_needed import synergies_needed as synergies_needed
-from synergrip.explain.synergies_needed import SynergiesNeeded as SynergiesNeeded
+from synergrip.explain.exact.exact_proof import exact_proof as exact_proof
+from synergrip.explain.exact.exact_proof import ExactProof as ExactProof
+from synergrip.explain.exact.exact_proof import NoExactProof as NoExactProof
+from synergrip.explain.synergies.missing_synergies import missing_synergies as missing_synergies
+from synergrip.explain.synergies.missing_synergies import MissingSynergies as MissingSynergies
+from synergrip.explain.synergies.synergies_needed import synergies_needed as synergies_needed
+from synergrip.explain.synergies.synergies_needed import SynergiesNeeded as SynergiesNeeded
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import command_line
 from command_line import run
 
-from synergrip.explain import check_proof
+from synergrip.explain.exact import check_proof
 
 document = partial(command_line.document, "plan")
 TIGHT = ("pinch-soft", "--set", "limits.margin=50 N", "--exact")

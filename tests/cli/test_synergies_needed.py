@@ -11,8 +11,8 @@ import command_line
 import numpy as np
 import pytest
 
-from synergrip.explain import best_subsets
-from synergrip.explain.subset_values import Tried
+from synergrip.explain.synergies import best_subsets
+from synergrip.explain.synergies.subset_values import Tried
 from synergrip.reports.pictures import needed_curve
 
 run = partial(command_line.run, "synergies", "needed")

@@ -18,9 +18,9 @@ from small_grasps import pinch
 import synergrip as sg
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit
-from synergrip.explain import check_proof
-from synergrip.explain.bare_limits import plain_number, values_of
-from synergrip.explain.exact import (
+from synergrip.explain.exact import check_proof
+from synergrip.explain.exact.bare_limits import plain_number, values_of
+from synergrip.explain.exact.exact_proof import (
     OF_FREE,
     OF_RANK,
     ExactProof,
@@ -30,7 +30,7 @@ from synergrip.explain.exact import (
     multipliers_of,
     rechecked,
 )
-from synergrip.explain.weighed_limits import Weighed, on_references, stated
+from synergrip.explain.exact.weighed_limits import Weighed, on_references, stated
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.tasks.timed_task import TimedTask, still

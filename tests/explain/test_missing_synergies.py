@@ -15,7 +15,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.errors import InputError
-from synergrip.explain.missing_synergies import missing_synergies
+from synergrip.explain.synergies.missing_synergies import missing_synergies
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import chosen, extended
 from synergrip.linalg import Array, frozen

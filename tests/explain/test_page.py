@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from synergrip import load_problem
-from synergrip.explain.needed_points import Pointed
-from synergrip.explain.subset_values import Looking
+from synergrip.explain.synergies.needed_points import Pointed
+from synergrip.explain.synergies.subset_values import Looking
 from synergrip.grasps.other_synergies import of_whole_set
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.text_needed import HEADER, cells

@@ -15,8 +15,8 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.errors import InputError
-from synergrip.explain.needed_points import Pointed
-from synergrip.explain.synergies_needed import synergies_needed
+from synergrip.explain.synergies.needed_points import Pointed
+from synergrip.explain.synergies.synergies_needed import synergies_needed
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import chosen, of_whole_set
 from synergrip.planning.outcome import Infeasible, Plan

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 def proven(outcome: Outcome, document: dict[str, Any]) -> tuple[str, dict[str, Any] | None]:
     """Return the line that an exact proof adds to the answer's text, and the proof; put its sum into the document."""
-    from synergrip.explain.exact import ExactProof, exact_proof
+    from synergrip.explain.exact.exact_proof import ExactProof, exact_proof
     from synergrip.planning.outcome import Infeasible
 
     if not isinstance(outcome, Infeasible):

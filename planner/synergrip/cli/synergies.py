@@ -178,7 +178,7 @@ def needed(
     """Find the fewest synergies for a task: margin, effort, peak force and tracking error over their number."""
     with answering(form):
         from synergrip.errors import SynergripError
-        from synergrip.explain.synergies_needed import synergies_needed
+        from synergrip.explain.synergies.synergies_needed import synergies_needed
         from synergrip.files import refuse_unwritable
         from synergrip.problems.problem import load_problem, located
         from synergrip.reports.data.needed_files import needed_document, write_needed

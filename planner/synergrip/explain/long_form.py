@@ -11,9 +11,9 @@ from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.clashing import clashing
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.least_change import least_change
-from synergrip.explain.missing_synergies import missing_synergies
 from synergrip.explain.pairs import pairs
 from synergrip.explain.repairs import Repair, outcome_of, ranked, repaired
+from synergrip.explain.synergies.missing_synergies import missing_synergies
 from synergrip.explain.turning import contact_dials, stiffness_dial
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 

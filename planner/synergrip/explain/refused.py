@@ -8,8 +8,8 @@ from synergrip.conic.limits.dial import Dial
 from synergrip.errors import MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
-from synergrip.explain.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.explain.repairs import ROOM, Repair, outcome_of, rounded
+from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.explain.when import When
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Plan, Unknown

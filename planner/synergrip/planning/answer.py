@@ -18,8 +18,8 @@ from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.explain.explanation import Explanation
-    from synergrip.explain.missing_synergies import MissingSynergies
     from synergrip.explain.repairs import Repair
+    from synergrip.explain.synergies.missing_synergies import MissingSynergies
     from synergrip.explain.when import When
     from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
     from synergrip.planning.provenance import Asked

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.explain.missing_synergies import MissingSynergies
+from synergrip.explain.synergies.missing_synergies import MissingSynergies
 
 
 def missing_document(missing: MissingSynergies) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from synergrip.explain.needed_points import NeededPoint
-from synergrip.explain.synergies_needed import SynergiesNeeded
+from synergrip.explain.synergies.needed_points import NeededPoint
+from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
 from synergrip.files import atomic_path
 
 COLUMNS = (

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.explain.needed_points import NeededPoint
-from synergrip.explain.subset_values import GOALS
-from synergrip.explain.synergies_needed import SynergiesNeeded
+from synergrip.explain.synergies.needed_points import NeededPoint
+from synergrip.explain.synergies.subset_values import GOALS
+from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
 from synergrip.linalg import Array
 from synergrip.reports.pictures.layout import MARGIN
 from synergrip.reports.pictures.page import SPACE, Heading

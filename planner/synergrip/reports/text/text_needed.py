@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from synergrip.explain.needed_points import NeededPoint
-from synergrip.explain.subset_values import GOALS
-from synergrip.explain.synergies_needed import SynergiesNeeded
+from synergrip.explain.synergies.needed_points import NeededPoint
+from synergrip.explain.synergies.subset_values import GOALS
+from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_problem import problem_lines

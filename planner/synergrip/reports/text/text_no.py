@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from shlex import quote
 
 from synergrip.explain.explanation import Explanation
-from synergrip.explain.missing_synergies import MissingSynergies
 from synergrip.explain.repairs import Repair
+from synergrip.explain.synergies.missing_synergies import MissingSynergies
 from synergrip.explain.words import values
 from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped

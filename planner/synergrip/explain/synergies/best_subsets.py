@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 from math import comb
 
-from synergrip.explain.subset_values import Looking, Tried
+from synergrip.explain.synergies.subset_values import Looking, Tried
 from synergrip.values import Value
 
 Told = Callable[[int, int, int], None]

@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit
-from synergrip.explain.bare_limits import (
+from synergrip.explain.exact.bare_limits import (
     BareFormulation,
     Cone,
     cones_of,

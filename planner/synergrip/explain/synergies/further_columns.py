@@ -10,7 +10,7 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.explain.lacking import Lack
+from synergrip.explain.synergies.lacking import Lack
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.hand import SynergySet
 from synergrip.hands.synergies.matrix import JOINTS

@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.conic.goals.least_motion import LeastMotion
-from synergrip.explain.candidates import Extending
-from synergrip.explain.further_columns import Further, Subset
-from synergrip.explain.lacking import Lack
+from synergrip.explain.synergies.candidates import Extending
+from synergrip.explain.synergies.further_columns import Further, Subset
+from synergrip.explain.synergies.lacking import Lack
 from synergrip.linalg import Array, canonical, frozen
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture

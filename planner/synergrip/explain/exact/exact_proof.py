@@ -25,9 +25,9 @@ from synergrip.conic.variable_bounds import farthest
 from synergrip.documents.judging import expected
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.bare_limits import Cone
-from synergrip.explain.check_proof import checked
-from synergrip.explain.weighed_limits import Weighed, stated, tracked, weighed
+from synergrip.explain.exact.bare_limits import Cone
+from synergrip.explain.exact.check_proof import checked
+from synergrip.explain.exact.weighed_limits import Weighed, stated, tracked, weighed
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible
 from synergrip.planning.solvers import SOLVERS, ask

@@ -12,7 +12,7 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.errors import InputError, MotionDirectionError
-from synergrip.explain.subset_values import effort_of
+from synergrip.explain.synergies.subset_values import effort_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import chosen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan

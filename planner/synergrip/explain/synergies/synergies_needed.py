@@ -10,9 +10,9 @@ import numpy as np
 from synergrip.documents.judging import Arguments, described, is_whole, is_word
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, one_of
-from synergrip.explain.best_subsets import Best, Search, Told
-from synergrip.explain.needed_points import NeededPoint, Pointed
-from synergrip.explain.subset_values import GOALS, Looking
+from synergrip.explain.synergies.best_subsets import Best, Search, Told
+from synergrip.explain.synergies.needed_points import NeededPoint, Pointed
+from synergrip.explain.synergies.subset_values import GOALS, Looking
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import of_whole_set
 from synergrip.statics.analysis import analyse

@@ -9,10 +9,10 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by, naming_arguments
-from synergrip.explain.candidates import Candidate, Extending, Judge, judged
-from synergrip.explain.further_columns import Further, Subset, further_columns, repairing
-from synergrip.explain.lacking import Lacking, lacking
-from synergrip.explain.lacking_forces import columns_of, helping, plan_of_all_joints
+from synergrip.explain.synergies.candidates import Candidate, Extending, Judge, judged
+from synergrip.explain.synergies.further_columns import Further, Subset, further_columns, repairing
+from synergrip.explain.synergies.lacking import Lacking, lacking
+from synergrip.explain.synergies.lacking_forces import columns_of, helping, plan_of_all_joints
 from synergrip.hands.hand import SynergySet
 from synergrip.linalg import Array, canonical, frozen
 from synergrip.planning.outcome import Infeasible

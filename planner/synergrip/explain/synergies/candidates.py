@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.errors import SynergripError
-from synergrip.explain.further_columns import Further, Subset
+from synergrip.explain.synergies.further_columns import Further, Subset
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.other_synergies import extended
 from synergrip.hands.synergies.select import select

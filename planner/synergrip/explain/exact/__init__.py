@@ -1,0 +1,1 @@
+"""A no proven again in fractions."""
