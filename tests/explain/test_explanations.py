@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import synergrip as sg
+import synergrip.explain.refused as refusing
 from synergrip.explain.compromise import compromise
 from synergrip.reports.data.json_no import no_document
 
@@ -173,3 +174,13 @@ def test_an_explanation_survives_a_pickle() -> None:
     assert answer.explanation.cause == "force_cap"
     again = pickle.loads(pickle.dumps(answer))
     assert again.explanation.cause == "force_cap"
+
+
+def test_an_interrupt_of_a_refusal_keeps_what_plan_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(refusing, "missing_synergies", stop)
+    answer = refused("barrett-ball-lift", 'task.linearise="once"')
+    assert answer.explanation.interrupted
+    assert answer.explanation.cause == "direction"

@@ -92,6 +92,7 @@ def plan(
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
                 outcome = found_by(make, loaded, answers)
+                _explained(outcome)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
                 told, proof = proven(outcome, document) if exact else ("", None)
@@ -105,6 +106,15 @@ def plan(
                 document["picture"], drawn = str(picture), f"\nwrote {picture}"
         show(form, text, lambda: document)
     raise typer.Exit(outcome.exit_code)
+
+
+def _explained(outcome: Outcome) -> None:
+    """Work out why there is no plan, which an interrupt ends with what is found by then."""
+    from synergrip.planning.outcome import Plan
+
+    if not isinstance(outcome, Plan):
+        with heard():
+            _ = outcome.explanation
 
 
 def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:

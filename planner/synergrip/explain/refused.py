@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from synergrip.conic.limits.dial import Dial
@@ -29,16 +31,20 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
         asked: what was asked.
         short: whether a short form is enough.
     """
-    cause = STAGES[no.stage]
+    cause = STAGES.get(no.stage, "limit")
     outside = _outside(no)
     late = outside > no.task.tolerance if outside is not None else np.zeros(len(no.task.times), dtype=bool)
     times = no.task.times
     edges = np.flatnonzero(np.diff(np.concatenate([[False], late, [False]]).astype(int)))
     stretches = tuple((float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True))
     first = stretches[0][0] if stretches else (float(times[0]) if cause == "restraint" else None)
-    repairs = () if outside is None else tuple(_by_tolerance(no, asked, float(outside.max())))
-    late_at = When(first, stretches, alone=True)
-    return Explanation(cause, no.why, (), repairs, (), late_at, not short, missing_synergies=_missing(no, short=short))
+    known = Explanation(cause, no.why, (), (), (), When(first, stretches, alone=True), not short)
+    try:
+        if outside is not None:
+            known = replace(known, repairs=tuple(_by_tolerance(no, asked, float(outside.max()))))
+        return replace(known, missing_synergies=_missing(no, short=short))
+    except KeyboardInterrupt:  # what plan said is known all the same
+        return replace(known, interrupted=True)
 
 
 def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | None:
