@@ -35,9 +35,9 @@ def relaxed(program: Program) -> Program:
     Its last unknown is t, its last row ``1 + t >= 0``; the others are those of the program.
     """
     n = len(program.q)
-    heads = sparse.csc_matrix(-_heads(program)[:, None])
+    wider = sparse.csc_matrix(-heads(program)[:, None])
     last = sparse.csc_matrix(([-1.0], ([0], [n])), shape=(1, n + 1))
-    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, heads]), last]))
+    A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A, wider]), last]))
     return replace(
         program, P=sparse.csc_matrix((n + 1, n + 1)), q=frozen(np.eye(n + 1)[n]), A=A,
         b=frozen(np.append(program.b, 1.0)), constant=0.0,
@@ -46,13 +46,13 @@ def relaxed(program: Program) -> Program:
     )  # fmt: skip
 
 
-def _heads(program: Program) -> Array:
+def heads(program: Program) -> Array:
     """Return (m,) 1 at the first row of every cone, 0 elsewhere; equalities have none."""
-    heads = np.zeros(len(program.b))
+    found = np.zeros(len(program.b))
     for block, rows in program.slices():
         if block.kind is not Kind.ZERO:
-            heads[rows][:: block.dim] = 1.0
-    return heads
+            found[rows][:: block.dim] = 1.0
+    return found
 
 
 def polished(program: Program, ray: Array) -> Array:
@@ -90,3 +90,8 @@ def proven(found: Solution, program: Program, solver: Solver, settings: Settings
     best = proof(program, (multipliers, found.z))
     ray = multipliers if best.y is None or not best.verified else best.y
     return replace(found, z=frozen(ray), iterations=iterations, seconds=seconds)
+
+
+def proving(solve: Solver) -> Solver:
+    """Return a solver as one whose claims of infeasibility come with a ray that proves them, where there is one."""
+    return lambda program, settings: proven(solve(program, settings), program, solve, settings)

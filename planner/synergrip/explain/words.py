@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from synergrip.conic.conflicts import Conflict
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.explain.repairs import Repair
 from synergrip.planning.outcome import Infeasible
@@ -53,8 +52,3 @@ def values(repair: Repair) -> tuple[str, str]:
 def _digits(value: float, short: str) -> str:
     """Return a value in as many digits as it holds with; what is printed can be typed in."""
     return f"{value:.5g}" if float(short) != value else short
-
-
-def named(conflict: Conflict) -> str:
-    """Return a limit with the items that carry most of it."""
-    return f"{conflict.key} ({', '.join(conflict.items)})"

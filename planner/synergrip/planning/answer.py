@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 FORMATS = ("json", "npz", "csv")
 """How an answer is written when nothing else is said; of an answer without a plan there is only the first."""
-
-
 LONG = 200
 """Characters of a reason that are shown."""
 

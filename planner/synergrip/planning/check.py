@@ -104,15 +104,14 @@ def _claims(judged: Judgement, task: TimedTask, references: References) -> Claim
     chosen = np.ones(len(task.times), dtype=bool) if whole else _inside(references.times, task)
     own = references.times[chosen]
     alone = judged if np.array_equal(own, judged.motion.times) else _judged(analysis, task, references, own)
-    verdict = alone.verdict
-    expected = stated(alone, references.claimed, verdict, task.times)
+    expected = stated(alone, references.claimed, alone.verdict, task.times)
     sizes = sizes_of(analysis, alone.motion, alone.usages, alone.between)
     return compared(references.inside(chosen), expected, sizes, references.unchanged)
 
 
 def _judged(analysis: Analysis, task: TimedTask, references: References, times: Array) -> Judgement:
     """Judge references at some knots and between them; what the file claims is another matter."""
-    if analysis.grasp.held is not None and analysis.response.restraint.rank == 6:
+    if analysis.grasp.held is not None and analysis.response.restrained:
         return _judged_along(analysis, *_linear(analysis, task, references, times))
     return judged_at_start(analysis, task, references, times)
 

@@ -24,7 +24,7 @@ def refuse_use_of_free(analysis: Analysis, task: TimedTask) -> None:
         NotRestrainedError: says which load, or which part of the wanted motion, at which time.
     """
     response = analysis.response
-    if response.restraint.rank == 6:
+    if response.restrained:
         return
     looks = _instants(analysis, task)
     when = ("at the start, where it is w_0, ", *(f"at t = {time:.3g} s " for time in looks.times))
@@ -47,15 +47,9 @@ def _largest(rows: Array) -> float:
     return float(np.linalg.norm(rows, axis=1).max())
 
 
-def left_free(analysis: Analysis) -> str:
-    """Return what the object may do that no contact resists; nothing where it is restrained."""
-    response = analysis.response
-    return told_as_free(analysis.grasp, response.scale, response.free_twists) if response.free.size else ""
-
-
 def free_notes(analysis: Analysis) -> Iterator[str]:
     """Yield what the object may do that no contact resists, and what that leaves open in a plan."""
-    if not (said := left_free(analysis)):
+    if not (said := _said(analysis)):
         return
     yield (
         f"{said}; no load works against it and no motion asks for it. Where it goes on that way nothing "
@@ -70,11 +64,15 @@ def free_notes(analysis: Analysis) -> Iterator[str]:
 
 def free_dimensions(analysis: Analysis) -> Iterator[str]:
     """Yield what the dimensions of an analysis are those of, where the object is free to move."""
-    if said := left_free(analysis):
+    if said := _said(analysis):
         yield (
             f"{said}; no contact resists it. Forces are those on the range of G, and motions and dimensions those at "
             "right angles to it: a task that neither loads it nor asks for it is planned with these"
         )
+
+
+def _said(analysis: Analysis) -> str:
+    return told_as_free(analysis.grasp, analysis.response.scale, analysis.response.free_twists)
 
 
 def _instants(analysis: Analysis, task: TimedTask) -> Looks:

@@ -77,9 +77,7 @@ class Pace:
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
         shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))
-        way = (
-            self.way * SHORTER_WAY if self.tries else self.way
-        )  # a shorter step did not do: it is the way that is long
+        way = self.way * (SHORTER_WAY if self.tries else 1.0)  # where a shorter step did not do, the way is long
         return replace(again, step=self.step * shorter, way=way)
 
 

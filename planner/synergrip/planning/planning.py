@@ -61,7 +61,7 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
 def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:
     """Return the answer about the hand that moves, where there is one."""
     analysis = outcome.analysis
-    if outcome.grasp.held is None or (analysis is not None and analysis.response.restraint.rank < 6):
+    if outcome.grasp.held is None or not (analysis is None or analysis.response.restrained):
         return outcome  # an object that is free to move has no stiffness there, and no true equilibrium to look for
     if isinstance(outcome, Plan):
         from synergrip.planning.walked import on_the_hand
@@ -96,9 +96,7 @@ def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | An
     begins = at_start(whole, timed.wrench[0])
     if begins is whole:
         return grasp, timed
-    if isinstance(grasp, Analysis):  # of w_0 nothing in it depends but what it remembers of the grasp
-        return replace(grasp, grasp=begins, response=replace(grasp.response, grasp=begins)), timed
-    return begins, timed
+    return grasp.begun(begins) if isinstance(grasp, Analysis) else begins, timed
 
 
 def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:

@@ -15,7 +15,7 @@ from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
-from synergrip.conic.relaxed import proven
+from synergrip.conic.relaxed import proving
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.documents.judging import described
@@ -29,7 +29,8 @@ Answerer = Callable[[Question, Program, Settings], Solution]
 
 def directly(solve: Callable[[Program, Settings], Solution]) -> Answerer:
     """Return a file of `conic/solvers` as who answers: what it cannot refute is proven by the relaxed program."""
-    return lambda question, program, settings: proven(solve(program, settings), program, solve, settings)
+    proves = proving(solve)
+    return lambda question, program, settings: proves(program, settings)
 
 
 def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution:

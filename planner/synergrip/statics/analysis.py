@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.grasps.grasp import Grasp
@@ -26,6 +26,10 @@ class Analysis(Value):
     response: Response
     spaces: Subspaces
     coordinates: Coordinates
+
+    def begun(self, grasp: Grasp) -> Analysis:
+        """Return it for the grasp as it is when a task begins: of w_0 nothing depends but what is remembered of it."""
+        return replace(self, grasp=grasp, response=replace(self.response, grasp=grasp))
 
     def __repr__(self) -> str:
         """Return counts and dimensions."""

@@ -67,8 +67,7 @@ def _column(whole: Grasp, kind: ContactKind) -> DimensionColumn:
         return DimensionColumn(kind.name, (), f"the matrices do not say how the contacts transmit {lacking}")
     rows = tuple(_dimensions(chosen(grasp, range(count))) for count in range(1, grasp.n_z + 1))
     response = respond(grasp)
-    free = told_as_free(grasp, response.scale, response.free_twists) if response.free.size else ""
-    return DimensionColumn(kind.name, rows, "", free)
+    return DimensionColumn(kind.name, rows, "", told_as_free(grasp, response.scale, response.free_twists))
 
 
 def with_kind(grasp: Grasp, kind: ContactKind) -> Grasp | None:

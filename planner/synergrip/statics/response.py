@@ -120,10 +120,15 @@ class Response(Maps):
     accuracy: Mapping[str, Accuracy]
     """Of every map, by its name."""
 
+    @property
+    def restrained(self) -> bool:
+        """Whether contacts resist every motion of the object."""
+        return self.restraint.rank == 6
+
     @cached_property
     def free(self) -> Array:
         """(6, k) the motions of the object that no contact resists, orthonormal in scaled coordinates; k = 0 mostly."""
-        return NONE if self.restraint.rank == 6 else restraint(self.grasp, self.scale)[1]
+        return NONE if self.restrained else restraint(self.grasp, self.scale)[1]
 
     @property
     def free_twists(self) -> Array:

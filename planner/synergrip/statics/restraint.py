@@ -132,7 +132,9 @@ def not_restrained(grasp: Grasp, scale: Scale, free: Array, what: str, unsupport
 
 
 def told_as_free(grasp: Grasp, scale: Scale, twists: Array) -> str:
-    """Return what the object may do that no contact resists, such as "turn about the line through A and B"."""
+    """Return what the object may do that no contact resists, such as "turn about the line through A and B", if any."""
+    if not twists.size:
+        return ""
     described = (describe_twist(twist, grasp.contacts, scale.length) for twist in twists.T)
     verbs = (("rotation about ", "turn about "), ("translation along ", "move along "))
     said = []

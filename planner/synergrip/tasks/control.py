@@ -11,8 +11,9 @@ from synergrip.conic.limits.object_error import AXES, AxisName, axis_weights
 from synergrip.documents.judging import described, is_list, is_whole, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import Refusal, one_of, repeated
-from synergrip.linalg import RANK_TOLERANCE, Array, frozen
+from synergrip.linalg import RANK_TOLERANCE
 from synergrip.statics.analysis import Analysis
+from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.tasks.arguments import TaskArguments, keep
 from synergrip.values import ByContent
 
@@ -101,16 +102,10 @@ def refuse_control(analysis: Analysis, control: Control) -> None:
 
 def outside(analysis: Analysis, motions: Sequence[AxisName]) -> tuple[AxisName, ...]:
     """Return the axes of which the unit motion is no rigid motion that the synergies produce."""
-    reach, _ = np.linalg.qr(analysis.response.scale.motion @ analysis.spaces.Gamma_ucs)
-    return tuple(axis for axis in motions if _left(analysis, axis, frozen(reach)) > RANK_TOLERANCE)
-
-
-def _left(analysis: Analysis, axis: AxisName, reach: Array) -> float:
-    """Return the share of a unit motion about B that lies outside of orthonormal scaled motions (6, m)."""
-    row = axis_weights((axis,), 1.0)[0]
-    unit = analysis.response.scale.twist(row[None, :])[0]
-    unit = unit / np.linalg.norm(unit)
-    return float(np.linalg.norm(unit - reach @ (reach.T @ unit)))
+    scale, units = analysis.response.scale, axis_weights(tuple(motions), 1.0)
+    _, left = motion_coordinates(analysis.response, analysis.spaces, units)
+    sizes, lefts = (np.linalg.norm(scale.twist(each), axis=1) for each in (units, left))
+    return tuple(axis for axis, none in zip(motions, lefts <= RANK_TOLERANCE * sizes, strict=True) if not none)
 
 
 def _competing(control: Control) -> str:

@@ -111,7 +111,7 @@ def exact_proof(no: Infeasible) -> ExactProof | NoExactProof:
     posed = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed).posed(no.analysis)
     if posed is None:
         return NoExactProof("no exact proof: the start posture has no program")
-    if posed.analysis.response.free.size:  # the equations of the document have no single answer
+    if not posed.analysis.response.restrained:  # the equations of the document have no single answer
         return NoExactProof(OF_FREE)
     return _proven(posed)
 

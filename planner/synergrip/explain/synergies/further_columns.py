@@ -10,6 +10,7 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.explain.irreducible import irreducible
 from synergrip.explain.synergies.lacking import Lack
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.hand import SynergySet
@@ -112,9 +113,8 @@ def _covering(columns: Array, picks: NDArray[np.intp], lacks: Sequence[Lack]) ->
 
 def _without_the_idle(columns: Array, lacks: Sequence[Lack]) -> Subset:
     """Return columns that repair all lacks, none of which can be left out."""
-    kept = list(range(columns.shape[1]))
-    for each in reversed(range(columns.shape[1])):
-        fewer = [at for at in kept if at != each]
-        if fewer and _covering(columns, np.array([fewer], dtype=np.intp), lacks)[0]:
-            kept = fewer
-    return tuple(kept)
+
+    def repair(picks: Sequence[int]) -> bool:
+        return bool(picks) and bool(_covering(columns, np.array([picks], dtype=np.intp), lacks)[0])
+
+    return irreducible(range(columns.shape[1]), repair)

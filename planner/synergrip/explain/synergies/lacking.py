@@ -127,11 +127,7 @@ def _directions(analysis: Analysis, every: Grasp, task: TimedTask) -> tuple[Arra
     """
     scale = analysis.response.scale
     if task.tracking == "compliant" or task.target.kind != "motion":
-        return (
-            np.zeros((6, 0)),
-            True,
-            0.0,
-        )  # modes are coordinates of Gamma_ucs, and compliant tracking asks for no direction
+        return np.zeros((6, 0)), True, 0.0  # modes are coordinates of Gamma_ucs, and who yields asks for no direction
     whole = len(task.axes) == len(AXES)
     weights = scale.motion if whole else axis_weights(task.axes, scale.length)
     wish = target_displacement(analysis, task, task.target.values) @ weights.T

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from synergrip.conic.goals.least_motion import LeastMotion
+from synergrip.explain.irreducible import irreducible
 from synergrip.explain.synergies.candidates import Extending
 from synergrip.explain.synergies.further_columns import Further, Subset
 from synergrip.explain.synergies.lacking import Lack
@@ -54,7 +56,7 @@ def helping(no: Infeasible, further: Sequence[Further]) -> Iterator[tuple[Furthe
 
     def helps(columns: Further, picks: Sequence[int]) -> bool:
         names = [columns.names[i] for i in picks]
-        return extending.verdict(names, columns.columns[:, list(picks)]) == "feasible"
+        return bool(picks) and extending.verdict(names, columns.columns[:, list(picks)]) == "feasible"
 
     for columns in further:
         for i in range(len(columns.names)):
@@ -62,9 +64,6 @@ def helping(no: Infeasible, further: Sequence[Further]) -> Iterator[tuple[Furthe
                 single = True
                 yield columns, (i,)
     for columns in further if not single else ():
-        kept = list(range(len(columns.names)))
-        if helps(columns, kept):
-            for each in reversed(range(len(columns.names))):
-                fewer = [at for at in kept if at != each]
-                kept = fewer if fewer and helps(columns, fewer) else kept
-            yield columns, tuple(kept)
+        every = range(len(columns.names))
+        if helps(columns, every):
+            yield columns, irreducible(every, partial(helps, columns))
