@@ -93,7 +93,7 @@ def least_of(no: Infeasible) -> Iterator[tuple[str, LeastChange]]:
     posed = asked.posed(no.analysis)
     assert posed is not None
     program = posed.program()
-    for dial in dials(asked, no.task, posed.analysis.response.scale.length):
+    for dial in dials(asked, no.task, posed.analysis):
         yield number_of(dial.cause, dial.key, dial.eased), least_change(dial, posed, program)
 
 

@@ -12,7 +12,12 @@ import pytest
 
 import synergrip as sg
 import synergrip.explain.refused as refusing
+from synergrip.explain.asked import Asked
 from synergrip.explain.compromise import compromise
+from synergrip.explain.least_change import least_change
+from synergrip.explain.turning import dials
+from synergrip.explain.when import when
+from synergrip.planning.planning import plan_of_start_posture
 from synergrip.reports.data.json_no import no_document
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
@@ -184,3 +189,49 @@ def test_an_interrupt_of_a_refusal_keeps_what_plan_said(monkeypatch: pytest.Monk
     answer = refused("barrett-ball-lift", 'task.linearise="once"')
     assert answer.explanation.interrupted
     assert answer.explanation.cause == "direction"
+
+
+def test_a_reserve_between_the_knots_proves_nothing_and_every_instant_does() -> None:
+    """It asks for more than is needed: what has no plan with it may have one without."""
+    answer = refused("barrett-ball-hold", 'limits.normal_force="8 N"')
+    found = answer.explanation
+    assert found.posed is not None
+    assert not found.posed.strict
+    assert found.cannot_help == ()  # joint torque and ranges do not help, but with the reserve that is no proof
+    assert found.when.alone
+    first, last = found.when.intervals_s[0]
+    for seconds, verdict in ((first, "infeasible"), (last, "infeasible"), (1.6, "feasible")):
+        k = int(np.argmin(np.abs(answer.task.times - seconds)))
+        alone = sg.Task(knots=1, loads=[sg.Wrench(tuple(answer.task.wrench[k]))], limits=answer.task.limits)
+        task = alone.replace(limits=[sg.SlipMargin(0.5), *answer.task.limits], linearise="once")
+        assert plan_of_start_posture(answer.grasp, task).verdict == verdict
+
+
+def test_the_margin_of_a_task_at_knots_is_among_what_clashes() -> None:
+    problem = sg.load_problem("pinch-soft", "limits.margin=12 N")
+    answer = sg.plan(problem.grasp, problem.timed)
+    assert isinstance(answer, sg.Infeasible)
+    assert answer.explain().clashing == ("limits.margin", "limits.normal_force")
+
+
+def test_of_a_task_with_inertia_no_duration_is_proven_not_to_help() -> None:
+    """It may have a plan where it takes a little longer, none where it takes longer still, and one again."""
+    problem = sg.load_problem("barrett-ball-carry", 'limits.normal_force="1 N"')
+    answer = plan_of_start_posture(problem.grasp, problem.task)
+    assert isinstance(answer, sg.Infeasible)
+    asked = Asked.of(answer.grasp, problem.task, problem.timed)
+    assert answer.analysis is not None
+    (duration,) = (each for each in dials(asked, problem.timed, answer.analysis) if each.cause == "duration")
+    assert not duration.nested
+    posed = asked.posed(answer.analysis)
+    assert posed is not None
+    assert not least_change(duration, posed, posed.program()).proven
+
+
+def test_steps_are_blamed_only_where_every_instant_is_known_to_have_a_plan() -> None:
+    posed = refused("tripod", "limits.synergy_rate=0.001", 'task.linearise="once"').explanation.posed
+    assert posed is not None
+    assert when(posed).alone is False
+    held = refused("tripod", 'limits.normal_force="1 N"').explanation.posed
+    assert held is not None
+    assert when(held).alone is True

@@ -87,7 +87,7 @@ def test_rows_turn_with_a_number_as_far_as_it_goes(number: str) -> None:
     posed = asked.posed(no.analysis)
     assert posed is not None
     program = posed.program()
-    dial = next(each for each in dials(asked, no.task, 1.0) if each.cause == number)
+    dial = next(each for each in dials(asked, no.task, posed.analysis) if each.cause == number)
     column = turning_column(dial, posed, program)
     assert column is not None
     sign = 1.0 if dial.eased == "up" else -1.0
@@ -104,5 +104,6 @@ def test_the_margin_stays_while_a_cap_is_turned() -> None:
     """Of a task at knots, where the margin is an argument of its own and none of the limits."""
     no = held_up()
     asked = Asked.of(no.grasp, no.task, no.task)
-    cap = next(each for each in dials(asked, no.task, 1.0) if each.cause == "force_cap")
+    assert no.analysis is not None
+    cap = next(each for each in dials(asked, no.task, no.analysis) if each.cause == "force_cap")
     assert cap.turned(7.5).timed.margin == MARGIN

@@ -61,29 +61,26 @@ class Asked(Value):
         """The task at its knots."""
         return self.task.timed(self.grasp) if isinstance(self.task, Task) else self.task.on(self.grasp)
 
-    def posed(self, known: Analysis | None = None, units: Units | None = None) -> Posed | None:
+    def posed(self, known: Analysis | None = None, units: Units | None = None, *, every: bool = False) -> Posed | None:
         """Return the program of the start posture; None where the task is refused before there is one.
 
         Args:
             known: an analysis of a grasp with the same matrices, not to be made again.
             units: of its unknowns; those that suit the task when None.
+            every: whether what is held between the knots is asked at every instant that is looked at, and not by a
+                reserve: a reserve asks for more than is needed, so that without an answer nothing is proven.
         """
         try:
             timed = self.timed
             grasp = at_start(self.grasp, timed.wrench[0])
-            analysis = analyse(grasp, NO_LOAD) if known is None else _of(known, grasp)
+            analysis = analyse(grasp, NO_LOAD) if known is None else known.begun(grasp)
             formulation = formulated(analysis, timed, redundancy=timed.watches_references)
         except SynergripError:
             return None
-        if timed.between == "hold":
-            formulation = replace(formulation, intersample=intersample_of(timed, analysis))
+        held = intersample_of(timed, analysis) if timed.between == "hold" else None
+        formulation = replace(formulation, intersample=held.every() if held is not None and every else held)
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)
-
-
-def _of(known: Analysis, grasp: Grasp) -> Analysis:
-    """Return an analysis as that of a grasp with the same matrices: of w_0 nothing in it depends."""
-    return replace(known, grasp=grasp, response=replace(known.response, grasp=grasp))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,6 +90,11 @@ class Posed(Value):
     analysis: Analysis
     timed: TimedTask
     formulation: Formulation
+
+    @property
+    def strict(self) -> bool:
+        """Whether the program asks for no more than the task: without an answer it proves that there is no plan."""
+        return self.formulation.intersample is None or self.formulation.intersample.exact
 
     def program(self) -> Program:
         """Return the program of least effort within all limits."""

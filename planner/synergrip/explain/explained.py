@@ -14,11 +14,10 @@ from synergrip.explain.long_form import completed, tried_along
 from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.turning import dials
-from synergrip.explain.when import When, when
+from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown
 
-NOT_KNOWN = When(None, (), alone=False)
 BEST = 3
 """Repairs of the short form."""
 
@@ -41,7 +40,7 @@ def explained(
     program = posed.program()
     if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
-    numbers = dials(asked, timed, posed.analysis.response.scale.length)
+    numbers = dials(asked, timed, posed.analysis)
     try:
         found = [least_change(dial, posed, program) for dial in numbers]
     except KeyboardInterrupt:  # what plan said is known all the same
@@ -54,7 +53,8 @@ def explained(
     text = _text(no, held, known)
     first = Explanation(cause, text, known, held, _in_vain(found), NOT_KNOWN, not short, interrupted, posed=posed)
     try:
-        first = replace(first, when=when(posed, program))
+        strict = posed if posed.strict else asked.posed(no.analysis, every=True)
+        first = first if strict is None else replace(first, when=when(strict))
     except KeyboardInterrupt:
         return replace(first, interrupted=True)
     return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
@@ -65,7 +65,7 @@ def _of_the_motion(
 ) -> Explanation:
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
-    numbers = () if short else dials(asked, no.task, posed.analysis.response.scale.length)
+    numbers = () if short else dials(asked, no.task, posed.analysis)
     found, interrupted = _as_found(tried_along(numbers, heard))
     others = tuple(sorted(found, key=lambda each: each.size))
     return Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short, interrupted, others=others)
@@ -120,4 +120,4 @@ def _blamed(
 def _in_vain(found: list[LeastChange]) -> tuple[Cause, ...]:
     """Return the causes of which no number helps, proven of each."""
     helps = {each.dial.cause for each in found if each.value is not None}
-    return tuple(dict.fromkeys(e.dial.cause for e in found if e.dial.cause not in helps and e.proven))
+    return tuple(dict.fromkeys(each.dial.cause for each in found if each.dial.cause not in helps and each.proven))

@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.decide import Decision, decide
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Block, Program
-from synergrip.conic.relaxed import proven
+from synergrip.conic.relaxed import proving
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.variable_bounds import LARGEST
@@ -36,11 +35,9 @@ class LeastChange(Value):
 
     dial: Dial[Asked]
     value: float | None
-    """The nearest value with a plan; None when there is none, as far as the number goes."""
+    """The nearest value with a plan; None when none was found, as far as the number goes."""
     proven: bool
-    """Whether a certificate verifies what is said of values short of it, or of all that the number can be."""
-    weight: Array | None = None
-    """(m,) multipliers of the rows of the task's program: the proof that less does not do."""
+    """Whether a certificate verifies that there is no plan short of it, or at all as far as the number goes."""
 
     @property
     def size(self) -> float:
@@ -50,11 +47,7 @@ class LeastChange(Value):
 
 def solved(name: str, program: Program) -> Decision:
     """Return what comes of a program, verified."""
-    return decide(
-        name,
-        program,
-        lambda asked, settings: proven(clarabel_.solve(asked, settings), asked, clarabel_.solve, settings),
-    )
+    return decide(name, program, proving(clarabel_.solve))
 
 
 def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
@@ -68,7 +61,7 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChan
     if dial.smooth:
         column = turning_column(dial, posed, program)
         if column is not None:
-            found = _by_one_program(dial, program, column)
+            found = _by_one_program(dial, posed, program, column)
             if found is not None:
                 return found
     return _by_bisection(dial, posed)
@@ -76,10 +69,8 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChan
 
 def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array | None:
     """Return (m,) how b changes with the number, per relative turn toward more room; None where A changes too."""
-    unit = turn_unit(dial)
-    sign = 1.0 if dial.eased == "up" else -1.0
-    step = STEP if dial.eased == "up" else min(STEP, abs(dial.end - dial.value) / unit)
-    other = _posed_at(dial, dial.value + sign * step * unit, posed) if step > 0 else None
+    step = min(STEP, dial.reach)
+    other = dial.turned(dial.ahead(step)).posed(posed.analysis, posed.formulation.units) if step > 0 else None
     if other is None:
         return None
     turned = other.program()
@@ -89,15 +80,6 @@ def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array |
     if ratios is None:
         return None
     return frozen((turned.b / ratios - program.b) / step)
-
-
-def turn_unit(dial: Dial[Asked]) -> float:
-    """Return what a turn of a number is relative to: itself, or its scale where it is 0."""
-    return abs(dial.value) if dial.value else dial.scale
-
-
-def _posed_at(dial: Dial[Asked], value: float, posed: Posed) -> Posed | None:
-    return dial.turned(value).posed(posed.analysis, posed.formulation.units)
 
 
 def row_ratios(one: Program, other: Program) -> Array | None:
@@ -136,19 +118,14 @@ def _of_all(ratio: Array) -> Array:
     return np.full(ratio.shape, known.mean() if len(known) else np.nan)
 
 
-def _by_one_program(dial: Dial[Asked], program: Program, column: Array) -> LeastChange | None:
+def _by_one_program(dial: Dial[Asked], posed: Posed, program: Program, column: Array) -> LeastChange | None:
     """Return the least turn, by a program with one more unknown; None where nothing verifies."""
-    far = abs(dial.end - dial.value) / turn_unit(dial)
-    decision = solved("least change", with_turns(program, [column], [far]))
-    m = len(program.b)
+    decision = solved("least change", with_turns(program, [column], [dial.reach]))
     if decision.infeasible:
-        return LeastChange(dial, None, proven=True, weight=frozen(decision.solution.z[:m]))
+        return LeastChange(dial, None, posed.strict)
     if not decision.optimal:
         return None
-    turn = max(float(decision.solution.x[-1]), 0.0)
-    sign = 1.0 if dial.eased == "up" else -1.0
-    weight = frozen(decision.solution.z[:m])
-    return LeastChange(dial, dial.value + sign * turn * turn_unit(dial), proven=True, weight=weight)
+    return LeastChange(dial, dial.ahead(max(float(decision.solution.x[-1]), 0.0)), posed.strict)
 
 
 def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float]) -> Program:
@@ -170,24 +147,22 @@ def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float])
 
 
 def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
-    """Return the least change between values that are tried one after the other; sets of plans are nested in it."""
-    low, weight, certain, high = dial.value, None, True, None
+    """Return the nearest of some values with a plan, and from there, where sets of plans are nested, the least one."""
+    low, high, certain = dial.value, None, True
     for value in _tries(dial):
         decision = _decided_at(dial, value, posed)
         if decision is not None and decision.acceptable:
             high = value
             break
         low, certain = value, decision is not None and decision.infeasible
-    if high is None:
-        return LeastChange(dial, None, proven=certain)
-    while abs(high - low) > CLOSE * max(abs(high), abs(low)):
-        middle = np.sqrt(high * low) if low * high > 0 else (high + low) / 2
-        decision = _decided_at(dial, float(middle), posed)
+    while high is not None and abs(high - low) > CLOSE * max(abs(high), abs(low)):
+        middle = float(np.sqrt(high * low) if low * high > 0 else (high + low) / 2)
+        decision = _decided_at(dial, middle, posed)
         if decision is not None and decision.acceptable:
-            high = float(middle)
+            high = middle
         else:
-            low, certain = float(middle), decision is not None and decision.infeasible
-    return LeastChange(dial, high, proven=certain, weight=weight)
+            low, certain = middle, decision is not None and decision.infeasible
+    return LeastChange(dial, high, certain and dial.nested and posed.strict)
 
 
 def _tries(dial: Dial[Asked]) -> Sequence[float]:
@@ -197,21 +172,14 @@ def _tries(dial: Dial[Asked]) -> Sequence[float]:
     return [*(v for v in (dial.value / factor for factor in STRETCH) if v > dial.end), dial.end]
 
 
-def _decided_at(dial: Dial[Asked], value: float, posed: Posed) -> Decision | None:
-    other = dial.turned(value).posed(None if dial.cause == "stiffness" else posed.analysis)
+def _decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Decision | None:
+    """Return what comes of another value; of `every` instant without a reserve where it is for a proof."""
+    other = dial.turned(value).posed(posed.analysis, every=every)
     return None if other is None else solved("any plan", other.program())
 
 
 def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:
     """Return whether it is certified that a change smaller by a share of the value leaves no plan."""
-    sign = 1.0 if dial.eased == "up" else -1.0
-    size = abs(value) if value else turn_unit(dial)
-    before = value - sign * share * size
-    if sign * (before - dial.value) <= 0:
-        return True  # what is asked itself has none
-    decision = _decided_at(dial, before, posed)
-    return (
-        decision is not None
-        and decision.infeasible
-        and judge_infeasible(decision.program, decision.solution.z).verified
-    )
+    before = value - (dial.ahead(share * abs(value) / dial.span) - dial.value)
+    decision = _decided_at(dial, before, posed, every=True) if dial.nested else None
+    return decision is not None and decision.infeasible

@@ -81,10 +81,7 @@ def _first_with_a_plan(dial: Dial[Asked], values: Sequence[float], heard: Callab
     for value in values:
         outcome = outcome_of(dial.turned(value)) if value != dial.value else None
         if isinstance(outcome, Plan):
-            found = Repair(
-                dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), True, dial.size(value), False,
-                outcome,
-            )  # fmt: skip
+            found = Repair.of(dial, value, outcome)
             heard(found)
             yield found
             return

@@ -10,7 +10,7 @@ import numpy as np
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
 from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.least_change import solved, turn_unit, turning_column, with_turns
+from synergrip.explain.least_change import solved, turning_column, with_turns
 from synergrip.explain.repairs import Repair, beyond, outcome_of
 from synergrip.explain.turning import dials
 from synergrip.linalg import Array
@@ -33,7 +33,7 @@ def pairs(numbers: Sequence[Dial[Asked]], posed: Posed, program: Program) -> Ite
     least = [_least(one, two, program) for one, two in combinations(known, 2)]
     told = 0
     for _, values in sorted((each for each in least if each is not None), key=lambda each: each[0]):
-        pair = _planned(values)
+        pair = _planned(values, posed)
         if pair is not None:
             yield pair
             told += 1
@@ -49,34 +49,22 @@ def _least(
 ) -> tuple[float, tuple[_Turned, _Turned]] | None:
     """Return the least sum of two relative turns, and the values that they lead to; None where they do not help."""
     chosen = (one, two)
-    far = [abs(dial.end - dial.value) / turn_unit(dial) for dial, _ in chosen]
+    far = [dial.reach for dial, _ in chosen]
     decision = solved("least changes", with_turns(program, [column for _, column in chosen], far))
     if not decision.optimal:
         return None
     turns = np.maximum(decision.solution.x[-2:], 0.0)
-    values = [
-        dial.value + (1 if dial.eased == "up" else -1) * float(turn) * turn_unit(dial)
-        for (dial, _), turn in zip(chosen, turns, strict=True)
-    ]
-    return float(turns.sum()), ((one[0], values[0]), (two[0], values[1]))
+    first, second = ((dial, dial.ahead(float(turn))) for (dial, _), turn in zip(chosen, turns, strict=True))
+    return float(turns.sum()), (first, second)
 
 
-def _planned(values: tuple[_Turned, _Turned]) -> tuple[Repair, Repair] | None:
+def _planned(values: tuple[_Turned, _Turned], posed: Posed) -> tuple[Repair, Repair] | None:
     """Return two changes with which there is a verified plan; None when there is none."""
     (one, first), (two, second) = ((dial, beyond(dial, value, 0.0)) for dial, value in values)
-    both = _both(one, first, two, second)
+    changed = one.turned(first)
+    again = dials(changed, changed.timed, posed.analysis)
+    both = next(each for each in again if (each.key, each.value) == (two.key, two.value)).turned(second)
     outcome = outcome_of(both)
     if not isinstance(outcome, Plan):
         return None
-    first_repair, second_repair = (
-        Repair(dial.cause, dial.key, dial.value, to, dial.unit, dial.set(to), True, dial.size(to), False, outcome)
-        for dial, to in ((one, first), (two, second))
-    )
-    return first_repair, second_repair
-
-
-def _both(one: Dial[Asked], first: float, two: Dial[Asked], second: float) -> Asked:
-    """Return what is asked with both changes."""
-    changed = one.turned(first)
-    again = dials(changed, changed.timed, 1.0)
-    return next(each for each in again if (each.key, each.value) == (two.key, two.value)).turned(second)
+    return Repair.of(one, first, outcome), Repair.of(two, second, outcome)

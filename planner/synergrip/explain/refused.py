@@ -7,17 +7,19 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.conic.limits.dial import Dial
+from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
 from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.repairs import ROOM, Repair, outcome_of, rounded
 from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
-from synergrip.explain.when import When
-from synergrip.linalg import Array
+from synergrip.explain.when import NOT_KNOWN, When
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan_of_start_posture
+from synergrip.statics.analysis import Analysis
+from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.tasks.control import ControlError
-from synergrip.tasks.tracking import target_displacement
+from synergrip.tasks.tracking import RIGID_TOLERANCE, target_displacement, wish_size
 
 FEW = 3
 """Candidates for missing synergies of the short form."""
@@ -32,16 +34,10 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
         short: whether a short form is enough.
     """
     cause = STAGES.get(no.stage, "limit")
-    outside = _outside(no)
-    late = outside > no.task.tolerance if outside is not None else np.zeros(len(no.task.times), dtype=bool)
-    times = no.task.times
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], late, [False]]).astype(int)))
-    stretches = tuple((float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True))
-    first = stretches[0][0] if stretches else (float(times[0]) if cause == "restraint" else None)
-    known = Explanation(cause, no.why, (), (), (), When(first, stretches, alone=True), not short)
+    known = Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short)
     try:
-        if outside is not None:
-            known = replace(known, repairs=tuple(_by_tolerance(no, asked, float(outside.max()))))
+        if no.analysis is not None and no.stage in ("direction", "count") and not _of_control(no):
+            known = _out_of_reach(known, no, no.analysis, asked)
         return replace(known, missing_synergies=_missing(no, short=short))
     except KeyboardInterrupt:  # what plan said is known all the same
         return replace(known, interrupted=True)
@@ -59,28 +55,22 @@ def _of_control(no: Infeasible | Unknown) -> bool:
     return isinstance(no, Infeasible) and isinstance(no.refusal, ControlError)
 
 
-def _outside(no: Infeasible | Unknown) -> Array | None:
-    """Return how far (T,) the wish is outside the rigid motions of the hand [m]; None when it cannot be told."""
-    if no.analysis is None or no.stage not in ("direction", "count") or _of_control(no):
-        return None
-    scale = no.analysis.response.scale
-    wish = scale.twist(target_displacement(no.analysis, no.task, no.task.target.values))
-    reach, _ = np.linalg.qr(scale.motion @ no.analysis.spaces.Gamma_ucs)
-    return np.asarray(np.linalg.norm(wish - wish @ reach @ reach.T, axis=1))
-
-
-def _by_tolerance(no: Infeasible | Unknown, asked: Asked, outside: float) -> list[Repair]:
-    """Return the tolerance within which the nearest motion of the hand lies, where there is a plan with it."""
+def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analysis, asked: Asked) -> Explanation:
+    """Return also when the wish is outside the rigid motions of the hand, and the tolerance within which it is not."""
+    task, size = no.task, wish_size(analysis, no.task)
     refusal = no.refusal if isinstance(no, Infeasible) else None
-    least = max(outside, refusal.size if isinstance(refusal, MotionDirectionError) else 0.0)
-    size = float(np.abs(no.task.target.values).max(initial=0.0)) or 1.0
+    least, whole = refusal.size if isinstance(refusal, MotionDirectionError) else 0.0, len(task.axes) == len(AXES)
+    if whole:  # on some of the axes what they see may be had by a motion that is wanted nowhere
+        _, left = motion_coordinates(
+            analysis.response, analysis.spaces, target_displacement(analysis, task, task.target.values)
+        )
+        outside = np.linalg.norm(analysis.response.scale.twist(left), axis=1)
+        late = outside > max(task.tolerance, RIGID_TOLERANCE * size)
+        known, least = replace(known, when=When.of(task.times, late)), max(least, float(outside.max()))
     dial: Dial[Asked] = Dial(
-        "tolerance", "task.tolerance", no.task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size
+        "tolerance", "task.tolerance", task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size or 1.0
     )
     value = rounded(least * (1 + ROOM), up=True)
     outcome = outcome_of(dial.turned(value))
-    if not isinstance(outcome, Plan):
-        return []
-    return [
-        Repair("tolerance", dial.key, dial.value, value, "m", dial.set(value), True, dial.size(value), True, outcome)
-    ]
+    held = (Repair.of(dial, value, outcome, proven=whole),) if isinstance(outcome, Plan) else ()
+    return replace(known, repairs=held)

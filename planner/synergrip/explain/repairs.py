@@ -58,6 +58,12 @@ class Repair(Value):
     outcome: Outcome | None = None
     """What planning says with it."""
 
+    @classmethod
+    def of(cls, dial: Dial[Asked], to: float, outcome: Outcome | None, *, proven: bool = False) -> Repair:
+        """Return the change of a number to another value, with what planning says then."""
+        verified, size = isinstance(outcome, Plan), dial.size(to)
+        return cls(dial.cause, dial.key, dial.value, to, dial.unit, dial.set(to), verified, size, proven, outcome)
+
 
 def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
     """Return the changes that help, the smallest first; of such as tie a user's limit before friction and load."""
@@ -104,11 +110,7 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
             break
     else:
         value = beyond(dial, least, 0.0)
-    proven = prove and short_of(dial, value, posed, SHORT)
-    return Repair(
-        dial.cause, dial.key, dial.value, value, dial.unit, dial.set(value), isinstance(tried, Plan), dial.size(value),
-        proven, tried,
-    )  # fmt: skip
+    return Repair.of(dial, value, tried, proven=prove and short_of(dial, value, posed, SHORT))
 
 
 def outcome_of(asked: Asked) -> Outcome | None:
@@ -127,9 +129,8 @@ def beyond(dial: Dial[Asked], least: float, more: float) -> float:
         least: its nearest value with a plan.
         more: share of the change by which to go farther.
     """
-    sign = 1.0 if dial.eased == "up" else -1.0
-    size = max(abs(least), abs(least - dial.value))
-    value = rounded(least + sign * max(more, ROOM) * size, up=dial.eased == "up")
+    turn = abs(least - dial.value) + max(more, ROOM) * max(abs(least), abs(least - dial.value))
+    value = rounded(dial.ahead(turn / dial.span), up=dial.eased == "up")
     return min(value, dial.end) if dial.eased == "up" else max(value, dial.end)
 
 

@@ -13,11 +13,13 @@ from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
 from synergrip.explain.asked import Asked
 from synergrip.linalg import frozen
+from synergrip.statics.analysis import Analysis
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.tracking import wish_size
 
 FRICTION_END = 100.0
 """How many times its friction a contact is asked to have at most."""
@@ -27,15 +29,15 @@ LEAST_MASS = 1e-9
 """[kg] Of an object; a mass is never 0."""
 
 
-def dials(asked: Asked, timed: TimedTask, length: float) -> tuple[Dial[Asked], ...]:
+def dials(asked: Asked, timed: TimedTask, analysis: Analysis) -> tuple[Dial[Asked], ...]:
     """Return every number that could be another one, limits first.
 
     Args:
         asked: what is asked.
         timed: the same at its knots.
-        length: characteristic length of the grasp [m].
+        analysis: of the grasp.
     """
-    return tuple((*_of_limits(asked), *_of_task(asked, timed, length), *_of_load(asked, timed), *_of_friction(asked)))
+    return tuple((*_of_limits(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked)))
 
 
 def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
@@ -54,13 +56,12 @@ def _lifted(asked: Asked, limits: tuple[Limit, ...], index: int, dial: Dial[Limi
     return Dial(**{**{name: getattr(dial, name) for name in dial.__dataclass_fields__}, "turned": turned})
 
 
-def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Asked]]:
+def _of_task(asked: Asked, timed: TimedTask, analysis: Analysis) -> Iterator[Dial[Asked]]:
     moves = bool(np.any(timed.target.values))
     if timed.tracking == "compliant":
-        size = float(np.linalg.norm(_displacements(timed, length), axis=1).max(initial=0.0))
         yield Dial(
             "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
-            scale=size or length,
+            scale=wish_size(analysis, timed) or analysis.response.scale.length,
         )  # fmt: skip
     if timed.drift is not None:
         yield Dial("drift", "task.drift", timed.drift, "m", lambda v: asked.with_task(drift=v))
@@ -71,14 +72,8 @@ def _of_task(asked: Asked, timed: TimedTask, length: float) -> Iterator[Dial[Ask
         seconds = float(timed.times[-1] - timed.times[0])
         yield Dial(
             "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
-            smooth=False,
+            smooth=False, nested=not _has_inertia(task),
         )  # fmt: skip
-
-
-def _displacements(timed: TimedTask, length: float) -> np.ndarray:
-    """Return a wish (T, m) in metres: rotations times length; coordinates of rigid motions are lengths as they are."""
-    values = timed.target.values
-    return values * ([1.0] * 3 + [length] * 3) if timed.target.kind == "motion" else values
 
 
 def _amplitude(asked: Asked, timed: TimedTask) -> Dial[Asked]:
@@ -105,8 +100,12 @@ def _stretches(task: Task) -> bool:
 
 def _feels_time(task: Task, timed: TimedTask) -> bool:
     """Return whether it matters how long a task takes: for changes from knot to knot, or for inertia."""
-    inertia = any(isinstance(load, Palm) and load.inertia for load in task.loads)
-    return inertia or any(limit.couples_knots for limit in timed.limits)
+    return _has_inertia(task) or any(limit.couples_knots for limit in timed.limits)
+
+
+def _has_inertia(task: Task) -> bool:
+    """Return whether the palm's motion loads the object: then a task that takes longer may have no plan either."""
+    return any(isinstance(load, Palm) and load.inertia for load in task.loads)
 
 
 def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
@@ -172,6 +171,7 @@ def stiffness_dial(asked: Asked) -> Dial[Asked]:
     return Dial(
         "stiffness", f"{_table(asked)}.stiffness_factor", 1.0, "",
         lambda value: replace(asked, grasp=grasp.replace(C_s=grasp.C_s / value)), smooth=False,
+        nested=False,
     )  # fmt: skip
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from synergrip.conic.certificate import judge_infeasible
+from synergrip.conic.certificate import PRIMAL_TOLERANCE, judge_infeasible
 from synergrip.conic.decide import Decision
 from synergrip.conic.program import Block, Program
+from synergrip.conic.relaxed import heads
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
 from synergrip.documents.naming import made_by
@@ -38,22 +39,38 @@ class When(Value):
     not known."""
     intervals_s: tuple[tuple[float, float], ...]
     """From the first to the last knot of each stretch of knots without a plan."""
-    alone: bool
-    """Whether these knots have none each by itself: then no limit on steps is to blame."""
+    alone: bool | None
+    """True: these knots have none each by itself; False: every knot has one, and steps between them clash; None when
+    neither is known."""
+
+    @classmethod
+    def of(cls, times: Array, late: NDArray[np.bool_]) -> When:
+        """Return the knots (T,) that have none each by itself, at times [s]; not known where there are none."""
+        if not np.any(late):
+            return NOT_KNOWN
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], late, [False]]).astype(int)))
+        stretches = zip(edges[::2], edges[1::2], strict=True)
+        return cls(float(times[late][0]), tuple((float(times[a]), float(times[b - 1])) for a, b in stretches), True)
 
 
-def when(posed: Posed, program: Program) -> When:
+NOT_KNOWN = When(None, (), None)
+
+
+def when(posed: Posed) -> When:
     """Return which knots have no plan, each proven by itself.
 
     Args:
-        posed: a task without a plan.
-        program: of it.
+        posed: a task without a plan, held between the knots at `every` instant that is looked at.
     """
-    times, at = posed.timed.times, knots_of_rows(program)
-    found = _proven_knots(program, at, (at >= 0) & _of_one_knot(program, at))
-    if np.any(found):
-        return When(float(times[found][0]), _stretches(times, found), alone=True)
-    return When(_first_together(posed), (), alone=False)
+    program = posed.program()
+    at = knots_of_rows(program)
+    alone = (at >= 0) & _of_one_knot(program, at)
+    decision = widened(program, at, alone)
+    found = When.of(posed.timed.times, _proven_knots(program, at, alone, decision))
+    if found.alone or not np.all(at >= 0) or np.all(alone) or not decision.optimal:
+        return found
+    wider = decision.solution.x[len(program.q) :]
+    return When(_first_together(posed), (), alone=False) if np.all(wider <= PRIMAL_TOLERANCE) else NOT_KNOWN
 
 
 def knots_of_rows(program: Program) -> NDArray[np.intp]:
@@ -77,12 +94,14 @@ def _of_one_knot(program: Program, at: NDArray[np.intp]) -> NDArray[np.bool_]:
     return ~other
 
 
-def _proven_knots(program: Program, at: NDArray[np.intp], alone: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _proven_knots(
+    program: Program, at: NDArray[np.intp], alone: NDArray[np.bool_], decision: Decision
+) -> NDArray[np.bool_]:
     """Return the knots (T,) of which a certificate proves that they have no plan by themselves.
 
     One program widens the cones of each knot by as little as possible; its multipliers at a knot are the proof there.
     """
-    kept, solution = np.flatnonzero(alone), widened(program, at, alone).solution
+    kept, solution = np.flatnonzero(alone), decision.solution
     found = np.zeros(program.knots, dtype=bool)
     if len(solution.x) != len(program.q) + program.knots:
         return found
@@ -105,10 +124,7 @@ def widened(program: Program, at: NDArray[np.intp], keep: NDArray[np.bool_]) -> 
         keep: (m,) the rows that count, whole cones.
     """
     T, n, kept = program.knots, len(program.q), np.flatnonzero(keep)
-    heads = np.zeros(len(program.b))
-    for block, rows in program.slices():
-        heads[rows][:: block.dim] = 0.0 if block.kind is Kind.ZERO else 1.0
-    wider = sparse.csc_matrix((-heads[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
+    wider = sparse.csc_matrix((-heads(program)[kept], (np.arange(len(kept)), at[kept])), shape=(len(kept), T))
     nothing = sparse.csc_matrix(sparse.hstack([sparse.csc_matrix((T, n)), -sparse.eye_array(T, format="csc")]))
     A = sparse.csc_matrix(sparse.vstack([sparse.hstack([program.A[kept], wider]), nothing]))
     b, q = np.concatenate([program.b[kept], np.zeros(T)]), np.append(np.zeros(n), np.ones(T))
@@ -129,12 +145,6 @@ def _cut(program: Program, keep: NDArray[np.bool_], A: sparse.csc_matrix, b: Arr
         program, P=sparse.csc_matrix((n, n)), q=frozen(q), A=A, b=frozen(b), blocks=tuple(blocks), constant=0.0,
         variable_bounds=frozen(bounds),
     )  # fmt: skip
-
-
-def _stretches(times: Array, found: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
-    """Return first and last instant of each stretch of knots that are found."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], found, [False]]).astype(int)))
-    return tuple((float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True))
 
 
 def _first_together(posed: Posed) -> float | None:

@@ -65,6 +65,12 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
     return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
 
 
+def wish_size(analysis: Analysis, task: TimedTask) -> float:
+    """Return how far a task wants the object away from where it starts, at most [m, rotations times length]."""
+    wish = target_displacement(analysis, task, task.target.values)
+    return float(np.linalg.norm(analysis.response.scale.twist(wish), axis=1).max(initial=0.0))
+
+
 def in_motions(analysis: Analysis, task: TimedTask) -> TimedTask:
     """Return the task with its wish as a motion of the object, which means the same whatever the synergies are.
 

@@ -51,6 +51,23 @@ class Dial(Value, Generic[T]):
     """How another value is written in a problem file; as a number with its unit when None."""
     smooth: bool = True
     """Whether rows of programs may be affine in it, which is then tried; False: it changes their matrices."""
+    nested: bool = True
+    """Whether a plan stays one with more room; False: there may be plans here and there, and what was tried is all that
+    can be told."""
+
+    @property
+    def span(self) -> float:
+        """What a turn is relative to: the value itself, or the scale where it is 0."""
+        return abs(self.value) or self.scale
+
+    @property
+    def reach(self) -> float:
+        """The largest relative turn toward room."""
+        return abs(self.end - self.value) / self.span
+
+    def ahead(self, turn: float) -> float:
+        """Return the value after a relative turn toward room."""
+        return self.value + (1.0 if self.eased == "up" else -1.0) * turn * self.span
 
     def set(self, value: float) -> str:
         """Return the argument of ``--set`` that gives it a value."""

@@ -17,6 +17,8 @@ HEADS = {
     "direction": "out of reach of these synergies", "magnitude": "limits too tight",
 }  # fmt: skip
 """Stage -> what it means."""
+FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
+"""How far a number was turned of which no value helps, where it is not as far as it goes."""
 BEST = 3
 """Items of a limit that are named."""
 
@@ -67,8 +69,8 @@ def _repairs(found: Explanation) -> Iterator[str]:
     if found.clashing is not None:
         yield from wrapped("Clash    ", _clash(found.clashing))
     if found.cannot_help:
-        words = ", ".join(cause.replace("_", " ") for cause in found.cannot_help)
-        yield from wrapped("No help  ", f"proven, whatever the value: {words}")
+        words = ", ".join(cause.replace("_", " ") + FAR.get(cause, "") for cause in found.cannot_help)
+        yield from wrapped("No help  ", f"proven of the linear model of the start posture, whatever the value: {words}")
 
 
 def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
@@ -110,7 +112,7 @@ def _when(found: Explanation, times: Array) -> str:
     late = found.when
     if late.first_s is None or len(times) < 2:
         return ""
-    if not late.alone:
+    if late.alone is False:
         together = f"together they have none up to t = {late.first_s:.4g} s"
         return f"every instant has a plan by itself; for the steps between them, {together}"
     ends = [_stretch(start, end, times) for start, end in late.intervals_s]
