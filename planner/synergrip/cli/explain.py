@@ -43,7 +43,7 @@ def explain(
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw what is missing over time: .svg, .png, .pdf.")
     ] = None,
 ) -> None:
-    """Say why there is no plan, when, what clashes, and which changes of single numbers give one, each planned again."""
+    """Say why there is no plan, when, what clashes, and which changes of one number give one, each planned again."""
     with answering(form):
         from synergrip.problems.problem import load_problem
 
