@@ -91,6 +91,29 @@ def test_where_no_single_change_helps_pairs_do() -> None:
         assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
 
 
+def test_a_motion_that_only_the_moving_hand_cannot_do_is_told_what_would_help() -> None:
+    """The ball is to roll three times as far, farther than the fingers follow; what is typed in is planned."""
+    far = "task.motion_factor=3"
+    problem = sg.load_problem("barrett-ball-roll", [far])
+    answer = sg.plan(problem.grasp, problem.task)
+    assert isinstance(answer, sg.Unknown)
+    found = answer.explanation
+    assert [(each.cause, each.verified) for each in found.others] == [("amplitude", True)]
+    problem = sg.load_problem("barrett-ball-roll", [far, found.others[0].set])
+    assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+
+
+def test_where_the_hand_that_moves_needs_more_than_its_start_posture_a_second_number_is_told() -> None:
+    """The margin keeps the start posture from a plan, the way the hand that moves."""
+    overrides = ("task.motion_factor=3", "limits.margin=3 N")
+    found = refused("barrett-ball-roll", *overrides).explain()
+    assert not any(repair.verified for repair in found.repairs)
+    assert {two.cause for _, two in found.pairs} == {"amplitude"}
+    one, two = found.pairs[0]
+    problem = sg.load_problem("barrett-ball-roll", [*overrides, one.set, two.set])
+    assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+
+
 def test_a_motion_out_of_reach_says_which_tolerance_and_how_many_synergies_would_do() -> None:
     answer = refused("barrett-ball-lift", 'task.linearise="once"')
     found = answer.explanation

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
+from synergrip.explain.along import tried, tried_briefly
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.least_change import LeastChange, least_change, solved
-from synergrip.explain.long_form import completed, tried_along
+from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.turning import dials
@@ -47,8 +48,10 @@ def explained(
         cause, known = _blamed(no, (), [])
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
-    tried, interrupted = _as_found(repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard))
-    held = tuple(tried)
+    planned, interrupted = _as_found(
+        repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard)
+    )
+    held = tuple(planned)
     cause, known = _blamed(no, held, helping)
     text = _text(no, held, known)
     first = Explanation(cause, text, known, held, _in_vain(found), NOT_KNOWN, not short, interrupted, posed=posed)
@@ -65,8 +68,8 @@ def _of_the_motion(
 ) -> Explanation:
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
-    numbers = () if short else dials(asked, no.task, posed.analysis)
-    found, interrupted = _as_found(tried_along(numbers, heard))
+    numbers = dials(asked, no.task, posed.analysis)
+    found, interrupted = _as_found((tried_briefly if short else tried)(numbers, heard))
     others = tuple(sorted(found, key=lambda each: each.size))
     return Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short, interrupted, others=others)
 

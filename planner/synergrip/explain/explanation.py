@@ -48,10 +48,11 @@ class Explanation(Value):
     posed: Posed | None = None
     """The task as a program of the start posture; None where it is refused before there is one."""
     pairs: tuple[tuple[Repair, Repair], ...] = ()
-    """Pairs of changes with a verified plan, where no single one has; of the long form."""
+    """Pairs of changes with a verified plan, where no single one has, in the long form; where the start posture needs
+    the first one, it is 5 % more than that."""
     clashing: tuple[str, ...] | None = None
     """Keys of limits that cannot hold together and of which none can be left out; empty where physics alone leaves no
     plan, None where it is not known, as in the short form."""
     others: tuple[Repair, ...] = ()
-    """Changes with a verified plan that are not the least of their kind: of the friction of single contacts, of
-    stiffness; of the long form."""
+    """Changes with a verified plan that are not the least of their kind: of the friction of single contacts and of
+    stiffness, in the long form; of every number, where only the hand that moves has no plan."""

@@ -12,7 +12,8 @@ from synergrip.errors import SynergripError
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import LeastChange, short_of
 from synergrip.planning.outcome import Outcome, Plan
-from synergrip.planning.planning import plan
+from synergrip.planning.pace import BRIEF, WHOLE, Effort
+from synergrip.planning.planning import planned_with
 from synergrip.values import Value
 
 DIGITS = 5
@@ -23,8 +24,8 @@ ROOM = 2e-6
 """Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
 MORE = (0.0, 0.002, 0.01, 0.05, 0.2)
 """How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
-FEWER = (0.0, 0.02)
-"""The same in the short form: each is a plan along the motion."""
+ENOUGH = (0.02,)
+"""The same in the short form, which tries one value and gives up early: each is a plan along the motion."""
 TIE = 0.01
 """Relative difference below which two changes are as large as each other."""
 ORDER: dict[str, int] = {"friction": 1, "load": 2, "amplitude": 2, "duration": 3, "stiffness": 3}
@@ -102,10 +103,10 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
     dial, least = change.dial, change.value
     assert least is not None
     tried = None
-    farther = MORE if prove else FEWER
-    for more in farther if posed.analysis.grasp.held is not None else MORE[:1]:
+    farther, effort = (MORE, WHOLE) if prove else (ENOUGH, BRIEF)
+    for more in farther if posed.analysis.grasp.held is not None else (0.0,):
         value = beyond(dial, least, more)
-        tried = outcome_of(dial.turned(value))
+        tried = outcome_of(dial.turned(value), effort)
         if isinstance(tried, Plan):
             break
     else:
@@ -113,10 +114,10 @@ def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
     return Repair.of(dial, value, tried, proven=prove and short_of(dial, value, posed, SHORT))
 
 
-def outcome_of(asked: Asked) -> Outcome | None:
-    """Return what planning says of what is asked; None where it is refused as bad input."""
+def outcome_of(asked: Asked, effort: Effort = WHOLE) -> Outcome | None:
+    """Return what planning with an effort says of what is asked; None where it is refused as bad input."""
     try:
-        return plan(asked.grasp, asked.task)
+        return planned_with(effort, asked.grasp, asked.task)
     except SynergripError:
         return None
 
@@ -127,9 +128,10 @@ def beyond(dial: Dial[Asked], least: float, more: float) -> float:
     Args:
         dial: the number.
         least: its nearest value with a plan.
-        more: share of the change by which to go farther.
+        more: share of the value by which to go farther.
     """
-    turn = abs(least - dial.value) + max(more, ROOM) * max(abs(least), abs(least - dial.value))
+    change = abs(least - dial.value)
+    turn = change + max(more * abs(least), ROOM * max(abs(least), change))
     value = rounded(dial.ahead(turn / dial.span), up=dial.eased == "up")
     return min(value, dial.end) if dial.eased == "up" else max(value, dial.end)
 

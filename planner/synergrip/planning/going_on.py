@@ -13,6 +13,7 @@ from synergrip.planning.between import between
 from synergrip.planning.executing import Executor
 from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.walk import Walker
 from synergrip.planning.walked import answer_of
@@ -31,7 +32,7 @@ STAYS = "this is proven of the linear model of the start posture; along the moti
 Planned = Callable[[Analysis, TimedTask], Outcome]
 
 
-def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
+def gone_on(no: Infeasible, planned: Planned, answers: Answerer, effort: Effort = WHOLE) -> Outcome:
     """Return what becomes of a task along the motion, of which the start posture says no.
 
     The no stands where no motion can help: what the first knot asks is infeasible, too, the very first step is refused,
@@ -42,6 +43,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
         no: on a hand.
         planned: what the start posture says of a task.
         answers: the solver.
+        effort: how much is tried.
     """
     task, start = no.task, no.analysis
     if start is None or no.stage not in ("direction", "magnitude"):
@@ -54,7 +56,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer) -> Outcome:
     if held is None:
         return no
     hold, references = held
-    walker = Walker(task, start, Executor.of(start, task), answers)
+    walker = Walker(task, start, Executor.of(start, task), answers, effort=effort)
     whole = formulated(start, _without_motion(task), redundancy=task.watches_references)
     promised = forward(start.response, task.times, references, task.wrench)
     begun = replace(whole, target=walker.wanted, intersample=None)

@@ -1,4 +1,4 @@
-"""How far a pass along the motion goes, by what became of the one before it."""
+"""How far a pass along the motion goes, by what became of the one before it, and how many are tried."""
 
 from __future__ import annotations
 
@@ -22,6 +22,25 @@ ROUND = 3.0
 """How much longer than the last one a step is where another round of passes begins."""
 NEARER = 0.9
 """Factor by which a pass must bring the object nearer for another to be worth it."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is tried along a motion before it is given up."""
+
+    passes: int
+    """At most: in each round of them, or in all."""
+    rounds: bool
+    """Whether there may be any number of rounds: a motion is followed a little farther at a time where passes over the
+    whole of it do not do."""
+
+    def until(self, passes: int) -> int:
+        """Return the number of the last pass of a round that begins after some."""
+        return passes + self.passes if self.rounds else self.passes
+
+
+WHOLE, BRIEF = Effort(16, rounds=True), Effort(6, rounds=False)
+"""What an answer is worth, and what a change that is looked at beside others is."""
 
 
 @dataclass(frozen=True)

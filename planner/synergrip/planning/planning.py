@@ -15,6 +15,7 @@ from synergrip.planning.first_goal import Planner
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
+from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answerer, answerer
@@ -52,13 +53,20 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
         >>> plan(problem.grasp, problem.task).verdict
         'feasible'
     """
-    answers = answerer(solver, "solver")
-    outcome = _on_the_hand(plan_of_start_posture(grasp, task, answers), answers)
+    outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
     return outcome if isinstance(outcome, Plan) else replace(outcome, asked=task)
 
 
-def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:
+def planned_with(
+    effort: Effort, grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer = "clarabel"
+) -> Outcome:
+    """Return the answer that an effort along the motion comes to; other arguments as of `plan`."""
+    answers = answerer(solver, "solver")
+    return _on_the_hand(plan_of_start_posture(grasp, task, answers), answers, effort)
+
+
+def _on_the_hand(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
     """Return the answer about the hand that moves, where there is one."""
     analysis = outcome.analysis
     if outcome.grasp.held is None or not (analysis is None or analysis.response.restrained):
@@ -66,11 +74,11 @@ def _on_the_hand(outcome: Outcome, answers: Answerer) -> Outcome:
     if isinstance(outcome, Plan):
         from synergrip.planning.walked import on_the_hand
 
-        return on_the_hand(outcome, answers)
+        return on_the_hand(outcome, answers, effort)
     if isinstance(outcome, Infeasible):
         from synergrip.planning.going_on import gone_on
 
-        return gone_on(outcome, lambda analysis, task: _planned(analysis, task, answers), answers)
+        return gone_on(outcome, lambda analysis, task: _planned(analysis, task, answers), answers, effort)
     return outcome
 
 

@@ -28,7 +28,7 @@ from synergrip.planning.instants import intersample_of
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
 from synergrip.planning.looks import looks_between, samples_of
 from synergrip.planning.near_rows import left_out, near_rows
-from synergrip.planning.pace import Pace
+from synergrip.planning.pace import WHOLE, Effort, Pace
 from synergrip.planning.short_step import ShortStep
 from synergrip.planning.solvers import Answered, Answerer, ask
 from synergrip.planning.stages import Stage, begun, through
@@ -41,7 +41,6 @@ from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import target_displacement
 from synergrip.tasks.tracking_along import Steps, steps
 
-MOST_PASSES = 16
 STEP, DAMPING = 0.3, 2e-3
 """How far joints may move in one pass beyond what the way takes [rad, or m over the length]; `steps` has the other."""
 NEAR_BY = 1e-3
@@ -66,6 +65,7 @@ class Walker:
     """How much tighter limits are asked for at the knots than the task has them, so that they hold between them."""
     aim: Array | None = None
     """(T, 6) where the object is wanted instead of where the task says [m, rad]."""
+    effort: Effort = WHOLE
 
     def walk(self, linear: Motion) -> Walk:
         """Return the walk that the passes end with, from a plan for the start posture.
@@ -74,7 +74,7 @@ class Walker:
             linear: the motion that the plan promises.
         """
         whole = self.on(self.executed(linear.dz_r, linear.forces, linear, fewer=True))
-        if whole.interrupted or (whole.true and whole.behind <= self.allowed):
+        if not self.effort.rounds or whole.interrupted or (whole.true and whole.behind <= self.allowed):
             return whole
         alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
         held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
@@ -90,6 +90,8 @@ class Walker:
         from synergrip.planning.growing import grown
 
         begun = brought(self, hold)
+        if not self.effort.rounds:
+            return self.on(begun or self.executed(hold, None, self.executor.setting.start))
         if begun is None:
             return grown(self, hold)
         walk = self.on(begun)
@@ -126,7 +128,7 @@ class Walker:
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
         pace = best.pace.again
-        for count in range(best.passes + 1, best.passes + MOST_PASSES + 1):
+        for count in range(best.passes + 1, self.effort.until(best.passes) + 1):
             there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
             done = done or best.interrupted or (roughly and (pace.tries > 0 or self.near(best)))

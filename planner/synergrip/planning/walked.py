@@ -14,6 +14,7 @@ from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
+from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.verified import passed_over
@@ -21,17 +22,18 @@ from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
 
 
-def on_the_hand(plan: Plan, answers: Answerer) -> Plan | Unknown:
+def on_the_hand(plan: Plan, answers: Answerer, effort: Effort = WHOLE) -> Plan | Unknown:
     """Return the answer at the true equilibria of the hand.
 
     Args:
         plan: for the start posture, on a hand.
         answers: the solver.
+        effort: how much is tried.
 
     Raises:
         KeyboardInterrupt: what was found when somebody interrupted does not hold.
     """
-    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers)
+    walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers, effort=effort)
     if plan.task.linearise == "along" and not plan.interrupted:
         return answer_of(walker.walk(plan.motion), walker, plan)
     answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)

@@ -1,0 +1,89 @@
+"""What helps where only the hand that moves has no plan: values that are tried along the motion, one by one.
+
+Nothing here is the least of its kind, and of what is not found nothing is claimed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from synergrip.conic.limits.dial import Dial
+from synergrip.explain.asked import Asked, Posed
+from synergrip.explain.repairs import Repair, beyond, outcome_of
+from synergrip.explain.turning import dials
+from synergrip.planning.outcome import Plan
+from synergrip.planning.pace import BRIEF, WHOLE, Effort
+
+FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
+"""Of each number, toward more room."""
+FIRST = (1.25, 2.0)
+"""The same in the short form."""
+FEW = 3
+"""How many numbers the short form tells, and single changes to each of which a second one is looked for."""
+ROOMY = 0.05
+"""How much farther than the start posture needs a number goes to which a second one is looked for."""
+
+
+def tried(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
+    """Yield of each number the first of some values with which there is a plan along the motion.
+
+    Args:
+        numbers: that could be others.
+        heard: is told of each.
+    """
+    for dial in numbers:
+        yield from first_with_a_plan(dial, _values(dial, FACTORS), heard)
+
+
+def tried_briefly(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
+    """Yield a few numbers with the smallest factor that a plan is soon found with; arguments as of `tried`."""
+    found = 0
+    for factor in FIRST:
+        for dial in numbers:
+            for repair in first_with_a_plan(dial, _values(dial, (factor,)), heard, BRIEF):
+                yield repair
+                found += 1
+            if found == FEW:
+                return
+        if found:
+            return
+
+
+def second_changes(
+    first: Sequence[Repair], numbers: Sequence[Dial[Asked]], posed: Posed
+) -> Iterator[tuple[Repair, Repair]]:
+    """Yield pairs with a plan along the motion: a change that the start posture has a plan with, and another number.
+
+    Args:
+        first: changes that give the start posture a plan, and the hand that moves none.
+        numbers: that could be others.
+        posed: what was asked, as a program of the start posture.
+    """
+    for repair in first[:FEW]:
+        one = next(dial for dial in numbers if dial.key == repair.key and dial.value == repair.was)
+        to = beyond(one, repair.to, ROOMY)
+        changed = one.turned(to)
+        for two in dials(changed, changed.timed, posed.analysis):
+            if two.key != one.key:
+                for second in first_with_a_plan(two, _values(two, FACTORS), lambda repair: None, BRIEF):
+                    yield Repair.of(one, to, second.outcome), second
+
+
+def first_with_a_plan(
+    dial: Dial[Asked], values: Sequence[float], heard: Callable[[Repair], None], effort: Effort = WHOLE
+) -> Iterator[Repair]:
+    """Yield the first of some values with which there is a plan, if any."""
+    for value in values:
+        outcome = outcome_of(dial.turned(value), effort)
+        if isinstance(outcome, Plan):
+            found = Repair.of(dial, value, outcome)
+            heard(found)
+            yield found
+            return
+
+
+def _values(dial: Dial[Asked], factors: Sequence[float]) -> list[float]:
+    """Return other values of a number, within how far it may go."""
+    turned = [dial.value * factor if dial.eased == "up" else dial.value / factor for factor in factors]
+    low, high = sorted((dial.value, dial.end))
+    return [value for value in turned if low <= value <= high and value != dial.value]
