@@ -13,6 +13,8 @@ from synergrip.linalg import Array
 
 COUNTS = 0.005
 """Share of the proof below which a limit plays no part."""
+ALIKE = 3
+"""Digits of what items carry beside the heaviest, to which those that carry the same stay in the order of the program."""
 HEAVY = 0.2
 """Items that carry less than this share of what the heaviest item of their limit carries are not named."""
 
@@ -66,7 +68,8 @@ def conflicts(program: Program, y: Array) -> tuple[Conflict, ...]:
     for key, items in weights.items():
         share = sum(items.values()) / total
         if share > COUNTS:
-            ordered = sorted(items, key=lambda item: -items[item])
+            most = max(items.values())
+            ordered = sorted(items, key=lambda item: -round(items[item] / most, ALIKE))
             heavy = [item for item in ordered if items[item] > HEAVY * items[ordered[0]]]
             at_knots = {name: net for (name, between), net in sums[key].items() if not between}
             sides = tuple(words.get((key, name, _net(sums[key], name) < 0), "") for name in heavy)

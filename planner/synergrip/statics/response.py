@@ -168,8 +168,7 @@ def respond(grasp: Grasp, load: Array | None = None) -> Response:
     decision, free = restraint(grasp, scale)
     refuse_load(grasp, scale, free, held)
     refuse_rigid_contacts(grasp, scale)
-    maps, known = _worked_out(*supported(Matrices.of(grasp), scale, free))
-    maps = without_support(maps, scale, free)
+    maps, known = _worked_out(Matrices.of(grasp), scale, free)
     accuracy = accuracies(known)
     return Response(**{name: frozen(each) for name, each in maps.items()},
                     grasp=grasp, scale=scale, restraint=decision, accuracy=accuracy)  # fmt: skip
@@ -190,7 +189,7 @@ def wrenches(name: str, value: object) -> Array:
 
 
 def maps_in_float64(
-    matrices: Matrices, metric: Metric, arithmetic: Arithmetic[Array] = FLOAT64
+    matrices: Matrices, metric: Metric, arithmetic: Arithmetic[Array] = FLOAT64, free: Array = NONE
 ) -> tuple[dict[str, Array], Array]:
     """Return the maps of one grasp or of many (leading axes ...), by their names in `Maps`, and the `figures` of them.
 
@@ -198,7 +197,7 @@ def maps_in_float64(
         numpy.linalg.LinAlgError: the equations of a grasp are singular, as far as float64 can tell.
     """
     found = answer(matrices, metric, arithmetic)
-    return _maps(found, metric), figures(found, metric)
+    return _maps(found, metric, free), figures(found, metric)
 
 
 def is_enough(known: Array, share: float = ENOUGH) -> NDArray[np.bool_]:
@@ -206,21 +205,23 @@ def is_enough(known: Array, share: float = ENOUGH) -> NDArray[np.bool_]:
     return np.asarray(np.all(shares(known[..., 2], known) <= share, axis=-1))
 
 
-def _worked_out(matrices: Matrices, metric: Metric) -> tuple[dict[str, Array], Array]:
+def _worked_out(matrices: Matrices, scale: Scale, free: Array) -> tuple[dict[str, Array], Array]:
     """Return maps and figures in float64 where that is enough, else in twice its digits."""
+    matrices, metric = supported(matrices, scale, free)
     try:
-        maps, known = maps_in_float64(matrices, metric)
+        maps, known = maps_in_float64(matrices, metric, free=free)
         if is_enough(known):
             return maps, known
     except np.linalg.LinAlgError:
         pass
     found = answer(matrices, metric, DOUBLED)
-    return _maps(found, metric), figures(found, metric)
+    return _maps(found, metric, free), figures(found, metric)
 
 
-def _maps(found: Answer, metric: Metric) -> dict[str, Array]:
+def _maps(found: Answer, metric: Metric, free: Array) -> dict[str, Array]:
     turned = about_centroid(metric)
     both = {f"d{name}": found.maps[..., rows, :] for name, rows in found.rows.items()}
+    both = without_support(both, metric, free)
     both["du"] = turned.mT @ both["du"]
     of_references = {f"{name}_dzr": each[..., :-6] for name, each in both.items()}
     of_wrench = {f"{name}_dw": both[name][..., -6:] @ turned for name in ("dlambda", "du", "dz", "dq")}

@@ -77,16 +77,24 @@ def supported(matrices: Matrices, metric: Metric, free: Array) -> tuple[Matrices
     return Matrices(G, J, matrices.S, C_s, matrices.C_q, matrices.C_z), Metric(metric.motion, force)
 
 
-def without_support(maps: dict[str, Array], scale: Scale, free: Array) -> dict[str, Array]:
+def without_support(parts: dict[str, Array], metric: Metric, free: Array) -> dict[str, Array]:
     """Return the maps of a grasp from those of the same with a support of its free motions (6, k).
 
     What the support carries is taken out, and what it would let the object move.
+
+    Args:
+        parts: maps by what they give ("du", ...), of references and then of the load, both about the centroid: about B,
+            which may be far away, what the support carries would have no digits left.
+        metric: the scaled coordinates.
+        free: (6, k) from `free_directions`.
     """
-    if not (count := free.shape[1]):
-        return maps
-    kept = np.linalg.solve(scale.motion, np.eye(6) - free @ free.T) @ scale.motion
-    forces = {name: maps[name][:-count] for name in ("dlambda_dzr", "dlambda_dw")}
-    return maps | forces | {"du_dzr": kept @ maps["du_dzr"], "du_dw": kept @ maps["du_dw"] @ kept.T}
+    if not (count := free.shape[-1]):
+        return parts
+    size = np.repeat([1.0, metric.motion[5, 5]], 3)[:, None]
+    seen, moved = size * free, free / size
+    motion = parts["du"] - moved @ (seen.T @ parts["du"])
+    motion[:, -6:] -= (motion[:, -6:] @ seen) @ moved.T
+    return parts | {"dlambda": parts["dlambda"][:-count], "du": motion}
 
 
 def twists_of(free: Array, scale: Scale) -> Array:
