@@ -211,13 +211,19 @@ class LeastChanges:
         return float(self._solved(self.widening))
 
     def factor(self, number: str) -> float:
-        """Return the factor nearest to 1 with which there is a plan; infinity (0 for what goes down) for none."""
+        """Return the factor nearest to 1 with which there is a plan; infinity (0 for what goes down) for none.
+
+        NaN where the solver does not say.
+        """
         if number == "friction":
-            if self.shortfall(number, FAR) > 0:
-                return np.inf
-            return float(
-                np.exp(brentq(lambda x: self.shortfall(number, float(np.exp(x))), 0.0, np.log(FAR), xtol=1e-7))
-            )
+            ends = np.array([self.shortfall(number), self.shortfall(number, FAR)])
+            if np.any(np.isnan(ends)) or ends[0] <= 0 or ends[1] > 0:
+                return np.inf if ends[0] > 0 and ends[1] > 0 else np.nan
+            try:
+                least = brentq(lambda x: self.shortfall(number, float(np.exp(x))), 0.0, np.log(FAR), xtol=1e-7)
+            except ValueError:  # it did not say on the way
+                return np.nan
+            return float(np.exp(least))
         down, self.friction.value = number in DOWN, 1.0
         self.chosen.value = np.array([(-1.0 if down else 1.0) * (name == number) for name in self.names])
         self.most.value = 1.0 if down else FAR

@@ -14,7 +14,7 @@ from synergrip.linalg import Array
 COUNTS = 0.005
 """Share of the proof below which a limit plays no part."""
 ALIKE = 3
-"""Digits of what items carry beside the heaviest, to which those that carry the same stay in the order of the program."""
+"""Digits of what items carry beside the heaviest; those that are alike to these stay in the order of the program."""
 HEAVY = 0.2
 """Items that carry less than this share of what the heaviest item of their limit carries are not named."""
 
