@@ -5,11 +5,12 @@ Nothing here is the least of its kind, and of what is not found nothing is claim
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 
 from synergrip.conic.limits.dial import Dial
 from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.repairs import Repair, beyond, outcome_of
+from synergrip.explain.repairs import Repair, beyond, outcome_of, rounded
 from synergrip.explain.turning import dials
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
@@ -18,6 +19,8 @@ FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
 """Of each number, toward more room."""
 FIRST = (1.25, 2.0)
 """The same in the short form."""
+HALVES = 3
+"""How often what lies between the last factor without and the first with a plan is halved."""
 FEW = 3
 """How many numbers the short form tells, and single changes to each of which a second one is looked for."""
 ROOMY = 0.05
@@ -25,14 +28,28 @@ ROOMY = 0.05
 
 
 def tried(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
-    """Yield of each number the first of some values with which there is a plan along the motion.
+    """Yield of each number the first of some values with which there is a plan along the motion, halved a few times.
 
     Args:
         numbers: that could be others.
         heard: is told of each.
     """
     for dial in numbers:
-        yield from first_with_a_plan(dial, _values(dial, FACTORS), heard)
+        for found in first_with_a_plan(dial, _values(dial, FACTORS), lambda repair: None):
+            nearer = _nearer(dial, found)
+            heard(nearer)
+            yield nearer
+
+
+def _nearer(dial: Dial[Asked], found: Repair) -> Repair:
+    """Return a smaller change that has a plan, too, by halves of what lies before the one that was found."""
+    factors = [value for value in _values(dial, FACTORS) if abs(value - dial.value) < abs(found.to - dial.value)]
+    without = factors[-1] if factors else dial.value
+    for _ in range(HALVES):
+        value = rounded(math.sqrt(without * found.to), up=dial.eased == "up")
+        nearer = next(first_with_a_plan(dial, [value], lambda repair: None), None)
+        found, without = (found, value) if nearer is None else (nearer, without)
+    return found
 
 
 def tried_briefly(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:

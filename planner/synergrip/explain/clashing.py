@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.explain.asked import Asked
@@ -23,11 +26,13 @@ def clashing(asked: Asked) -> tuple[str, ...] | None:
     Returns:
         The keys; None when that all limits together leave no plan is not certified here.
     """
+    let_go = (JointRange(lower=-np.inf, upper=np.inf),) if asked.grasp.held is not None else ()
     stated = [limit for limit in asked.limits if not isinstance(limit, SlipMargin) or limit.margin]
 
     def clash(limits: Sequence[Limit]) -> bool:
         cones = () if any(isinstance(limit, SlipMargin) for limit in limits) else (SlipMargin(0.0),)
-        posed = asked.with_limits((*cones, *limits)).posed(every=True)
+        free = () if any(isinstance(limit, JointRange) for limit in limits) else let_go
+        posed = asked.with_limits((*cones, *free, *limits)).posed(every=True)
         return posed is not None and solved("any plan", posed.program()).infeasible
 
     return tuple(limit.key for limit in irreducible(stated[::-1], clash)[::-1]) if clash(stated) else None

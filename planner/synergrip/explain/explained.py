@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from synergrip.conic.conflicts import Conflict
-from synergrip.conic.limits.dial import Cause
-from synergrip.explain.along import tried, tried_briefly
+from synergrip.conic.limits.dial import Cause, Dial
+from synergrip.conic.limits.friction_cone import FRICTION
+from synergrip.conic.limits.slip_margin import KEY
+from synergrip.explain.along import FIRST, tried, tried_briefly
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.least_change import LeastChange, least_change, solved
@@ -18,9 +21,12 @@ from synergrip.explain.turning import dials
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown
+from synergrip.planning.pace import BRIEF, WHOLE
 
 BEST = 3
 """Repairs of the short form."""
+SMALL = math.log(FIRST[0])
+"""Change than which no smaller one is tried."""
 
 
 def explained(
@@ -48,19 +54,42 @@ def explained(
         cause, known = _blamed(no, (), [])
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
-    planned, interrupted = _as_found(
-        repaired(helping, posed, most=BEST if short else None, prove=not short, heard=heard)
-    )
-    held = tuple(planned)
+    most, effort = (BEST, BRIEF if isinstance(no, Infeasible) else WHOLE) if short else (None, WHOLE)
+    planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
+    others: list[Repair] = []
+    if isinstance(no, Unknown) and not interrupted:
+        others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(numbers, planned), heard))
+    held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping)
-    text = _text(no, held, known)
-    first = Explanation(cause, text, known, held, _in_vain(found), NOT_KNOWN, not short, interrupted, posed=posed)
+    text, in_vain = _text(no, held, known), _in_vain(found)
+    known = _without_margins(known) if "margin" in in_vain else known
+    first = Explanation(cause, text, known, held, in_vain, NOT_KNOWN, not short, interrupted, posed=posed, others=rest)
     try:
         strict = posed if posed.strict else asked.posed(no.analysis, every=True)
         first = first if strict is None else replace(first, when=when(strict))
     except KeyboardInterrupt:
         return replace(first, interrupted=True)
     return first if short or interrupted else completed(no, first, asked, posed, program, numbers, heard)
+
+
+def _with_room(numbers: Sequence[Dial[Asked]], held: Sequence[Repair]) -> list[Dial[Asked]]:
+    """Return the numbers of which the hand that moves may need less than the start posture, or something else."""
+    small = {each.key for each in held if each.verified and each.size < SMALL}
+    return [dial for dial in numbers if dial.key not in small]
+
+
+def _smaller(planned: Sequence[Repair], others: Sequence[Repair]) -> tuple[tuple[Repair, ...], tuple[Repair, ...]]:
+    """Return the changes, the smaller of two where the hand that moves needs less than its start, and others."""
+    if not others:
+        return tuple(planned), ()
+    smaller = {each.key: each for each in others}
+    held = [each if _better(each, smaller.get(each.key, each)) else smaller[each.key] for each in planned]
+    keys = {each.key for each in held}
+    return tuple(sorted(held, key=lambda each: each.size)), tuple(each for each in others if each.key not in keys)
+
+
+def _better(one: Repair, other: Repair) -> bool:
+    return one is other or (one.verified and one.size <= other.size)
 
 
 def _of_the_motion(
@@ -118,6 +147,11 @@ def _blamed(
     if cause == "friction":
         return cause, tuple(sorted(known, key=lambda each: not each.friction))
     return cause, tuple(sorted(known, key=lambda each: each.key != blamed))
+
+
+def _without_margins(known: tuple[Conflict, ...]) -> tuple[Conflict, ...]:
+    """Return what clashes with friction cones under their own name, where no margin of theirs is at fault."""
+    return tuple(replace(each, key=FRICTION) if each.friction and each.key == KEY else each for each in known)
 
 
 def _in_vain(found: list[LeastChange]) -> tuple[Cause, ...]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+
+import numpy as np
 
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
@@ -12,12 +15,14 @@ from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.clashing import clashing
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.least_change import least_change
-from synergrip.explain.pairs import pairs
+from synergrip.explain.pairs import GIVEN, pairs
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.synergies.missing_synergies import missing_synergies
 from synergrip.explain.turning import contact_dials, stiffness_dial
 from synergrip.planning.outcome import Infeasible, Unknown
 
+LARGE = math.log(2)
+"""Change of a single limit than which two smaller ones are looked for."""
 STIFFER = (2.0, 0.5, 5.0, 0.2)
 """Factors of stiffness that are tried; no claim is made of others."""
 
@@ -42,8 +47,10 @@ def completed(
         known = replace(known, clashing=clashing(asked))
         for other in _others(asked, posed, program, heard):
             known = replace(known, others=(*known.others, other))
-        if not any(each.verified for each in first.repairs):
-            for pair in _pairs(first, posed, program, numbers):
+        single = [each.size for each in first.repairs if each.verified and each.cause not in GIVEN]
+        least = min(single, default=np.inf)
+        for pair in _pairs(first, posed, program, numbers) if least > LARGE else ():
+            if max(each.size for each in pair) < least:
                 known = replace(known, pairs=(*known.pairs, pair))
         if isinstance(no, Infeasible):
             known = replace(known, missing_synergies=missing_synergies(no))
@@ -55,8 +62,10 @@ def completed(
 def _pairs(
     first: Explanation, posed: Posed, program: Program, numbers: Sequence[Dial[Asked]]
 ) -> Iterator[tuple[Repair, Repair]]:
-    """Return pairs of changes with a plan, where no single one has one."""
-    return second_changes(first.repairs, numbers, posed) if first.repairs else pairs(numbers, posed, program)
+    """Return pairs of changes with a plan, where no single limit has one, or only a large change of it."""
+    alone = any(each.verified for each in first.repairs)
+    along = first.repairs and not alone
+    return second_changes(first.repairs, numbers, posed) if along else pairs(numbers, posed, program)
 
 
 def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repair], None]) -> Iterator[Repair]:
@@ -66,4 +75,4 @@ def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repai
         if repair.verified:
             yield repair
     dial = stiffness_dial(asked)
-    yield from first_with_a_plan(dial, STIFFER, heard)
+    yield from first_with_a_plan(dial, [dial.value * factor for factor in STIFFER], heard)

@@ -16,12 +16,18 @@ from synergrip.explain.turning import dials
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 
-MOST = 3
-"""Pairs that are told."""
+MOST, TRIED = 3, 12
+"""Pairs that are told, and that are planned at most."""
+NOTHING = 1e-6
+"""Relative turn that is none."""
+GIVEN = ("friction", "load", "amplitude", "duration")
+"""What is often not a user's to change: pairs of limits come first."""
+FARTHER = (0.0, 0.05, 0.3)
+"""How much farther than the least changes of the start posture is tried, on a hand."""
 
 
 def pairs(numbers: Sequence[Dial[Asked]], posed: Posed, program: Program) -> Iterator[tuple[Repair, Repair]]:
-    """Yield pairs of changes with a verified plan, those with the least sum of relative changes first.
+    """Yield pairs of changes with a verified plan: those of limits first, of these the least sum of relative changes.
 
     Args:
         numbers: of which none helps alone; those of the load and of the motion among them.
@@ -31,14 +37,20 @@ def pairs(numbers: Sequence[Dial[Asked]], posed: Posed, program: Program) -> Ite
     columns = [(dial, turning_column(dial, posed, program)) for dial in numbers if dial.smooth]
     known = [(dial, column) for dial, column in columns if column is not None and np.any(column)]
     least = [_least(one, two, program) for one, two in combinations(known, 2)]
-    told = 0
-    for _, values in sorted((each for each in least if each is not None), key=lambda each: each[0]):
-        pair = _planned(values, posed)
+    told = tried = 0
+    for _, values in sorted((each for each in least if each is not None), key=_last):
+        if told == MOST or tried == TRIED:
+            return
+        pair, tried = _planned(values, posed), tried + 1
         if pair is not None:
             yield pair
             told += 1
-        if told == MOST:
-            return
+
+
+def _last(found: tuple[float, tuple[_Turned, _Turned]]) -> tuple[int, float]:
+    """Return by what pairs are sorted: how many are no limits, and how far they are turned."""
+    turns, values = found
+    return sum(dial.cause in GIVEN for dial, _ in values), turns
 
 
 _Turned = tuple[Dial[Asked], float]
@@ -54,17 +66,20 @@ def _least(
     if not decision.optimal:
         return None
     turns = np.maximum(decision.solution.x[-2:], 0.0)
+    if turns.min() < NOTHING:
+        return None  # one of them alone does it
     first, second = ((dial, dial.ahead(float(turn))) for (dial, _), turn in zip(chosen, turns, strict=True))
     return float(turns.sum()), (first, second)
 
 
 def _planned(values: tuple[_Turned, _Turned], posed: Posed) -> tuple[Repair, Repair] | None:
     """Return two changes with which there is a verified plan; None when there is none."""
-    (one, first), (two, second) = ((dial, beyond(dial, value, 0.0)) for dial, value in values)
-    changed = one.turned(first)
-    again = dials(changed, changed.timed, posed.analysis)
-    both = next(each for each in again if (each.key, each.value) == (two.key, two.value)).turned(second)
-    outcome = outcome_of(both)
-    if not isinstance(outcome, Plan):
-        return None
-    return Repair.of(one, first, outcome), Repair.of(two, second, outcome)
+    for more in FARTHER if posed.analysis.grasp.held is not None else FARTHER[:1]:
+        (one, first), (two, second) = ((dial, beyond(dial, value, more)) for dial, value in values)
+        changed = one.turned(first)
+        again = dials(changed, changed.timed, posed.analysis)
+        both = next(each for each in again if (each.key, each.value) == (two.key, two.value)).turned(second)
+        outcome = outcome_of(both)
+        if isinstance(outcome, Plan):
+            return Repair.of(one, first, outcome), Repair.of(two, second, outcome)
+    return None

@@ -12,7 +12,7 @@ from synergrip.errors import SynergripError
 from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.least_change import LeastChange, short_of
 from synergrip.planning.outcome import Outcome, Plan
-from synergrip.planning.pace import BRIEF, WHOLE, Effort
+from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.planning import planned_with
 from synergrip.values import Value
 
@@ -22,10 +22,12 @@ SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
 ROOM = 2e-6
 """Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
-MORE = (0.0, 0.002, 0.01, 0.05, 0.2)
+MORE = (0.0, 0.002, 0.01, 0.05, 0.2, 0.5, 1.0)
 """How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
-ENOUGH = (0.02,)
-"""The same in the short form, which tries one value and gives up early: each is a plan along the motion."""
+ENOUGH = (0.02, 0.1)
+"""The same in the short form; the first alone once some change has a plan: each is one along the motion."""
+BEYOND = math.log(1e3)
+"""How large a change is at most."""
 TIE = 0.01
 """Relative difference below which two changes are as large as each other."""
 ORDER: dict[str, int] = {"friction": 1, "load": 2, "amplitude": 2, "duration": 3, "stiffness": 3}
@@ -67,8 +69,11 @@ class Repair(Value):
 
 
 def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
-    """Return the changes that help, the smallest first; of such as tie a user's limit before friction and load."""
-    helping = sorted((each for each in found if each.value is not None), key=lambda each: each.size)
+    """Return the changes that help, the smallest first; of such as tie a user's limit before friction and load.
+
+    Those that would leave next to nothing of a number, or make it more than anybody has, are no help.
+    """
+    helping = sorted((each for each in found if each.value is not None and each.size < BEYOND), key=lambda e: e.size)
     result: list[LeastChange] = []
     while helping:
         smallest = helping[0].size
@@ -81,7 +86,7 @@ def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
 
 def repaired(
     changes: Sequence[LeastChange], posed: Posed, *, most: int | None = None, prove: bool = True,
-    heard: Callable[[Repair], None] = lambda repair: None,
+    effort: Effort = WHOLE, heard: Callable[[Repair], None] = lambda repair: None,
 ) -> Iterator[Repair]:  # fmt: skip
     """Yield the repair of each change, planned again, as it is found.
 
@@ -90,20 +95,22 @@ def repaired(
         posed: what was asked, as a program of the start posture.
         most: how many are planned again at most; the others are left out.
         prove: whether what is short of each is looked at, too, and more values are tried.
+        effort: how much is tried along the motion.
         heard: is told of each.
     """
+    farther: tuple[float, ...] = MORE if prove else ENOUGH
     for change in changes[:most]:
-        repair = _planned(change, posed, prove=prove)
+        repair = _planned(change, posed, farther, effort, prove=prove)
+        farther = ENOUGH[:1] if repair.verified and not prove else farther
         heard(repair)
         yield repair
 
 
-def _planned(change: LeastChange, posed: Posed, *, prove: bool) -> Repair:
+def _planned(change: LeastChange, posed: Posed, farther: Sequence[float], effort: Effort, *, prove: bool) -> Repair:
     """Return a change with the first value beyond the least one of which there is a verified plan."""
     dial, least = change.dial, change.value
     assert least is not None
     tried = None
-    farther, effort = (MORE, WHOLE) if prove else (ENOUGH, BRIEF)
     for more in farther if posed.analysis.grasp.held is not None else (0.0,):
         value = beyond(dial, least, more)
         tried = outcome_of(dial.turned(value), effort)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -134,25 +133,27 @@ def _of_friction(asked: Asked) -> Iterator[Dial[Asked]]:
     """Yield the friction of all contacts, by one factor; spin friction goes along."""
     least = min((contact.friction for contact in asked.grasp.contacts if contact.friction > 0), default=0.0)
     if least > 0:
-        yield _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least, lambda factor: factor)
+        yield _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least)
 
 
 def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:
     """Return the friction of each contact by itself."""
     contacts = [contact for contact in asked.grasp.contacts if contact.friction > 0]
-    return tuple(
-        _friction(asked, (contact.name,), contact.friction, partial(_of_contact, contact.name)) for contact in contacts
-    )
+    return tuple(_friction(asked, (contact.name,), contact.friction) for contact in contacts)
 
 
-def _of_contact(name: str, factor: str) -> str:
-    """Return a factor for one contact as TOML."""
-    return f"{{ {json.dumps(name, ensure_ascii=False)} = {factor} }}"
-
-
-def _friction(asked: Asked, names: tuple[str, ...], least: float, written: Callable[[str], str]) -> Dial[Asked]:
+def _friction(asked: Asked, names: tuple[str, ...], least: float) -> Dial[Asked]:
     """Return the friction of some contacts, the least of which is given, by one factor."""
     grasp = asked.grasp
+    already = {contact.name: grasp.factors.friction.get(contact.name, 1.0) for contact in grasp.contacts}
+
+    def written(value: float) -> str:
+        """Return the factors of all contacts as TOML: those that the file has, and those that are changed."""
+        factors = {name: factor * (value / least if name in names else 1.0) for name, factor in already.items()}
+        if len(names) == len(factors) and len({*factors.values()}) == 1:
+            return quantity(next(iter(factors.values())), "")
+        told = (f"{json.dumps(name, ensure_ascii=False)} = {quantity(f, '')}" for name, f in factors.items() if f != 1)
+        return f"{{ {', '.join(told)} }}"
 
     def turned(value: float) -> Asked:
         chosen = [contact for contact in grasp.contacts if contact.name in names]
@@ -161,7 +162,7 @@ def _friction(asked: Asked, names: tuple[str, ...], least: float, written: Calla
 
     return Dial(
         "friction", f"{_table(asked)}.friction_factor", least, "", turned, end=FRICTION_END * least, smooth=False,
-        written=lambda value: written(quantity(value / least, "")),
+        written=written,
     )  # fmt: skip
 
 
@@ -169,8 +170,8 @@ def stiffness_dial(asked: Asked) -> Dial[Asked]:
     """Return the stiffness of all contacts, by one factor: sets of plans are not nested in it."""
     grasp = asked.grasp
     return Dial(
-        "stiffness", f"{_table(asked)}.stiffness_factor", 1.0, "",
-        lambda value: replace(asked, grasp=grasp.replace(C_s=grasp.C_s / value)), smooth=False,
+        "stiffness", f"{_table(asked)}.stiffness_factor", (already := grasp.factors.stiffness), "",
+        lambda value: replace(asked, grasp=grasp.replace(C_s=grasp.C_s * (already / value))), smooth=False,
         nested=False,
     )  # fmt: skip
 

@@ -30,7 +30,13 @@ def blamed(repair: Repair) -> str:
     """Return what is wrong, and what would do."""
     was, to = values(repair)
     what = LEAST_FORCE if repair.cause == "force_cap" and repair.to < repair.was else TOO[repair.cause]
-    return f"{what}: {was} ({repair.key}), and {to} would do"
+    key = "" if repair.cause == "friction" else f" ({repair.key})"
+    return f"{what}: {was}{key}, and {to} would do"
+
+
+def changed(repair: Repair) -> str:
+    """Return what is changed, in words where its key is that of a factor and its value is not."""
+    return "friction" if repair.cause == "friction" else repair.key
 
 
 def most_margin(no: Infeasible) -> str:

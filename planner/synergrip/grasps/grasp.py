@@ -11,6 +11,7 @@ import numpy as np
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.factors import Factors
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.grasps.matrix_reading import unbalanced
 from synergrip.linalg import Array, block_diagonal, frozen
@@ -55,6 +56,8 @@ class Grasp(ByContent):
     synergies: tuple[str, ...]
     held: Held | None = None
     """The hand in its posture, and the object; None for a grasp given as matrices."""
+    factors: Factors = field(default_factory=Factors)
+    """By what a problem file has multiplied friction and stiffness; they are in the numbers already."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a grasp file; a number as a compliance stands for that times the identity.

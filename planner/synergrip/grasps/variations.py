@@ -27,7 +27,7 @@ def varied(
         InputError: an unknown name, a value that is none, a mass where there is no object, a kind of other components
             than the matrices have.
     """
-    known = [field.name for field in fields(Grasp) if field.name not in ("held", "contacts")]
+    known = [field.name for field in fields(Grasp) if field.name not in ("held", "contacts", "factors")]
     for name in others:
         if name not in known:
             raise InputError.at(name, one_of(name, ["friction", "contact", "mass", *known]), on_key=True)

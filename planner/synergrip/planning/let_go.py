@@ -1,4 +1,4 @@
-"""Joint ranges that a task lets go: that it does, and where the plan leaves them."""
+"""What a task lets go: joint ranges, and where the plan leaves them; a part of the motion within its tolerance."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
+from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.tracking import RIGID_TOLERANCE, undone, wish_size
 
 LEFT = 1e-9
 """[rad], [m] beyond its range from which on a joint counts as outside."""
@@ -41,3 +43,13 @@ def ranges_left(task: TimedTask, grasp: Grasp, joint: Array) -> Iterator[str]:
             f"{task.times[k]:.3g} s"
         )
     yield told
+
+
+def undone_notes(analysis: Analysis, task: TimedTask) -> Iterator[str]:
+    """Yield how much of the wanted motion the tolerance lets a plan leave undone, as none of the hand's."""
+    left, wish = undone(analysis, task), wish_size(analysis, task)
+    if left > RIGID_TOLERANCE * wish:
+        yield (
+            f"up to {1e3 * left:.3g} mm of the {1e3 * wish:.3g} mm that are wanted (rotations times length) are left "
+            f"undone: no rigid motion of the hand does them, and task.tolerance allows it"
+        )

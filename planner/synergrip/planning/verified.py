@@ -16,7 +16,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import Between, between
 from synergrip.planning.free import free_notes
-from synergrip.planning.let_go import ranges_left
+from synergrip.planning.let_go import ranges_left, undone_notes
 from synergrip.planning.outcome import Check, Plan
 from synergrip.planning.stages import Stage
 from synergrip.statics.analysis import Analysis
@@ -63,7 +63,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     return Plan(
         task, analysis, formulation.whole, motion, frozen(alpha), frozen(beta), frozen(gamma),
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
-        (*free_notes(analysis), *accuracy_notes(analysis.response), *stage.notes,
+        (*free_notes(analysis), *accuracy_notes(analysis.response), *undone_notes(analysis, task), *stage.notes,
          *ranges_left(task, analysis.grasp, motion.dq), *_far(analysis, motion), *passed_over(found),
          *frame_notes(analysis.grasp)), found,
         interrupted=stage.interrupted,

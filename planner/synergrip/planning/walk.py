@@ -68,11 +68,7 @@ class Walker:
     effort: Effort = WHOLE
 
     def walk(self, linear: Motion) -> Walk:
-        """Return the walk that the passes end with, from a plan for the start posture.
-
-        Args:
-            linear: the motion that the plan promises.
-        """
+        """Return the walk that the passes end with, from the motion that a plan for the start posture promises."""
         whole = self.on(self.executed(linear.dz_r, linear.forces, linear, fewer=True))
         if not self.effort.rounds or whole.interrupted or (whole.true and whole.behind <= self.allowed):
             return whole
@@ -91,7 +87,8 @@ class Walker:
 
         begun = brought(self, hold)
         if not self.effort.rounds:
-            return self.on(begun or self.executed(hold, None, self.executor.setting.start))
+            start = self.executor.setting.start.taken(np.zeros(len(hold), dtype=int))
+            return self.on(begun or self.executed(hold, None, start))
         if begun is None:
             return grown(self, hold)
         walk = self.on(begun)

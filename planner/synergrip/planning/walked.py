@@ -13,6 +13,7 @@ from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
+from synergrip.planning.let_go import undone_notes
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
@@ -84,7 +85,8 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
             return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
     if not walk.true:
-        why = f"after {walk.passes} passes what is promised and what the hand does still differ by {walk.gap:.3g} N"
+        why = f"after {walk.passes} passes what is promised and what the hand does still differ"
+        why += f" by {walk.gap:.3g} N" if np.isfinite(walk.gap) else ", or an equilibrium is not found"
         return _unknown(walker, linear, why, walk, figures(walk, walker, linear.formulation, linear.between))
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
@@ -94,8 +96,8 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
     told = (
-        *accuracy_notes(walker.start.response), *_goal_notes(walk), *passed_over(found.between),
-        *frame_notes(walker.start.grasp), *notes(walk, walker),
+        *accuracy_notes(walker.start.response), *undone_notes(walker.start, walker.task), *_goal_notes(walk),
+        *passed_over(found.between), *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
     return _with(_decided(linear, walk), walk, walker, found, told)
 

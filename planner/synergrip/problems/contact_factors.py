@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Protocol
 
 from synergrip.documents.fields import POSITIVE, Written, named
 from synergrip.documents.numbers import number
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.factors import Factors as Multiplied
 from synergrip.grasps.grasp import Grasp
 
 
@@ -50,8 +52,9 @@ def with_factors(grasp: Grasp, table: Factors | None, key: str) -> Grasp:
     """
     if table is None:
         return grasp
-    if table.stiffness_factor is not None:
-        grasp = grasp.replace(C_s=grasp.C_s / table.stiffness_factor)
+    stiffer = table.stiffness_factor
+    if stiffer is not None:
+        grasp = replace(grasp.replace(C_s=grasp.C_s / stiffer), factors=Multiplied(stiffness=stiffer))
     kinds = {contact.name: contact.kind for contact in grasp.contacts}
     factor = table.friction_factor
     if factor is None:
@@ -60,4 +63,5 @@ def with_factors(grasp: Grasp, table: Factors | None, key: str) -> Grasp:
     for name in by_name:
         if name not in kinds:
             raise InputError.at(f"{key}.friction_factor.{name}", one_of(name, list(kinds)), on_key=True)
-    return grasp.replace(contact={name: kinds[name].slippery(value) for name, value in by_name.items()})
+    slippery = grasp.replace(contact={name: kinds[name].slippery(value) for name, value in by_name.items()})
+    return replace(slippery, factors=replace(grasp.factors, friction=by_name))

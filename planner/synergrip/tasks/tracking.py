@@ -71,6 +71,14 @@ def wish_size(analysis: Analysis, task: TimedTask) -> float:
     return float(np.linalg.norm(analysis.response.scale.twist(wish), axis=1).max(initial=0.0))
 
 
+def undone(analysis: Analysis, task: TimedTask) -> float:
+    """Return how much of a wanted motion is none of the hand's and left undone, at most [m, rotations times length]."""
+    if task.target.kind != "motion" or task.tracking == "compliant" or len(task.axes) < len(AXES):
+        return 0.0
+    _, outside = motion_coordinates(analysis.response, analysis.spaces, task.target.values)
+    return float(np.linalg.norm(analysis.response.scale.twist(outside), axis=1).max(initial=0.0))
+
+
 def in_motions(analysis: Analysis, task: TimedTask) -> TimedTask:
     """Return the task with its wish as a motion of the object, which means the same whatever the synergies are.
 

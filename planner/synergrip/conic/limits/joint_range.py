@@ -108,14 +108,15 @@ class JointRange(Limit):
         return len(given) == 2 and not any(np.any(np.isfinite(end)) for end in given)
 
     def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
-        """How wide all ranges are, as a multiple of what they are."""
+        """How wide all ranges are, as a multiple of those that the hand states, or else of what they are."""
         if self.lets_go:
             return ()
+        wide = 1.0 if grasp.held is None else _times(self, _stated(grasp.held))
 
         def written(value: float) -> str:
             return f"{{ wider = {value - 1:.10g} }}"
 
-        return (Dial("joint_range", self.key, 1.0, "", lambda value: self.loosened(value - 1), written=written),)
+        return (Dial("joint_range", self.key, wide, "", lambda v: self.loosened(v / wide - 1), written=written),)
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each joint, in units of half its range; none where nothing gets as far."""
@@ -156,6 +157,15 @@ class JointRange(Limit):
 def _unit(lower: Array, upper: Array) -> Array:
     half = (upper - lower) / 2
     return np.where(np.isfinite(half) & (half > 0), half, 1.0)
+
+
+def _times(ranges: JointRange, stated: dict[str, Array]) -> float:
+    """Return how many times as wide all ranges are as those that are stated; 1 where not all are as many times so."""
+    wide, of_hand = (
+        _unit(lower, upper) for lower, upper in ((ranges.lower, ranges.upper), (stated["lower"], stated["upper"]))
+    )
+    ratios = np.asarray(wide / of_hand)
+    return float(ratios.mean()) if np.ptp(ratios) <= 1e-9 * ratios.max() else 1.0
 
 
 def refuse_some_of(ranged: type, values: Sequence[OneOrEach], named: Collection[str]) -> None:

@@ -8,7 +8,7 @@ from shlex import quote
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
-from synergrip.explain.words import values
+from synergrip.explain.words import changed, values
 from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped
 
@@ -53,19 +53,26 @@ def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) ->
 def _repairs(found: Explanation) -> Iterator[str]:
     if found.repairs:
         smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
+        with_plan = [each for each in found.repairs if each.verified]
         yield from ("", f"What would help{smallest}")
-        yield _changes([(each,) for each in found.repairs])
+        yield _changes([(each,) for each in with_plan or found.repairs])
+        if with_plan and (rest := [each for each in found.repairs if not each.verified]):
+            told = ", ".join(f"{changed(each)} {values(each)[1]}" for each in rest)
+            yield from wrapped(
+                "", f"no plan of the hand that moves was found with {told}, where its start posture has one"
+            )
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
     if found.others:
         yield from ("", "What would help, too, tried and planned, and not the least there is")
         yield _changes([(each,) for each in found.others])
     if found.pairs:
-        yield from ("", "No single change helps; pairs that do")
+        alone = any(each.verified for each in found.repairs)
+        yield from ("", "Pairs of changes that help" if alone else "No single change helps; pairs that do")
         yield _changes(found.pairs)
     if found.whole and not found.pairs and not any(each.verified for each in (*found.repairs, *found.others)):
-        pair = "" if found.posed is None else ", nor any pair of changes"
-        yield from wrapped("Help     ", f"no single change that was tried gives a plan{pair}")
+        pair = "" if found.posed is None else ", nor any pair"
+        yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
     if found.clashing is not None:
         yield from wrapped("Clash    ", _clash(found.clashing))
     if found.cannot_help:
@@ -76,7 +83,7 @@ def _repairs(found: Explanation) -> Iterator[str]:
 def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
     """Return a table of changes, each of one number or of several."""
     cells = [
-        (each.key if k == 0 else f"and {each.key}", *values(each), f"--set {quote(each.set)}")
+        (changed(each) if k == 0 else f"and {changed(each)}", *values(each), f"--set {quote(each.set)}")
         for row in rows
         for k, each in enumerate(row)
     ]
