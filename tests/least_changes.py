@@ -228,7 +228,7 @@ class LeastChanges:
         self.chosen.value = np.array([(-1.0 if down else 1.0) * (name == number) for name in self.names])
         self.most.value = 1.0 if down else FAR
         turn = self._solved(self.least)
-        return (1 - turn if turn < 1 else 0.0) if down else 1 + turn
+        return (0.0 if turn >= 1 else 1 - turn) if down else 1 + turn
 
     def all_factors(self) -> dict[str, float]:
         """Return the factors of all numbers, friction among them."""
