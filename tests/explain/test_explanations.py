@@ -13,12 +13,15 @@ import pytest
 import synergrip as sg
 import synergrip.explain.refused as refusing
 from synergrip.explain.asked import Asked
+from synergrip.explain.clashing import clashing
 from synergrip.explain.compromise import compromise
 from synergrip.explain.least_change import least_change
+from synergrip.explain.pairs import GIVEN
 from synergrip.explain.turning import dials
 from synergrip.explain.when import when
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.reports.data.json_no import no_document
+from synergrip.reports.text.text_no import more_lines
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 
@@ -89,6 +92,61 @@ def test_where_no_single_change_helps_pairs_do() -> None:
     for one, two in found.pairs:
         problem = sg.load_problem("pinch-soft", [*overrides, one.set, two.set])
         assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+
+
+@pytest.mark.parametrize(
+    "given", ["grasp.friction_factor=0.5", 'grasp.friction_factor={"C1"=0.4,"C2"=0.5}', "grasp.friction_factor=0.7"]
+)
+def test_a_factor_that_is_there_already_is_in_the_one_that_is_told(given: str) -> None:
+    """The factor of a file is replaced by the one that is typed in, and is not multiplied by it."""
+    overrides = ('limits.normal_force="1 N"', given)
+    found = [each for each in refused("tripod", *overrides).repairs if each.cause == "friction"]
+    assert [each.verified for each in found] == [True]
+    problem = sg.load_problem("tripod", [*overrides, found[0].set])
+    assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+    assert min(contact.friction for contact in problem.grasp.contacts) == pytest.approx(found[0].to, rel=1e-6)
+
+
+def test_ranges_that_are_wider_already_are_in_what_is_told() -> None:
+    far, wide = "task.motion_factor=2", "limits.joint_range={wider=0.5}"
+    (dial,) = (
+        sg.load_problem("gripper-box-draw", [far, wide])
+        .task.limits[-1]
+        .dials(sg.load_problem("gripper-box-draw", [far]).grasp)
+    )
+    assert (dial.value, dial.set(2.0)) == (pytest.approx(1.5), "limits.joint_range={ wider = 1 }")
+    of_hand, again = (sg.load_problem("gripper-box-draw", [f"limits.joint_range={{wider={w}}}"]) for w in (1, 0.5))
+    ends = [each.task.limits[-1] for each in (of_hand, again)]
+    assert np.allclose(ends[0].upper, ends[1].dials(again.grasp)[0].turned(2.0).upper)
+
+
+def test_ranges_of_the_hand_are_among_what_clashes() -> None:
+    """They bind without being asked for; left out of a set of limits they must be let go."""
+    problem = sg.load_problem("gripper-box-draw", ["task.motion_factor=3"])
+    task = problem.task.timed(problem.grasp)
+    asked = Asked.of(problem.grasp, problem.task, task)
+    assert clashing(asked) == ("limits.joint_range",)
+
+
+def test_a_tolerance_that_leaves_the_motion_undone_says_so() -> None:
+    no = refused("barrett-ball-lift")
+    text = "\n".join(more_lines(no.explanation, no.task.times, lambda key: ""))
+    assert "99% of the motion undone" in text
+    problem = sg.load_problem("barrett-ball-lift", [no.repairs[0].set])
+    plan = sg.plan(problem.grasp, problem.task)
+    assert isinstance(plan, sg.Plan)
+    assert any("left undone" in note for note in plan.notes)
+
+
+def test_two_limits_are_told_where_else_only_friction_helps() -> None:
+    """A low cap and weak joints: friction helps alone, and so do both limits together."""
+    overrides = ("limits.margin=1 N", 'limits.normal_force="1.2 N"', "limits.joint_torque=0.02")
+    found = refused("pinch-soft", *overrides).explain()
+    assert {each.cause for each in found.repairs if each.verified} <= set(GIVEN)
+    one, two = found.pairs[0]
+    assert {one.cause, two.cause} == {"force_cap", "torque"}
+    problem = sg.load_problem("pinch-soft", [*overrides, one.set, two.set])
+    assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
 
 
 def test_a_motion_that_only_the_moving_hand_cannot_do_is_told_what_would_help() -> None:

@@ -10,7 +10,9 @@ from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
 from synergrip.explain.words import changed, values
 from synergrip.linalg import Array
+from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
+from synergrip.tasks.tracking import undone, wish_size
 
 HEADS = {
     "restraint": "the object is not held", "count": "too many motions for the synergies",
@@ -87,9 +89,18 @@ def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
         for row in rows
         for k, each in enumerate(row)
     ]
-    planned = [("a plan" if each.verified else "no plan found",) for row in rows for each in row]
+    planned = [(_again(each),) for row in rows for each in row]
     whole = [(*cell[:3], *said, cell[3]) for cell, said in zip(cells, planned, strict=True)]
     return table(("change", "from", "to", "planned again", "with"), whole)
+
+
+def _again(repair: Repair) -> str:
+    """Return what planning with a change came to."""
+    if not isinstance(repair.outcome, Plan):
+        return "no plan found"
+    plan = repair.outcome
+    left = undone(plan.analysis, plan.task) if repair.cause == "tolerance" else 0.0
+    return f"{left / wish_size(plan.analysis, plan.task):.0%} of the motion undone" if left else "a plan"
 
 
 def _missing(missing: MissingSynergies) -> Iterator[str]:
