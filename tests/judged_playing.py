@@ -107,7 +107,7 @@ def judged(answer: Plan, *, half_step: bool = False) -> Judged:
 
 def linear(problem: Problem) -> Plan:
     """Return the plan of the start posture as the linear model has it, not executed."""
-    with patch("synergrip.planning.walked.on_the_hand", lambda answer, answers: answer):
+    with patch("synergrip.planning.walked.on_the_hand", lambda answer, *rest: answer):
         answer = plan(problem.grasp, problem.task.replace(linearise="once"))
     assert isinstance(answer, Plan), answer
     return answer
