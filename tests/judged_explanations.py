@@ -123,6 +123,8 @@ def compare(no: Infeasible, factors: dict[str, float], model: LeastChanges, coun
             if change.value is not None and change.value > 1e-6 * change.dial.value:
                 yield f"{name}: {change.value / change.dial.value:.6g} is said to do, nothing does"
             continue
+        if change.value is None and model.shortfall(name, mine * (1 - SAME if name in DOWN else 1 + SAME)) > 0:
+            continue  # nor does the second model have a plan there
         if change.value is None:
             yield f"{name}: a factor of {mine:.6g} does, nothing is found"
             continue
