@@ -23,11 +23,11 @@ from least_changes import LeastChanges
 from refused_tasks import REFUSED
 from too_much import HANDS, Question, altered
 
-from synergrip.explain.asked import Asked
+from synergrip.changes.asked import Asked
+from synergrip.changes.least_change import LeastChange, least_change
+from synergrip.changes.turning import dials
 from synergrip.explain.explanation import Explanation
-from synergrip.explain.least_change import LeastChange, least_change
 from synergrip.explain.repairs import Repair
-from synergrip.explain.turning import dials
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 

@@ -12,12 +12,12 @@ import pytest
 
 import synergrip as sg
 import synergrip.explain.refused as refusing
-from synergrip.explain.asked import Asked
+from synergrip.changes.asked import Asked
+from synergrip.changes.least_change import least_change
+from synergrip.changes.turning import dials
 from synergrip.explain.clashing import clashing
 from synergrip.explain.compromise import compromise
-from synergrip.explain.least_change import least_change
 from synergrip.explain.pairs import GIVEN
-from synergrip.explain.turning import dials
 from synergrip.explain.when import when
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.reports.data.json_no import no_document

@@ -8,10 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import rounded
+from synergrip.changes.turning import dials
 from synergrip.conic.limits.dial import Dial
-from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.repairs import Repair, beyond, outcome_of, rounded
-from synergrip.explain.turning import dials
+from synergrip.explain.repairs import Repair, beyond
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
 
@@ -91,7 +92,7 @@ def first_with_a_plan(
 ) -> Iterator[Repair]:
     """Yield the first of some values with which there is a plan, if any."""
     for value in values:
-        outcome = outcome_of(dial.turned(value), effort)
+        outcome = dial.turned(value).outcome(effort)
         if isinstance(outcome, Plan):
             found = Repair.of(dial, value, outcome)
             heard(found)

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from synergrip.changes.asked import Asked
+from synergrip.changes.least_change import solved
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
-from synergrip.explain.asked import Asked
 from synergrip.explain.irreducible import irreducible
-from synergrip.explain.least_change import solved
 
 
 def clashing(asked: Asked) -> tuple[str, ...] | None:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.changes.asked import Posed
 from synergrip.conic.limits.limit import Usage
-from synergrip.explain.asked import Posed
 from synergrip.explain.when import knots_of_rows, widened
 from synergrip.linalg import Array, frozen
 from synergrip.planning.verified import limit_usages

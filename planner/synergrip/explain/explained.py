@@ -6,18 +6,18 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import LeastChange, least_change, solved
+from synergrip.changes.turning import dials
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.friction_cone import FRICTION
 from synergrip.conic.limits.slip_margin import KEY
 from synergrip.explain.along import FIRST, tried, tried_briefly
-from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.explanation import STAGES, Explanation
-from synergrip.explain.least_change import LeastChange, least_change, solved
 from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, ranked, repaired
-from synergrip.explain.turning import dials
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from synergrip.changes.asked import Posed
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
 from synergrip.documents.naming import made_by
-from synergrip.explain.asked import Posed
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
 from synergrip.explain.when import When

@@ -8,17 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import least_change
+from synergrip.changes.turning import contact_dials, stiffness_dial
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
 from synergrip.explain.along import first_with_a_plan, second_changes
-from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.clashing import clashing
 from synergrip.explain.explanation import Explanation
-from synergrip.explain.least_change import least_change
 from synergrip.explain.pairs import GIVEN, pairs
 from synergrip.explain.repairs import Repair, ranked, repaired
 from synergrip.explain.synergies.missing_synergies import missing_synergies
-from synergrip.explain.turning import contact_dials, stiffness_dial
 from synergrip.planning.outcome import Infeasible, Unknown
 
 LARGE = math.log(2)

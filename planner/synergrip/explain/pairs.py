@@ -7,12 +7,12 @@ from itertools import combinations
 
 import numpy as np
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import solved, turning_column, with_turns
+from synergrip.changes.turning import dials
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
-from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.least_change import solved, turning_column, with_turns
-from synergrip.explain.repairs import Repair, beyond, outcome_of
-from synergrip.explain.turning import dials
+from synergrip.explain.repairs import Repair, beyond
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 
@@ -79,7 +79,7 @@ def _planned(values: tuple[_Turned, _Turned], posed: Posed) -> tuple[Repair, Rep
         changed = one.turned(first)
         again = dials(changed, changed.timed, posed.analysis)
         both = next(each for each in again if (each.key, each.value) == (two.key, two.value)).turned(second)
-        outcome = outcome_of(both)
+        outcome = both.outcome()
         if isinstance(outcome, Plan):
             return Repair.of(one, first, outcome), Repair.of(two, second, outcome)
     return None

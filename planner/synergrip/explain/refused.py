@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.changes.asked import Asked
+from synergrip.changes.least_change import rounded
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
-from synergrip.explain.asked import Asked
 from synergrip.explain.explanation import STAGES, Explanation
-from synergrip.explain.repairs import ROOM, Repair, outcome_of, rounded
+from synergrip.explain.repairs import ROOM, Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.explain.when import NOT_KNOWN, When
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
@@ -71,6 +72,6 @@ def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analys
         "tolerance", "task.tolerance", task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size or 1.0
     )
     value = rounded(least * (1 + ROOM), up=True)
-    outcome = outcome_of(dial.turned(value))
+    outcome = dial.turned(value).outcome()
     held = (Repair.of(dial, value, outcome, proven=whole),) if isinstance(outcome, Plan) else ()
     return replace(known, repairs=held)

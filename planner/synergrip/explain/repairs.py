@@ -6,18 +6,14 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import LeastChange, rounded, short_of
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.documents.naming import made_by
-from synergrip.errors import SynergripError
-from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.least_change import LeastChange, short_of
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
-from synergrip.planning.planning import planned_with
 from synergrip.values import Value
 
-DIGITS = 5
-"""Of a value that is told: it is within 1e-4 of the least one."""
 SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
 ROOM = 2e-6
@@ -113,20 +109,12 @@ def _planned(change: LeastChange, posed: Posed, farther: Sequence[float], effort
     tried = None
     for more in farther if posed.analysis.grasp.held is not None else (0.0,):
         value = beyond(dial, least, more)
-        tried = outcome_of(dial.turned(value), effort)
+        tried = dial.turned(value).outcome(effort)
         if isinstance(tried, Plan):
             break
     else:
         value = beyond(dial, least, 0.0)
     return Repair.of(dial, value, tried, proven=prove and short_of(dial, value, posed, SHORT))
-
-
-def outcome_of(asked: Asked, effort: Effort = WHOLE) -> Outcome | None:
-    """Return what planning with an effort says of what is asked; None where it is refused as bad input."""
-    try:
-        return planned_with(effort, asked.grasp, asked.task)
-    except SynergripError:
-        return None
 
 
 def beyond(dial: Dial[Asked], least: float, more: float) -> float:
@@ -141,12 +129,3 @@ def beyond(dial: Dial[Asked], least: float, more: float) -> float:
     turn = change + max(more * abs(least), ROOM * max(abs(least), change))
     value = rounded(dial.ahead(turn / dial.span), up=dial.eased == "up")
     return min(value, dial.end) if dial.eased == "up" else max(value, dial.end)
-
-
-def rounded(value: float, *, up: bool) -> float:
-    """Return a value in `DIGITS` digits, rounded up or down."""
-    if value == 0:
-        return 0.0
-    digit = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
-    count = (math.ceil if up else math.floor)(value / digit)
-    return float(f"{count * digit:.{DIGITS}g}")

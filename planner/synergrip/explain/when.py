@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.least_change import solved
 from synergrip.conic.certificate import PRIMAL_TOLERANCE, judge_infeasible
 from synergrip.conic.decide import Decision
 from synergrip.conic.program import Block, Program
@@ -15,8 +17,6 @@ from synergrip.conic.relaxed import heads
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
 from synergrip.documents.naming import made_by
-from synergrip.explain.asked import Asked, Posed
-from synergrip.explain.least_change import solved
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.changes.asked import Asked, Posed
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.program import Program
@@ -24,7 +25,6 @@ from synergrip.conic.question import Question
 from synergrip.conic.variable_bounds import farthest
 from synergrip.documents.judging import expected
 from synergrip.documents.naming import made_by, naming_arguments
-from synergrip.explain.asked import Asked, Posed
 from synergrip.explain.exact.bare_limits import Cone
 from synergrip.explain.exact.check_proof import checked
 from synergrip.explain.exact.weighed_limits import Weighed, stated, tracked, weighed

@@ -16,6 +16,9 @@ from synergrip.errors import SynergripError
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.formulated import formulated
 from synergrip.planning.instants import intersample_of
+from synergrip.planning.outcome import Outcome
+from synergrip.planning.pace import WHOLE, Effort
+from synergrip.planning.planning import planned_with
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.task import Task
@@ -60,6 +63,13 @@ class Asked(Value):
     def timed(self) -> TimedTask:
         """The task at its knots."""
         return self.task.timed(self.grasp) if isinstance(self.task, Task) else self.task.on(self.grasp)
+
+    def outcome(self, effort: Effort = WHOLE) -> Outcome | None:
+        """Return what planning with an effort says of it; None where it is refused as bad input."""
+        try:
+            return planned_with(effort, self.grasp, self.task)
+        except SynergripError:
+            return None
 
     def posed(self, known: Analysis | None = None, units: Units | None = None, *, every: bool = False) -> Posed | None:
         """Return the program of the start posture; None where the task is refused before there is one.

@@ -10,10 +10,10 @@ from refused_tasks import REFUSED
 from small_grasps import pinch
 from too_much import altered
 
+from synergrip.changes.asked import Asked
+from synergrip.changes.least_change import least_change, row_ratios, turning_column
+from synergrip.changes.turning import dials
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.explain.asked import Asked
-from synergrip.explain.least_change import least_change, row_ratios, turning_column
-from synergrip.explain.turning import dials
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible
 from synergrip.planning.planning import plan

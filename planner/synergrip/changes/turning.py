@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
-from synergrip.explain.asked import Asked
 from synergrip.linalg import frozen
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.gravity import Gravity

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import sparse
 
+from synergrip.changes.asked import Asked, Posed
 from synergrip.conic.decide import Decision, decide
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Block, Program
@@ -15,7 +17,6 @@ from synergrip.conic.relaxed import proving
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.variable_bounds import LARGEST
-from synergrip.explain.asked import Asked, Posed
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
@@ -27,6 +28,8 @@ STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
 """Factors that are tried until there is a plan, before the least one is looked for."""
 CLOSE = 5e-5
 """Relative distance at which a bisection ends."""
+DIGITS = 5
+"""Of a value that is told: it is within 1e-4 of the least one."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -183,3 +186,12 @@ def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> boo
     before = value - (dial.ahead(share * abs(value) / dial.span) - dial.value)
     decision = _decided_at(dial, before, posed, every=True) if dial.nested else None
     return decision is not None and decision.infeasible
+
+
+def rounded(value: float, *, up: bool) -> float:
+    """Return a value in `DIGITS` digits, rounded up or down."""
+    if value == 0:
+        return 0.0
+    digit = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
+    count = (math.ceil if up else math.floor)(value / digit)
+    return float(f"{count * digit:.{DIGITS}g}")
