@@ -77,7 +77,7 @@ def test_a_room_imports_only_rooms_to_its_left(name: str) -> None:
 
 @pytest.mark.parametrize(
     "library",
-    "documents hands grasps statics conic tasks referee planning changes explain margins simulation".split(),
+    [room for room in PLACES if room not in ("ground", "problems", "reports", "cli", "equilibrium")],
 )
 def test_the_library_stands_without_the_problem_file(library: str) -> None:
     for path in (PACKAGE / library).rglob("*.py"):

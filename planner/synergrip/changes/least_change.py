@@ -131,18 +131,22 @@ def _by_one_program(dial: Dial[Asked], posed: Posed, program: Program, column: A
     return LeastChange(dial, dial.ahead(max(float(decision.solution.x[-1]), 0.0)), posed.strict)
 
 
-def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float]) -> Program:
-    """Return the program of the least sum of turns s_i, from 0 to `far` each, with b + s_i columns_i in b's place."""
+def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float], *, most: bool = False) -> Program:
+    """Return the program of the least sum of turns s_i, from 0 to `far` each, with b + s_i columns_i in b's place.
+
+    With `most`, that of the largest sum.
+    """
     n, k = len(program.q), len(columns)
     finite = np.flatnonzero(np.isfinite(far))
     turn = sparse.csr_matrix(sparse.eye_array(k))
     last = sparse.hstack([sparse.csr_matrix((k + len(finite), n)), sparse.vstack([-turn, turn[finite]])])
     first = sparse.hstack([program.A, sparse.csc_matrix(-np.column_stack(columns))])
     ends = np.asarray(far)[finite]
+    weight = np.full(k, -1.0 if most else 1.0)
     blocks = (Block("turn", Kind.NONNEGATIVE, 1, (Item("turn"),), 0, k + len(finite)),)
     reach = np.where(np.isfinite(far), np.minimum(far, LARGEST), LARGEST)
     return replace(
-        program, P=sparse.csc_matrix((n + k, n + k)), q=frozen(np.append(np.zeros(n), np.ones(k))), constant=0.0,
+        program, P=sparse.csc_matrix((n + k, n + k)), q=frozen(np.append(np.zeros(n), weight)), constant=0.0,
         A=sparse.csc_matrix(sparse.vstack([first, last])), b=frozen(np.concatenate([program.b, np.zeros(k), ends])),
         variable_bounds=frozen(np.append(np.maximum(program.variable_bounds, LARGEST), reach)),
         blocks=(*program.blocks, *blocks),
@@ -153,14 +157,14 @@ def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
     """Return the nearest of some values with a plan, and from there, where sets of plans are nested, the least one."""
     low, high, certain = dial.value, None, True
     for value in _tries(dial):
-        decision = _decided_at(dial, value, posed)
+        decision = decided_at(dial, value, posed)
         if decision is not None and decision.acceptable:
             high = value
             break
         low, certain = value, decision is not None and decision.infeasible
     while high is not None and abs(high - low) > CLOSE * max(abs(high), abs(low)):
         middle = float(np.sqrt(high * low) if low * high > 0 else (high + low) / 2)
-        decision = _decided_at(dial, middle, posed)
+        decision = decided_at(dial, middle, posed)
         if decision is not None and decision.acceptable:
             high = middle
         else:
@@ -175,7 +179,7 @@ def _tries(dial: Dial[Asked]) -> Sequence[float]:
     return [*(v for v in (dial.value / factor for factor in STRETCH) if v > dial.end), dial.end]
 
 
-def _decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Decision | None:
+def decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Decision | None:
     """Return what comes of another value; of `every` instant without a reserve where it is for a proof."""
     other = dial.turned(value).posed(posed.analysis, every=every)
     return None if other is None else solved("any plan", other.program())
@@ -184,7 +188,7 @@ def _decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = 
 def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:
     """Return whether it is certified that a change smaller by a share of the value leaves no plan."""
     before = value - (dial.ahead(share * abs(value) / dial.span) - dial.value)
-    decision = _decided_at(dial, before, posed, every=True) if dial.nested else None
+    decision = decided_at(dial, before, posed, every=True) if dial.nested else None
     return decision is not None and decision.infeasible
 
 

@@ -65,17 +65,25 @@ def _of_task(asked: Asked, timed: TimedTask, analysis: Analysis) -> Iterator[Dia
     if timed.drift is not None:
         yield Dial("drift", "task.drift", timed.drift, "m", lambda v: asked.with_task(drift=v))
     if moves:
-        yield _amplitude(asked, timed)
+        yield amplitude_dial(asked, timed)
+    if (duration := duration_dial(asked, timed)) is not None:
+        yield duration
+
+
+def duration_dial(asked: Asked, timed: TimedTask) -> Dial[Asked] | None:
+    """Return how long a task takes; None where it does not matter, or where parts have times of their own."""
     task = asked.task
-    if isinstance(task, Task) and _stretches(task) and _feels_time(task, timed) and len(timed.times) > 1:
-        seconds = float(timed.times[-1] - timed.times[0])
-        yield Dial(
-            "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
-            smooth=False, nested=not _has_inertia(task),
-        )  # fmt: skip
+    if not (isinstance(task, Task) and _stretches(task) and _feels_time(task, timed) and len(timed.times) > 1):
+        return None
+    seconds = float(timed.times[-1] - timed.times[0])
+    return Dial(
+        "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
+        smooth=False, nested=not _has_inertia(task),
+    )  # fmt: skip
 
 
-def _amplitude(asked: Asked, timed: TimedTask) -> Dial[Asked]:
+def amplitude_dial(asked: Asked, timed: TimedTask) -> Dial[Asked]:
+    """Return a factor of the wanted motion."""
     task = asked.task
     if isinstance(task, Task):
         return Dial(
@@ -110,30 +118,49 @@ def _has_inertia(task: Task) -> bool:
 def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:
     if not np.any(timed.wrench):
         return
+    task = asked.task
+    mass, factor = mass_dial(asked), load_dial(asked, timed)
+    whole = isinstance(task, Task) and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads)
+    if mass is not None and whole:
+        yield mass
+    elif factor is not None:
+        yield factor
+
+
+def mass_dial(asked: Asked) -> Dial[Asked] | None:
+    """Return the mass of the object, gravity and inertia with it; None where nothing in the task weighs it."""
     task, held = asked.task, asked.grasp.held
+    weighs = isinstance(task, Task) and any(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads)
+    if held is None or not held.body.mass or not weighs:
+        return None
+    return Dial(
+        "load", "object.mass", held.body.mass, "kg", lambda v: replace(asked, grasp=asked.grasp.replace(mass=v)),
+        "down", LEAST_MASS,
+    )  # fmt: skip
+
+
+def load_dial(asked: Asked, timed: TimedTask) -> Dial[Asked] | None:
+    """Return a factor of the whole load; None where there is none."""
+    task = asked.task
     if isinstance(task, TimedTask):
-        yield Dial(
+        return Dial(
             "load", "task.load_factor", 1.0, "",
             lambda v: asked.with_task(wrench=frozen(v * timed.wrench), course=None), "down", 0.0,
         )  # fmt: skip
-    elif (
-        held is not None and held.body.mass and all(isinstance(load, Gravity | Palm | PalmPath) for load in task.loads)
-    ):
-        yield Dial(
-            "load", "object.mass", held.body.mass, "kg", lambda v: replace(asked, grasp=asked.grasp.replace(mass=v)),
-            "down", LEAST_MASS,
-        )  # fmt: skip
-    elif task.load_factor > 0:
-        yield Dial(
-            "load", "task.load_factor", task.load_factor, "", lambda v: asked.with_task(load_factor=v), "down", 0.0
-        )
+    if not task.load_factor > 0:
+        return None
+    return Dial("load", "task.load_factor", task.load_factor, "", lambda v: asked.with_task(load_factor=v), "down", 0.0)
 
 
 def _of_friction(asked: Asked) -> Iterator[Dial[Asked]]:
-    """Yield the friction of all contacts, by one factor; spin friction goes along."""
+    if (dial := friction_dial(asked)) is not None:
+        yield dial
+
+
+def friction_dial(asked: Asked) -> Dial[Asked] | None:
+    """Return the friction of all contacts, by one factor; spin friction goes along; None without friction."""
     least = min((contact.friction for contact in asked.grasp.contacts if contact.friction > 0), default=0.0)
-    if least > 0:
-        yield _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least)
+    return _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least) if least > 0 else None
 
 
 def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:

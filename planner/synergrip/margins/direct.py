@@ -1,0 +1,195 @@
+"""The numbers that people ask for first: how slippery, how heavy, how much load, how hard, how fast, how far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.extreme import FAR, Extreme, extreme, short_of
+from synergrip.changes.least_change import rounded
+from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.dial import Dial, quantity
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.margins.number import Number
+from synergrip.planning.outcome import Plan
+from synergrip.planning.pace import BRIEF
+from synergrip.values import Value
+
+NEARER = (0.999, 0.97, 0.9, 0.7, 0.4)
+"""Shares of the way to the extreme of the start posture that are tried on a hand that moves until there is a plan."""
+FARTHER = (1.1, 1.5)
+"""Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
+AT_END = 2e-3
+"""Share of a number within which the plan that is there is at its end already."""
+HALVES = 1
+"""How often what lies between a value with a plan and one where none was found is halved."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Wanted(Value):
+    """A number that is asked for."""
+
+    name: str
+    unit: str
+    dial: Dial[Asked] | None
+    """What is turned toward less room; None where there is no such thing."""
+    absent: str
+    """Why there is none."""
+    per: float = 1.0
+    """What the values of the dial are divided by."""
+
+
+def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
+    """Return all numbers of a grasp and a task that has a plan."""
+    timed = plan.task
+    friction, mass, grasp = friction_dial(asked), mass_dial(asked), asked.grasp
+    loaded, moves = bool(np.any(timed.wrench)), bool(np.any(timed.target.values))
+    no_mass = "nothing in the task weighs the object" if grasp.held else "a grasp given as matrices has no object"
+    return (
+        Wanted("critical_friction_scale", "", friction, "no contact has friction", friction.value if friction else 1.0),
+        Wanted("heaviest_kg", "kg", mass, no_mass),
+        Wanted("load_factor", "", load_dial(asked, timed) if loaded else None, "there is no load"),
+        Wanted("least_peak_N", "N", _cap(asked, plan), ""),
+        Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
+        Wanted(
+            "shortest_duration_s", "s", duration_dial(asked, timed),
+            "nothing depends on how long the task takes, or a part of it has times of its own",
+        ),
+        Wanted("largest_amplitude", "", amplitude_dial(asked, timed) if moves else None, "no motion is wanted"),
+    )  # fmt: skip
+
+
+def _cap(asked: Asked, plan: Plan) -> Dial[Asked]:
+    """Return a bound on all normal forces, from the largest of a plan on."""
+    largest = float(plan.forces[:, asked.grasp.normal_rows].max())
+    others = tuple(limit for limit in asked.limits if not isinstance(limit, NormalForce))
+    lower = max((limit.lower for limit in asked.limits if isinstance(limit, NormalForce)), default=0.0)
+
+    def turned(value: float) -> Asked:
+        return asked.with_limits((*others, NormalForce(lower=lower, upper=value)))
+
+    return Dial("force_cap", "limits.normal_force", largest, "N", turned)
+
+
+def _effort(asked: Asked, plan: Plan) -> Dial[Asked] | None:
+    """Return a bound on the effort of all actuators, from the largest of a plan on, beside those that are there."""
+    largest = float(np.abs(plan.motion.efforts).max())
+    if not largest:
+        return None
+
+    def turned(value: float) -> Asked:
+        return asked.with_limits((*asked.limits, ActuatorEffort(value)))
+
+    return Dial("effort", "limits.actuator_effort", largest, "", turned, written=lambda value: quantity(value, ""))
+
+
+def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name: True) -> Iterator[Number]:
+    """Yield the numbers, each as it is found.
+
+    Args:
+        asked: what is asked, limits filled in.
+        plan: of it.
+        which: says by its name whether one is wanted.
+    """
+    posed = asked.posed(plan.analysis)
+    for each in wanted(asked, plan):
+        if not which(each.name):
+            continue
+        if each.dial is None or posed is None:
+            yield Number.none(each.name, each.unit, each.absent)
+            continue
+        yield _number(each, each.dial, posed, plan)
+
+
+def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> Number:
+    own = dial.turned(dial.value).posed(posed.analysis) if dial.cause in ("force_cap", "effort") else posed
+    own = posed if own is None else own
+    found = extreme(dial, own, own.program())
+    if found.value is None:
+        return Number.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
+    if abs(found.value - dial.value) < AT_END * abs(dial.value):
+        return _ends(of, found, dial.value, plan)
+    if plan.executed is not None:
+        return _along(of, found, plan)
+    value = rounded(found.value, up=dial.eased == "up")
+    outcome = dial.turned(value).outcome()
+    if not isinstance(outcome, Plan):
+        return Number.none(of.name, of.unit, "no plan verified at the end of it")
+    return _ends(of, found, value, outcome)
+
+
+def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> Number:
+    """Return the number that a plan attains, and where it is proven to end.
+
+    Args:
+        of: what is asked for.
+        found: where the linear model of the start posture ends.
+        value: that is attained.
+        plan: that attains it.
+        missed: the nearest value of which no plan was found on the hand that moves.
+    """
+    dial, per = found.dial, of.per
+    past = found.past if found.past is not None and (found.past - value) * (found.past - dial.value) >= 0 else None
+    end = past if past is not None else missed
+    scaled, other = value / per, None if end is None else end / per
+    ends = (scaled, other) if dial.eased == "down" else (other, scaled)
+    who = "a plan" if plan.executed is None else "a plan of the hand that moves"
+    tried = "" if missed is None else f"; at {missed / per:.4g}{f' {of.unit}' if of.unit else ''} none was found"
+    proof = (
+        "the other end is proven of the linear model of the start posture" if past is not None else "nothing is proven"
+    )
+    why = f"attained by {who}{tried}; {proof}"
+    return Number(of.name, of.unit, scaled, ends[0], ends[1], past is not None, why, dial.set(value), plan)
+
+
+def _along(of: Wanted, found: Extreme, plan: Plan) -> Number:
+    """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
+    dial, end = found.dial, found.value
+    assert end is not None
+    search = _Search(dial, end, dial.value, plan, None)
+    for share in NEARER:
+        search = search.tried(share)
+        if search.bad is None or search.best is not plan:
+            break
+    if search.bad is None and np.any(plan.task.target.values):
+        for share in FARTHER:
+            search = search.tried(share)
+            if search.bad is not None:
+                break
+    for _ in range(HALVES):
+        search = search.halved()
+    return _ends(of, found, search.good, search.best, search.bad)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _Search(Value):
+    """Values of a number that were tried along the motion."""
+
+    dial: Dial[Asked]
+    end: float
+    """Where the start posture ends."""
+    good: float
+    """The last one with a plan, `best`."""
+    best: Plan
+    bad: float | None
+    """The nearest one without."""
+
+    def tried(self, share: float) -> _Search:
+        """Return it with the value at a share of the way from what is asked to the end of the start posture."""
+        value = short_of(self.dial, self.dial.value + share * (self.end - self.dial.value))
+        return self._with(value) if value > 0 else self
+
+    def halved(self) -> _Search:
+        """Return it with the value between those with and without a plan."""
+        return self if self.bad is None else self._with((self.good + self.bad) / 2)
+
+    def _with(self, value: float) -> _Search:
+        value = rounded(value, up=self.dial.eased == "up")
+        outcome = self.dial.turned(value).outcome(BRIEF)
+        if isinstance(outcome, Plan):
+            return replace(self, good=value, best=outcome)
+        return replace(self, bad=value)

@@ -1,0 +1,99 @@
+"""How sure a grasp is, and how far it may be pushed: every margin of a plan, and the numbers that people ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from synergrip.changes.asked import Asked
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.documents.judging import Arguments
+from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.errors import InputError, one_of
+from synergrip.grasps.grasp import Grasp
+from synergrip.margins.direct import direct, wanted
+from synergrip.margins.measures import Measure, measures
+from synergrip.margins.number import Number
+from synergrip.planning.outcome import Infeasible, Plan, Unknown
+from synergrip.planning.planning import plan
+from synergrip.statics.motion import forward
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
+
+
+@made_by("margins(grasp, task)")
+@dataclass(frozen=True, eq=False, repr=False)
+class Margins(Value):
+    """Every margin of a plan, and how heavy, slippery, hard, fast and far it may get.
+
+    Example:
+        >>> found = margins(problem.grasp, problem.task)  # doctest: +SKIP
+        >>> found.direct["heaviest_kg"].value, found.measures["slip margin"].worst.value  # doctest: +SKIP
+        (0.33081, 0.5)
+    """
+
+    plan: Plan
+    measures: Mapping[str, Measure]
+    """By name: of the hand that moves where there is one, of the linear model else."""
+    linear: Mapping[str, Measure] | None
+    """The same references in the linear model of the start posture, on a hand."""
+    direct: Mapping[str, Number] = field(default_factory=dict)
+    """By name; those that were found before somebody interrupted."""
+    interrupted: bool = False
+
+
+@naming_arguments
+def margins(
+    grasp: Grasp, task: Task | TimedTask, *, only: tuple[str, ...] = (), heard: Callable[[Number], None] | None = None
+) -> Margins | Infeasible | Unknown:
+    """Return the margins of the plan of a task, and how far each of its numbers may go.
+
+    Args:
+        grasp: the grasp.
+        task: what is asked.
+        only: names of the numbers that are wanted; all when empty.
+        heard: is told of each number as it is found.
+
+    Returns:
+        The margins; or what `plan` says where there is no plan.
+
+    Raises:
+        InputError: a name that is none, and what `plan` raises.
+
+    Example:
+        >>> margins(problem.grasp, problem.task, only=("load_factor",)).direct["load_factor"].proven  # doctest: +SKIP
+        True
+    """
+    judge = Arguments("")
+    names = judge.several("only", only, str, '"heaviest_kg"')
+    judge.finish()
+    made = plan(grasp, task)
+    if not isinstance(made, Plan):
+        return made
+    asked = Asked.of(made.grasp, task, made.task)
+    known = [each.name for each in wanted(asked, made)]
+    for name in names:
+        if name not in known:
+            raise InputError.at("only", one_of(name, known))
+    found: dict[str, Number] = {}
+    interrupted = made.interrupted
+    try:
+        for number in direct(asked, made, lambda name: not names or name in names):
+            found[number.name] = number
+            if heard is not None:
+                heard(number)
+    except KeyboardInterrupt:
+        interrupted = True
+    return _found(made, found, interrupted=interrupted)
+
+
+def _found(made: Plan, numbers: Mapping[str, Number], *, interrupted: bool) -> Margins:
+    grasp = made.grasp
+    least = max((limit.lower for limit in made.task.limits if isinstance(limit, NormalForce)), default=0.0)
+    own = measures(grasp, made.time, made.forces, least)
+    linear = None
+    if made.executed is not None:
+        promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
+        linear = measures(grasp, made.time, promised.forces, least)
+    return Margins(made, own, linear, numbers, interrupted)

@@ -1,0 +1,98 @@
+"""Every margin of every contact at every instant: how far it is from slipping, in the measures that people use.
+
+The cone of a contact is ``(W lambda)_0 >= ||(W lambda)_1..||`` (theory.md); of several the one that is nearest counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen
+from synergrip.values import Value
+
+FORMULAS = (
+    ("slip margin", "N", "mu n - t; t = ||(t, o)||, of a soft finger sqrt(t^2 + o^2 + (mu m / nu)^2)"),
+    ("cone distance", "N", "slip margin / sqrt(1 + mu^2)"),
+    ("angle to cone", "deg", "atan(mu) - atan(t / n)"),
+    ("friction safety factor", "", "mu n / t"),
+    ("required friction", "", "t / n"),
+    ("lift-off margin", "N", "n - n_min"),
+)
+"""Name, unit and formula of every measure."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Measure(Value):
+    """One measure of all contacts over time.
+
+    Example:
+        >>> slip = margins(grasp, task).measures["slip margin"]  # doctest: +SKIP
+        >>> slip.worst.name, slip.worst.time_s, slip.worst.value  # doctest: +SKIP
+        ('thumb/tip', 1.5, 0.2)
+    """
+
+    name: str
+    unit: str
+    formula: str
+    value: Array  # (T, n_c)
+    contacts: tuple[str, ...]
+    times: Array  # (T,) [s]
+    most_is_worst: bool = False
+
+    @property
+    def worst(self) -> Worst:
+        """Where it is worst, and when first."""
+        size = np.where(np.isfinite(self.value), self.value, np.inf) * (-1 if self.most_is_worst else 1)
+        size = np.where(np.isfinite(self.value), size, np.inf)
+        k, i = np.unravel_index(int(np.argmin(size)), size.shape)
+        return Worst(float(self.value[k, i]), self.contacts[int(i)], float(self.times[k]))
+
+
+@dataclass(frozen=True)
+class Worst:
+    """A value, the contact that has it, and when."""
+
+    value: float
+    name: str
+    time_s: float
+
+
+def measures(grasp: Grasp, times: Array, forces: Array, least: Sequence[float] | float = 0.0) -> dict[str, Measure]:
+    """Return every measure by its name.
+
+    Args:
+        grasp: says what the contacts are.
+        times: (T,) [s].
+        forces: (T, n_l) contact forces [N, N m].
+        least: the normal force below which a contact counts as lifted off [N].
+    """
+    head, tail, mu = (np.stack(parts, axis=1) for parts in zip(*_cones(grasp, forces), strict=True))
+    normal = forces[:, grasp.normal_rows]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(tail > 0, head / tail, np.inf)
+        needed = np.where(tail > 0, mu / ratio, 0.0)
+    names = tuple(contact.name for contact in grasp.contacts)
+    slip, narrow = head - tail, np.arctan(mu) - np.arctan(needed)
+    values = (slip, slip / np.sqrt(1 + mu**2), np.degrees(narrow), ratio, needed, normal - least)
+    return {
+        name: Measure(name, unit, formula, frozen(value), names, times, name == "required friction")
+        for (name, unit, formula), value in zip(FORMULAS, values, strict=True)
+    }
+
+
+def _cones(grasp: Grasp, forces: Array) -> list[tuple[Array, Array, Array]]:
+    """Return for each contact (T,) mu n and t of its nearest cone, and mu."""
+    found = []
+    for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
+        own = forces[:, rows]
+        sides = [
+            (own @ W[0], np.linalg.norm(own @ W[1:].T, axis=1), np.full(len(own), W[0, 0])) for W in contact.kind.cones
+        ]
+        heads, tails, friction = (np.stack(part) for part in zip(*sides, strict=True))
+        nearest = np.argmin(heads - tails, axis=0)
+        found.append(tuple(part[nearest, np.arange(len(own))] for part in (heads, tails, friction)))
+    return found
