@@ -14,7 +14,7 @@ PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
 LINE = (
     "ground documents hands grasps statics equilibrium conic tasks problems|referee planning "
-    "changes explain|margins|simulation reports cli"
+    "changes explain|margin|simulation reports cli"
 )
 """From left to right; those beside each other do not know each other. The ground the house stands on is not a folder:
 errors, linear algebra, files."""
@@ -33,7 +33,18 @@ ONLY_IN = {
     },
     "typer": {
         f"cli/{name}.py"
-        for name in ("app", "running", "plan", "explain", "front", "analyse", "check", "simulate", "synergies")
+        for name in (
+            "app",
+            "running",
+            "plan",
+            "explain",
+            "front",
+            "analyse",
+            "check",
+            "simulate",
+            "synergies",
+            "margins",
+        )
     },
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }

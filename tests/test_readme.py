@@ -25,7 +25,9 @@ VOLATILE = re.compile(rf"{NUMBER} ms(?:, attempt \d+)?|\d+(?:\.\d+)?e[-+]\d+|\d+
 """Residuals, iterations, attempts, times and versions: the machine's, not the answer's."""
 
 
-EXPLAIN = BLOCK.findall((ROOT / "docs" / "explain.md").read_text(encoding="utf-8"))
+EXPLAIN, MARGINS = (
+    BLOCK.findall((ROOT / "docs" / name).read_text(encoding="utf-8")) for name in ("explain.md", "margins.md")
+)
 
 
 def following(language: str, blocks: list[tuple[str, str]] = BLOCKS) -> list[tuple[str, str]]:
@@ -51,8 +53,8 @@ def last_digit(number: str) -> float:
 
 @pytest.mark.parametrize(
     ("code", "shown"),
-    [*following("bash"), *following("bash", EXPLAIN)],
-    ids=["plan", "no", "analyse", "trajectory", "table", "explain"],
+    [*following("bash"), *following("bash", EXPLAIN), *following("bash", MARGINS)],
+    ids=["plan", "no", "analyse", "trajectory", "table", "explain", "margins"],
 )
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
     arguments = shlex.split(code.split("synergrip ", 1)[-1])

@@ -127,7 +127,7 @@ OTHERS = {
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
-    "missing_synergies", "MissingSynergies", "SynergiesNeeded",
+    "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -170,6 +170,7 @@ MADE_BY = {
     "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
     "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
+    "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
 }  # fmt: skip
 
 

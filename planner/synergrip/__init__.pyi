@@ -101,6 +101,10 @@ from synergrip.explain.synergies.missing_synergies import missing_synergies as m
 from synergrip.explain.synergies.missing_synergies import MissingSynergies as MissingSynergies
 from synergrip.explain.synergies.synergies_needed import synergies_needed as synergies_needed
 from synergrip.explain.synergies.synergies_needed import SynergiesNeeded as SynergiesNeeded
+from synergrip.margin.margins import margins as margins
+from synergrip.margin.margins import Margins as Margins
+from synergrip.margin.measures import Measure as Measure
+from synergrip.margin.direct_number import DirectNumber as DirectNumber
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

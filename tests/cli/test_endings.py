@@ -321,7 +321,7 @@ def test_who_was_told_to_ignore_interrupts_does(tmp_path: Path) -> None:
 
 def test_an_interrupt_keeps_the_points_of_a_front_that_are_finished() -> None:
     before = """
-import synergrip.cli.front as front, synergrip.margins.front as points
+import synergrip.cli.front as front, synergrip.margin.front as points
 own = points.front
 def some(*arguments):
     for count, point in enumerate(own(*arguments)):

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synergrip.margins.front import FrontPoint
+from synergrip.margin.front import FrontPoint
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.text.front_report import front_text

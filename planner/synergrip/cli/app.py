@@ -10,6 +10,7 @@ from synergrip.cli.check import check
 from synergrip.cli.explain import explain
 from synergrip.cli.front import front
 from synergrip.cli.lists import hands, problems, schema
+from synergrip.cli.margins import margins
 from synergrip.cli.plan import plan
 from synergrip.cli.simulate import simulate
 from synergrip.cli.synergies import synergies
@@ -25,7 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (plan, explain, simulate, front, analyse, check, validate, problems, hands, schema):
+for verb in (plan, explain, margins, simulate, front, analyse, check, validate, problems, hands, schema):
     app.command()(verb)
 app.add_typer(synergies, name="synergies")
 

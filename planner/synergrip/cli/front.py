@@ -19,8 +19,8 @@ def front(
     """Trade slip margin against peak force: the least peak for each margin, up to the largest (Pareto front)."""
     with answering(form):
         from synergrip.errors import SynergripError
-        from synergrip.margins.front import front as points_of
-        from synergrip.margins.front import largest
+        from synergrip.margin.front import front as points_of
+        from synergrip.margin.front import largest
         from synergrip.planning.outcome import Plan
         from synergrip.planning.solvers import SOLVERS
         from synergrip.problems.problem import load_problem, located

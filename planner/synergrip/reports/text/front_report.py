@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.hands.units import torque_unit
-from synergrip.margins.front import FrontPoint
+from synergrip.margin.front import FrontPoint
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table
 from synergrip.reports.text.text_problem import problem_lines

@@ -11,7 +11,7 @@ from synergrip.values import Value
 
 @made_by("margins(grasp, task).direct")
 @dataclass(frozen=True, eq=False, repr=False)
-class Number(Value):
+class DirectNumber(Value):
     """A number that is attained by a plan, and how much more of it there might be.
 
     Example:
@@ -38,6 +38,6 @@ class Number(Value):
     """The plan that attains it."""
 
     @classmethod
-    def none(cls, name: str, unit: str, why: str) -> Number:
+    def none(cls, name: str, unit: str, why: str) -> DirectNumber:
         """Return that there is no such number, and why."""
         return cls(name, unit, None, None, None, proven=False, why=why)

@@ -14,7 +14,7 @@ from synergrip.changes.turning import amplitude_dial, duration_dial, friction_di
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.margins.number import Number
+from synergrip.margin.direct_number import DirectNumber
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
@@ -87,7 +87,7 @@ def _effort(asked: Asked, plan: Plan) -> Dial[Asked] | None:
     return Dial("effort", "limits.actuator_effort", largest, "", turned, written=lambda value: quantity(value, ""))
 
 
-def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name: True) -> Iterator[Number]:
+def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name: True) -> Iterator[DirectNumber]:
     """Yield the numbers, each as it is found.
 
     Args:
@@ -100,17 +100,17 @@ def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name:
         if not which(each.name):
             continue
         if each.dial is None or posed is None:
-            yield Number.none(each.name, each.unit, each.absent)
+            yield DirectNumber.none(each.name, each.unit, each.absent)
             continue
         yield _number(each, each.dial, posed, plan)
 
 
-def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> Number:
+def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
     own = dial.turned(dial.value).posed(posed.analysis) if dial.cause in ("force_cap", "effort") else posed
     own = posed if own is None else own
     found = extreme(dial, own, own.program())
     if found.value is None:
-        return Number.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
+        return DirectNumber.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
     if abs(found.value - dial.value) < AT_END * abs(dial.value):
         return _ends(of, found, dial.value, plan)
     if plan.executed is not None:
@@ -118,11 +118,11 @@ def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> Number:
     value = rounded(found.value, up=dial.eased == "up")
     outcome = dial.turned(value).outcome()
     if not isinstance(outcome, Plan):
-        return Number.none(of.name, of.unit, "no plan verified at the end of it")
+        return DirectNumber.none(of.name, of.unit, "no plan verified at the end of it")
     return _ends(of, found, value, outcome)
 
 
-def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> Number:
+def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> DirectNumber:
     """Return the number that a plan attains, and where it is proven to end.
 
     Args:
@@ -143,10 +143,10 @@ def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | 
         "the other end is proven of the linear model of the start posture" if past is not None else "nothing is proven"
     )
     why = f"attained by {who}{tried}; {proof}"
-    return Number(of.name, of.unit, scaled, ends[0], ends[1], past is not None, why, dial.set(value), plan)
+    return DirectNumber(of.name, of.unit, scaled, ends[0], ends[1], past is not None, why, dial.set(value), plan)
 
 
-def _along(of: Wanted, found: Extreme, plan: Plan) -> Number:
+def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
     dial, end = found.dial, found.value
     assert end is not None

@@ -15,7 +15,7 @@ from synergrip.conic.along import AlongPath
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
-from synergrip.margins.front import ROOM, front, largest
+from synergrip.margin.front import ROOM, front, largest
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.solvers import SOLVERS

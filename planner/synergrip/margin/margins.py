@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from synergrip.changes.asked import Asked
@@ -11,9 +11,9 @@ from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
-from synergrip.margins.direct import direct, wanted
-from synergrip.margins.measures import Measure, measures
-from synergrip.margins.number import Number
+from synergrip.margin.direct import direct, wanted
+from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.measures import Measure, measures
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
@@ -38,15 +38,16 @@ class Margins(Value):
     """By name: of the hand that moves where there is one, of the linear model else."""
     linear: Mapping[str, Measure] | None
     """The same references in the linear model of the start posture, on a hand."""
-    direct: Mapping[str, Number] = field(default_factory=dict)
+    direct: Mapping[str, DirectNumber] = field(default_factory=dict)
     """By name; those that were found before somebody interrupted."""
     interrupted: bool = False
 
 
 @naming_arguments
 def margins(
-    grasp: Grasp, task: Task | TimedTask, *, only: tuple[str, ...] = (), heard: Callable[[Number], None] | None = None
-) -> Margins | Infeasible | Unknown:
+    grasp: Grasp, task: Task | TimedTask, *, only: Sequence[str] = (),
+    heard: Callable[[DirectNumber], None] = lambda number: None,
+) -> Margins | Infeasible | Unknown:  # fmt: skip
     """Return the margins of the plan of a task, and how far each of its numbers may go.
 
     Args:
@@ -76,19 +77,18 @@ def margins(
     for name in names:
         if name not in known:
             raise InputError.at("only", one_of(name, known))
-    found: dict[str, Number] = {}
+    found: dict[str, DirectNumber] = {}
     interrupted = made.interrupted
     try:
         for number in direct(asked, made, lambda name: not names or name in names):
             found[number.name] = number
-            if heard is not None:
-                heard(number)
+            heard(number)
     except KeyboardInterrupt:
         interrupted = True
     return _found(made, found, interrupted=interrupted)
 
 
-def _found(made: Plan, numbers: Mapping[str, Number], *, interrupted: bool) -> Margins:
+def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
     grasp = made.grasp
     least = max((limit.lower for limit in made.task.limits if isinstance(limit, NormalForce)), default=0.0)
     own = measures(grasp, made.time, made.forces, least)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.naming import made_by
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -23,8 +24,11 @@ FORMULAS = (
     ("lift-off margin", "N", "n - n_min"),
 )
 """Name, unit and formula of every measure."""
+ALIKE = 1e-6
+"""Share of the largest value up to which values are as bad as each other: the first of them is named."""
 
 
+@made_by("margins(grasp, task).measures")
 @dataclass(frozen=True, eq=False, repr=False)
 class Measure(Value):
     """One measure of all contacts over time.
@@ -46,10 +50,10 @@ class Measure(Value):
     @property
     def worst(self) -> Worst:
         """Where it is worst, and when first."""
-        size = np.where(np.isfinite(self.value), self.value, np.inf) * (-1 if self.most_is_worst else 1)
-        size = np.where(np.isfinite(self.value), size, np.inf)
-        k, i = np.unravel_index(int(np.argmin(size)), size.shape)
-        return Worst(float(self.value[k, i]), self.contacts[int(i)], float(self.times[k]))
+        goodness = -self.value if self.most_is_worst else self.value
+        alike = ALIKE * float(np.abs(goodness[np.isfinite(goodness)]).max(initial=0.0))
+        k, i = (int(place[0]) for place in np.nonzero(goodness <= goodness.min() + alike))
+        return Worst(float(self.value[k, i]), self.contacts[i], float(self.times[k]))
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,55 @@
+"""Margins as one JSON document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.margins import Margins
+from synergrip.margin.measures import Measure
+from synergrip.planning.arrays import names_of
+from synergrip.planning.told import finite, margin_document, structure_document
+from synergrip.reports.data.json_plan import plain
+
+
+def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the document of margins; SI units, angles to the cone in degrees."""
+    plan = found.plan
+    linear = found.linear or {}
+    document: dict[str, Any] = plain({
+        "title": title,
+        "verdict": plan.verdict,
+        "exit_code": plan.exit_code,
+        "structure": structure_document(plan.grasp, plan.analysis),
+        **names_of(plan.grasp),
+        "time_s": plan.time.tolist(),
+        "margin": margin_document(plan.usages[0]),
+        "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
+        "direct": {name: _number(each) for name, each in found.direct.items()},
+        "interrupted": found.interrupted,
+        "notes": list(dict.fromkeys([*plan.notes, *notes])),
+    })  # fmt: skip
+    return document
+
+
+def _measure(measure: Measure, linear: Measure | None) -> dict[str, Any]:
+    return {
+        "unit": measure.unit, "formula": measure.formula, "worst": _worst(measure),
+        "linear_worst": None if linear is None else _worst(linear),
+        "per_contact": [[finite(value) for value in row] for row in measure.value.tolist()],
+    }  # fmt: skip
+
+
+def _worst(measure: Measure) -> dict[str, Any]:
+    worst = measure.worst
+    return {"value": finite(worst.value), "contact": worst.name, "time_s": worst.time_s}
+
+
+def _number(number: DirectNumber) -> dict[str, Any]:
+    if number.value is None:
+        return {"value": None, "why": number.why}
+    return {
+        "value": number.value, "lower": number.lower, "upper": number.upper, "proven": number.proven,
+        "unit": number.unit, "why": number.why, "set": number.setting,
+    }  # fmt: skip

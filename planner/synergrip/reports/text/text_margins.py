@@ -1,0 +1,85 @@
+"""Margins as text: how sure a grasp is, and how far its numbers may go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from shlex import quote
+
+import numpy as np
+
+from synergrip.documents.quantities import SHOWN_IN
+from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.margins import Margins
+from synergrip.margin.measures import Measure
+from synergrip.problems.problem import Problem
+from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_plan import verdict_word
+from synergrip.reports.text.text_problem import problem_lines
+
+ASKS = {
+    "critical_friction_scale": ("how slippery", "times the friction"), "heaviest_kg": ("how heavy", ""),
+    "load_factor": ("how much load", "times the load"), "least_peak_N": ("how hard to press", ""),
+    "least_effort": ("how hard to pull", ""), "shortest_duration_s": ("how fast", ""),
+    "largest_amplitude": ("how far", "times the motion"),
+}  # fmt: skip
+"""Name of a number -> what it answers, and the words for its unit where it has none."""
+
+
+def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
+    """Return what was asked, every margin where it is worst, and the numbers."""
+    plan = found.plan
+    slip = found.measures["slip margin"].worst
+    who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
+    lines = [
+        *problem_lines(problem), "",
+        f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
+        f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
+        _measures(found), "", *_numbers(found),
+    ]  # fmt: skip
+    notes = dict.fromkeys([*plan.notes, *problem.notes])
+    lines += [line for note in notes for line in wrapped("note     ", note)]
+    return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])
+
+
+def _measures(found: Margins) -> str:
+    rows = []
+    for name, each in found.measures.items():
+        worst = each.worst
+        linear = () if found.linear is None else (_value(found.linear[name]),)
+        rows.append((name, _value(each), f"{worst.name}, t = {worst.time_s:.2f} s", *linear, each.formula))
+    linear = () if found.linear is None else ("linear model",)
+    return table(("", "worst", "at", *linear, "formula"), rows)
+
+
+def _value(measure: Measure) -> str:
+    value = measure.worst.value
+    return f"{value:.4g} {measure.unit}".strip() if np.isfinite(value) else "no friction is needed"
+
+
+def _numbers(found: Margins) -> Iterator[str]:
+    """Yield the numbers that there are, and why there are no others."""
+    there = [each for each in found.direct.values() if each.value is not None]
+    if there:
+        yield "How far it may go, each of these by itself"
+        yield table(("", "attained", "end", "with"), [_row(each) for each in there])
+        for why in dict.fromkeys(each.why for each in there):
+            names = ", ".join(ASKS[each.name][0] for each in there if each.why == why)
+            yield from wrapped("         ", f"{names}: {why}")
+    for each in found.direct.values():
+        if each.value is None:
+            yield from wrapped("         ", f"{ASKS[each.name][0]}: {each.why}")
+
+
+def _row(number: DirectNumber) -> tuple[str, ...]:
+    assert number.value is not None
+    grows = number.value == number.lower
+    end = number.upper if grows else number.lower
+    told = "-" if end is None else f"{'below' if grows else 'above'} {_with_unit(number, end)}"
+    return ASKS[number.name][0], _with_unit(number, number.value), told, f"--set {quote(number.setting)}"
+
+
+def _with_unit(number: DirectNumber, value: float) -> str:
+    factor, unit = SHOWN_IN.get(number.unit, (1.0, number.unit))
+    if number.unit == "kg" and value < 1:
+        factor, unit = 1e3, "g"
+    return f"{factor * value:.5g} {unit or ASKS[number.name][1]}".strip()

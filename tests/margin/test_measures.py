@@ -1,0 +1,82 @@
+"""Margins of contact forces against trigonometry, and against what they mean when friction changes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from random_grasps import random_grasp
+from small_grasps import pinch, tripod
+
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import frozen
+from synergrip.margin.measures import measures
+
+TIMES = frozen([0.0, 0.5, 1.0])
+
+
+def forces(grasp: Grasp, seed: int = 0) -> np.ndarray:
+    """Forces inside their cones, mostly."""
+    rng = np.random.default_rng(seed)
+    found = 0.2 * rng.normal(size=(len(TIMES), grasp.n_l))
+    found[:, grasp.normal_rows] = rng.uniform(1.0, 3.0, (len(TIMES), grasp.n_c))
+    return found
+
+
+def test_a_hard_finger_is_measured_as_trigonometry_has_it() -> None:
+    grasp = tripod(mu=0.8)
+    n, t, o = np.moveaxis(forces(grasp).reshape(3, 3, 3), 2, 0)
+    found = measures(grasp, TIMES, forces(grasp), least=0.5)
+    shear = np.hypot(t, o)
+    assert np.allclose(found["slip margin"].value, 0.8 * n - shear)
+    assert np.allclose(found["angle to cone"].value, np.degrees(np.arctan(0.8) - np.arctan2(shear, n)))
+    assert np.allclose(found["friction safety factor"].value, 0.8 * n / shear)
+    assert np.allclose(found["required friction"].value, shear / n)
+    assert np.allclose(found["lift-off margin"].value, n - 0.5)
+    for k in range(3):  # the distance of a point to the cone, by its nearest point on the edge of the cone in its plane
+        edge = np.array([1.0, 0.8]) / np.hypot(1.0, 0.8)
+        point = np.array([n[0, k], shear[0, k]])
+        assert found["cone distance"].value[0, k] == pytest.approx(np.linalg.norm(point - (point @ edge) * edge))
+
+
+def test_a_soft_finger_spends_friction_on_its_spin() -> None:
+    grasp = pinch(mu=0.5, nu=0.005)
+    own = np.zeros((3, 8))
+    own[:, [0, 4]], own[:, 1], own[:, 3] = 4.0, 0.6, 0.008  # n, t and the moment about the normal
+    found = measures(grasp, TIMES, own)["slip margin"].value
+    assert np.allclose(found[:, 0], 0.5 * 4.0 - np.hypot(0.6, 0.5 * 0.008 / 0.005))
+    assert np.allclose(found[:, 1], 2.0)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_with_the_friction_that_is_required_a_contact_is_about_to_slip(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, [str(kind) for kind in rng.choice(["hard", "soft"], 4)])
+    found = measures(grasp, TIMES, forces(grasp, seed))
+    needed = found["required friction"].value[1] / [contact.friction for contact in grasp.contacts]
+    contacts = tuple(
+        replace(contact, kind=contact.kind.slippery(float(share)))
+        for contact, share in zip(grasp.contacts, needed, strict=True)
+    )
+    again = measures(replace(grasp, contacts=contacts), TIMES, forces(grasp, seed))
+    assert np.allclose(again["slip margin"].value[1], 0.0, atol=1e-12)
+    assert np.allclose(again["friction safety factor"].value[1], 1.0)
+
+
+def test_the_worst_is_the_first_of_those_that_are_as_bad() -> None:
+    grasp = tripod()
+    own = np.tile([2.0, 0.3, 0.0], (3, 3))
+    own[2, 3] = 1.0
+    worst = measures(grasp, TIMES, own)["slip margin"].worst
+    assert (worst.name, worst.time_s) == ("C1", 1.0)
+    own[2, 3] = 2.0
+    worst = measures(grasp, TIMES, own)["required friction"].worst
+    assert (worst.name, worst.time_s, worst.value) == ("C0", 0.0, pytest.approx(0.15))
+
+
+def test_without_shear_no_friction_is_needed() -> None:
+    own = np.tile([2.0, 0.0, 0.0], (3, 3))
+    found = measures(tripod(), TIMES, own)
+    assert np.all(np.isinf(found["friction safety factor"].value))
+    assert np.all(found["required friction"].value == 0)
