@@ -106,6 +106,11 @@ class Posed(Value):
         """Whether the program asks for no more than the task: without an answer it proves that there is no plan."""
         return self.formulation.intersample is None or self.formulation.intersample.exact
 
+    @property
+    def at_knots(self) -> Posed:
+        """The same where nothing is asked between the knots: without an answer there is none to the whole, either."""
+        return replace(self, formulation=replace(self.formulation, intersample=None))
+
     def program(self) -> Program:
         """Return the program of least effort within all limits."""
         return Question(self.formulation, self.timed.all_limits, LeastEffort()).program()

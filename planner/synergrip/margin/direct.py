@@ -69,10 +69,11 @@ def _cap(asked: Asked, plan: Plan) -> Dial[Asked]:
     others = tuple(limit for limit in asked.limits if not isinstance(limit, NormalForce))
     lower = max((limit.lower for limit in asked.limits if isinstance(limit, NormalForce)), default=0.0)
 
-    def turned(value: float) -> Asked:
-        return asked.with_limits((*others, NormalForce(lower=lower, upper=value)))
-
-    return Dial("force_cap", "limits.normal_force", largest, "N", turned)
+    (dial, *_) = NormalForce(lower=lower, upper=max(largest, lower)).dials(asked.grasp)
+    return Dial(
+        "force_cap", dial.key, largest, "N", lambda value: asked.with_limits((*others, dial.turned(value))),
+        written=dial.written,
+    )  # fmt: skip
 
 
 def _effort(asked: Asked, plan: Plan) -> Dial[Asked] | None:
