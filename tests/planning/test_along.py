@@ -20,6 +20,7 @@ from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Units
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.linalg import frozen
+from synergrip.planning.beginning import walk_from_plan
 from synergrip.planning.check import judge_references
 from synergrip.planning.executing import Executor, analyses_of
 from synergrip.planning.pace import Pace
@@ -205,7 +206,7 @@ def test_a_plan_rests_on_the_pass_that_it_keeps() -> None:
 def walked(name: str) -> tuple[Walker, Any, Plan]:
     plan = once(name, SHORT)
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), SOLVERS["clarabel"])
-    return walker, walker.walk(plan.motion), plan
+    return walker, walk_from_plan(walker, plan.motion), plan
 
 
 def test_an_equilibrium_that_the_hand_would_leave_is_no_plan() -> None:

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from synergrip.planning.beginning import walk_from_hold
 from synergrip.planning.executing import Executor
 from synergrip.planning.growing import LONGEST, Way
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
@@ -33,7 +34,7 @@ def held(name: str, *overrides: str) -> tuple[Walker, Plan]:
 @cache
 def grown(name: str, *overrides: str) -> tuple[Walker, Walk]:
     walker, hold = held(name, *overrides)
-    return walker, walker.grown(hold.dz_r)
+    return walker, walk_from_hold(walker, hold.dz_r)
 
 
 ROLL = ("barrett-ball-roll", "task.knots=11")

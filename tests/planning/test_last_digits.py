@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from synergrip import Plan, load_problem, plan
+from synergrip.planning.beginning import walk_from_plan
 from synergrip.planning.executing import Executor
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.planning.solvers import SOLVERS
@@ -25,7 +26,7 @@ def test_a_margin_that_is_just_missed_at_a_knot_is_asked_for_with_a_little_more(
     linear = plan_of_start_posture(problem.grasp, problem.task)
     assert isinstance(linear, Plan)
     walker = Walker(linear.task, linear.analysis, Executor.of(linear.analysis, linear.task), SOLVERS["clarabel"])
-    walk = walker.walk(linear.motion)
+    walk = walk_from_plan(walker, linear.motion)
     least = float(walk.executed.margins.min())
     asked = least + 2 * walk.kept_to
     more = replace(linear.task, margin=asked)

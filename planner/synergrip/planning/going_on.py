@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.errors import Refusal
 from synergrip.linalg import Array, Places, frozen
+from synergrip.planning.beginning import walk_from_hold
 from synergrip.planning.between import between
 from synergrip.planning.executing import Executor
 from synergrip.planning.formulated import formulated
@@ -61,7 +62,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer, effort: Effort 
     promised = forward(start.response, task.times, references, task.wrench)
     begun = replace(whole, target=walker.wanted, intersample=None)
     begin = replace(hold, task=task, formulation=whole, between=between(task, start, begun, promised))
-    answer = answer_of(walker.grown(references), walker, begin)
+    answer = answer_of(walk_from_hold(walker, references), walker, begin)
     told = f"the linear model of the start posture alone says no: {no.why}"
     if isinstance(answer, Plan):
         return replace(answer, notes=(*answer.notes, told))

@@ -67,33 +67,6 @@ class Walker:
     """(T, 6) where the object is wanted instead of where the task says [m, rad]."""
     effort: Effort = WHOLE
 
-    def walk(self, linear: Motion) -> Walk:
-        """Return the walk that the passes end with, from the motion that a plan for the start posture promises."""
-        whole = self.on(self.executed(linear.dz_r, linear.forces, linear, fewer=True))
-        if not self.effort.rounds or whole.interrupted or (whole.true and whole.behind <= self.allowed):
-            return whole
-        alpha, beta, gamma = self.start.coordinates.coordinates(linear.dz_r)
-        held = self.start.coordinates.references(alpha, np.zeros_like(beta), gamma)
-        return self.grown(frozen(held)).after(whole)
-
-    def grown(self, hold: Array) -> Walk:
-        """Return the walk that comes of bringing a hold along (`brought`), or a little farther at a time (`growing`).
-
-        Args:
-            hold: (T, n_z) references of a plan for the same loads without the motion; they change with the load.
-        """
-        from synergrip.planning.brought import brought
-        from synergrip.planning.growing import grown
-
-        begun = brought(self, hold)
-        if not self.effort.rounds:
-            start = self.executor.setting.start.taken(np.zeros(len(hold), dtype=int))
-            return self.on(begun or self.executed(hold, None, start))
-        if begun is None:
-            return grown(self, hold)
-        walk = self.on(begun)
-        return walk if walk.interrupted or self.arrived(walk) else grown(self, hold).after(walk)
-
     def kept_between(self, walk: Walk) -> Walk:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
         if not self._holds_between:

@@ -23,6 +23,8 @@ ROUGH = 0.05
 """Share of the largest force up to which promise and truth are near each other."""
 ALIKE = 0.3
 """Share of the largest force up to which forces between the knots bend as they will when promise is truth."""
+NOWHERE = 1.0
+"""Share of the largest force from which on a plan of the start posture is no place to begin at."""
 BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
 FOLLOWED = 1e-5
@@ -81,6 +83,11 @@ class Walk(Value):
     def lost(self) -> bool:
         """Whether what was promised is nothing like what happens."""
         return bool(np.isfinite(self.gap)) and self.gap > ALIKE * self.largest
+
+    @property
+    def nowhere(self) -> bool:
+        """Whether what was promised differs from what happens by about as much as there is: it leads nowhere."""
+        return bool(np.isfinite(self.gap)) and self.gap > NOWHERE * self.largest
 
     @property
     def room(self) -> float:

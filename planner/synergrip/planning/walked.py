@@ -10,6 +10,7 @@ import numpy as np
 from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
+from synergrip.planning.beginning import walk_from_plan
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
@@ -36,7 +37,7 @@ def on_the_hand(plan: Plan, answers: Answerer, effort: Effort = WHOLE) -> Plan |
     """
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers, effort=effort)
     if plan.task.linearise == "along" and not plan.interrupted:
-        return answer_of(walker.walk(plan.motion), walker, plan)
+        return answer_of(walk_from_plan(walker, plan.motion), walker, plan)
     answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
     if plan.interrupted and not isinstance(answer, Plan):
         raise KeyboardInterrupt
