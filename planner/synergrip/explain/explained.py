@@ -155,6 +155,7 @@ def _without_margins(known: tuple[Conflict, ...]) -> tuple[Conflict, ...]:
 
 
 def _in_vain(found: list[LeastChange]) -> tuple[Cause, ...]:
-    """Return the causes of which no number helps, proven of each."""
-    helps = {each.dial.cause for each in found if each.value is not None}
-    return tuple(dict.fromkeys(each.dial.cause for each in found if each.dial.cause not in helps and each.proven))
+    """Return the causes of which no value helps, proven; of several numbers that are turned one by one nothing is."""
+    causes = [each.dial.cause for each in found]
+    vain = (each.dial.cause for each in found if each.value is None and each.proven)
+    return tuple(cause for cause in vain if causes.count(cause) == 1)

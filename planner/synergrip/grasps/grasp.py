@@ -56,7 +56,7 @@ class Grasp(ByContent):
     synergies: tuple[str, ...]
     held: Held | None = None
     """The hand in its posture, and the object; None for a grasp given as matrices."""
-    factors: Factors = field(default_factory=Factors)
+    factors: Factors = field(default_factory=Factors, compare=False)
     """By what a problem file has multiplied friction and stiffness; they are in the numbers already."""
 
     def __post_init__(self) -> None:

@@ -25,6 +25,10 @@ FARTHER = (1.1, 1.5)
 """Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
+MORE = (1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
+"""Shares by which a bound is wider than what the plan uses that is there, one after the other until it has a plan."""
+OF_PLAN = ("force_cap", "effort")
+"""What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES = 1
 """How often what lies between a value with a plan and one where none was found is halved."""
 
@@ -107,13 +111,13 @@ def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name:
 
 
 def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
-    own = dial.turned(dial.value).posed(posed.analysis) if dial.cause in ("force_cap", "effort") else posed
+    own = dial.turned(dial.value).posed(posed.analysis) if dial.cause in OF_PLAN else posed
     own = posed if own is None else own
     found = extreme(dial, own, own.program())
     if found.value is None:
         return DirectNumber.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
     if abs(found.value - dial.value) < AT_END * abs(dial.value):
-        return _ends(of, found, dial.value, plan)
+        return _near(of, found, plan)
     if plan.executed is not None:
         return _along(of, found, plan)
     value = rounded(found.value, up=dial.eased == "up")
@@ -121,6 +125,19 @@ def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNu
     if not isinstance(outcome, Plan):
         return DirectNumber.none(of.name, of.unit, "no plan verified at the end of it")
     return _ends(of, found, value, outcome)
+
+
+def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
+    """Return the number where the plan that is there is at its end: what it uses, with as little room as will do."""
+    dial = found.dial
+    if dial.cause not in OF_PLAN:
+        return _ends(of, found, dial.value, plan)
+    for more in MORE:
+        value = rounded(dial.value * (1 + more), up=True)
+        outcome = dial.turned(value).outcome(BRIEF)
+        if isinstance(outcome, Plan):
+            return _ends(of, found, value, outcome)
+    return DirectNumber.none(of.name, of.unit, f"no plan verified with up to {MORE[-1]:.0%} more than the plan uses")
 
 
 def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> DirectNumber:
@@ -163,6 +180,8 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
                 break
     for _ in range(HALVES):
         search = search.halved()
+    if search.best is plan:
+        return _near(of, found, plan)
     return _ends(of, found, search.good, search.best, search.bad)
 
 
