@@ -10,9 +10,11 @@ from refused_tasks import REFUSED
 from small_grasps import pinch
 from too_much import altered
 
+import synergrip as sg
 from synergrip.changes.asked import Asked
-from synergrip.changes.least_change import least_change, row_ratios, turning_column
+from synergrip.changes.least_change import decided_at, least_change, row_ratios, turning_column
 from synergrip.changes.turning import dials
+from synergrip.conic.decide import Decision
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.linalg import frozen
 from synergrip.planning.outcome import Infeasible
@@ -107,3 +109,33 @@ def test_the_margin_stays_while_a_cap_is_turned() -> None:
     assert no.analysis is not None
     cap = next(each for each in dials(asked, no.task, no.analysis) if each.cause == "force_cap")
     assert cap.turned(7.5).timed.margin == MARGIN
+
+
+def of_problem(name: str, cause: str, *overrides: str) -> tuple[float | None, Decision | None]:
+    """The least change of a number, and what the program says a little beyond it."""
+    problem = sg.load_problem(name, overrides)
+    no = sg.plan(problem.grasp, problem.task)
+    assert isinstance(no, Infeasible)
+    asked = Asked.of(no.grasp, problem.task, no.task)
+    posed = asked.posed(no.analysis)
+    assert posed is not None
+    dial = next(each for each in dials(asked, no.task, posed.analysis) if each.cause == cause)
+    found = least_change(dial, posed, posed.program())
+    assert found.value is not None
+    return found.value, decided_at(dial, found.value * (1 + 1e-4 if dial.eased == "up" else 1 - 1e-4), posed)
+
+
+def test_rows_that_rounding_alone_ties_to_unknowns_are_no_measure_of_others() -> None:
+    """One weak actuator: a third of the load is what it carries."""
+    value, beyond = of_problem("tripod", "load", "limits.actuator_effort=[10,1,10,10]", 'goal={minimise="effort"}')
+    assert value == pytest.approx(1 / 3, rel=1e-6)
+    assert beyond is not None
+    assert beyond.acceptable
+
+
+def test_rows_that_see_no_unknown_and_have_the_number_as_their_unit_are_not_affine_in_it() -> None:
+    """The sag of the pinch under its load is 1 mm, whatever is done."""
+    value, beyond = of_problem("pinch-soft", "drift", 'limits.drift="0.05 mm"', 'limits.margin_angle="15 deg"')
+    assert value == pytest.approx(1e-3, rel=1e-4)
+    assert beyond is not None
+    assert beyond.acceptable

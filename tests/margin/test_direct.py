@@ -124,3 +124,43 @@ def test_an_interrupt_keeps_the_finished_numbers() -> None:
 def test_a_number_that_is_none_is_refused_by_name() -> None:
     with pytest.raises(sg.InputError, match="heaviest_kg"):
         margins(pinch(MU), CARRY, only=["heaviest"])
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        ("limits.margin=1.103 N", "task.load_factor=0.961", "task.motion_factor=0.5"),
+        ('task.palm={axis="x",turn="90 deg",shift=["0 mm","0 mm","200 mm"],inertia=true}',),
+    ],
+)
+def test_what_a_hand_attains_can_be_typed_in(overrides: tuple[str, ...]) -> None:
+    """Also a bound on forces that the plan without it uses wholly."""
+    problem = sg.load_problem("gripper-box", overrides)
+    answer = margins(problem.grasp, problem.task, only=["least_peak_N", "least_effort"])
+    assert isinstance(answer, Margins)
+    for number in answer.direct.values():
+        assert number.value is not None
+        again = sg.load_problem("gripper-box", [*overrides, number.setting])
+        assert isinstance(sg.plan(again.grasp, again.task), Plan), number.setting
+
+
+def test_a_least_force_that_binds_is_where_a_cap_ends() -> None:
+    grasp, task = pinch(MU), replace(CARRY, limits=(NormalForce(lower=5.0, upper=8.0),))
+    number = found(grasp, task, only=["least_peak_N"]).direct["least_peak_N"]
+    assert number.value == pytest.approx(5.0, rel=1e-4)
+
+
+def test_factors_are_those_of_what_is_asked() -> None:
+    half = sg.load_problem("tripod", ["task.load_factor=0.5", "grasp.friction_factor=0.5"])
+    direct = found(half.grasp, half.task, only=["load_factor", "critical_friction_scale"]).direct  # type: ignore[arg-type]
+    assert direct["load_factor"].value == pytest.approx(8.0, rel=1e-3)
+    assert direct["load_factor"].setting == "task.load_factor=3.9999"
+    assert direct["critical_friction_scale"].value == pytest.approx(0.125, rel=1e-3)
+
+
+def test_a_plan_that_was_interrupted_stops_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = some_plan()
+    monkeypatch.setattr("synergrip.changes.asked.planned_with", lambda *rest: replace(made, interrupted=True))
+    answer = found(pinch(MU), CARRY)
+    assert answer.interrupted
+    assert answer.direct == {}

@@ -75,6 +75,13 @@ def test_the_worst_is_the_first_of_those_that_are_as_bad() -> None:
     assert (worst.name, worst.time_s, worst.value) == ("C0", 0.0, pytest.approx(0.15))
 
 
+def test_a_factor_that_is_huge_elsewhere_hides_no_small_one() -> None:
+    own = np.tile([2.0, 1e-15, 0.0], (3, 3))
+    own[2, 3:5] = 2.0, 0.2
+    worst = measures(tripod(mu=0.8), TIMES, own)["friction safety factor"].worst
+    assert (worst.name, worst.time_s, worst.value) == ("C1", 1.0, pytest.approx(8.0))
+
+
 def test_without_shear_no_friction_is_needed() -> None:
     own = np.tile([2.0, 0.0, 0.0], (3, 3))
     found = measures(tripod(), TIMES, own)

@@ -16,7 +16,7 @@ from synergrip.errors import SynergripError
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.formulated import formulated
 from synergrip.planning.instants import intersample_of
-from synergrip.planning.outcome import Outcome
+from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.planning import planned_with
 from synergrip.statics.analysis import Analysis, analyse
@@ -65,11 +65,18 @@ class Asked(Value):
         return self.task.timed(self.grasp) if isinstance(self.task, Task) else self.task.on(self.grasp)
 
     def outcome(self, effort: Effort = WHOLE) -> Outcome | None:
-        """Return what planning with an effort says of it; None where it is refused as bad input."""
+        """Return what planning with an effort says of it; None where it is refused as bad input.
+
+        Raises:
+            KeyboardInterrupt: somebody interrupted, be it where a plan of some goals was there already.
+        """
         try:
-            return planned_with(effort, self.grasp, self.task)
+            found = planned_with(effort, self.grasp, self.task)
         except SynergripError:
             return None
+        if isinstance(found, Plan) and found.interrupted:
+            raise KeyboardInterrupt
+        return found
 
     def posed(self, known: Analysis | None = None, units: Units | None = None, *, every: bool = False) -> Posed | None:
         """Return the program of the start posture; None where the task is refused before there is one.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import CLOSE, decided_at, solved, turning_column, with_turns
+from synergrip.changes.least_change import CLOSE, decided_at, posed_at, solved, turning_column, with_turns
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
 from synergrip.values import Value
@@ -100,7 +100,7 @@ def _past(dial: Dial[Asked], value: float, posed: Posed) -> float | None:
     """Return the nearest of some values farther on of which it is certified that there is no plan."""
     for share in () if not dial.nested else BEYOND[:1] if posed.strict else BEYOND:
         farther = value * (1 + share if dial.eased == "down" else 1 - share)
-        other = dial.turned(farther).posed(posed.analysis, every=True)
+        other = posed_at(dial, farther, posed, every=True)
         for each in () if other is None else (other.at_knots, other):  # fewer rows prove as much, and sooner
             if solved("any plan", each.program()).infeasible:
                 return farther

@@ -17,13 +17,20 @@ from synergrip.conic.relaxed import proving
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solvers import clarabel_
 from synergrip.conic.variable_bounds import LARGEST
+from synergrip.errors import SynergripError
 from synergrip.linalg import Array, frozen
+from synergrip.planning.outcome import Outcome
+from synergrip.planning.pace import WHOLE, Effort
 from synergrip.values import Value
 
 STEP = 0.25
 """Share of a number by which it is turned to see what its rows make of it."""
 SAME_ROWS = 1e-9
 """Relative difference of rows that are the same but for their unit."""
+SAME_CHANGE = 1e-6
+"""Relative difference of changes of b, of one step and of two halves of it, that are the same."""
+NO_ENTRY = 1e-12
+"""Share of the largest entry of A up to which a row sees no unknown."""
 STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
 """Factors that are tried until there is a plan, before the least one is looked for."""
 CLOSE = 5e-5
@@ -73,16 +80,23 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChan
 def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array | None:
     """Return (m,) how b changes with the number, per relative turn toward more room; None where A changes too."""
     step = min(STEP, dial.reach)
-    other = dial.turned(dial.ahead(step)).posed(posed.analysis, posed.formulation.units) if step > 0 else None
+    change, half = (_change(dial, posed, program, turn) if turn > 0 else None for turn in (step, step / 2))
+    if change is None or half is None:
+        return None
+    apart = np.abs(change - 2 * half)
+    return frozen(change / step) if np.all(apart <= SAME_CHANGE * (1 + np.abs(program.b) + np.abs(change))) else None
+
+
+def _change(dial: Dial[Asked], posed: Posed, program: Program, turn: float) -> Array | None:
+    """Return (m,) by how much b changes with a relative turn toward more room; None where A changes too."""
+    other = dial.turned(dial.ahead(turn)).posed(posed.analysis, posed.formulation.units)
     if other is None:
         return None
     turned = other.program()
     if turned.A.shape != program.A.shape or len(turned.blocks) != len(program.blocks):
         return None
     ratios = row_ratios(program, turned)
-    if ratios is None:
-        return None
-    return frozen((turned.b / ratios - program.b) / step)
+    return None if ratios is None else turned.b / ratios - program.b
 
 
 def row_ratios(one: Program, other: Program) -> Array | None:
@@ -93,12 +107,12 @@ def row_ratios(one: Program, other: Program) -> Array | None:
     sizes = [
         np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)
     ]
-    ratios = np.ones(len(one.b))
+    ratios, none = np.ones(len(one.b)), NO_ENTRY * max((float(size.max(initial=0.0)) for size in sizes), default=0.0)
     for block, rows in one.slices():
         shape = (block.knots, len(block.items), block.dim)
         first, second = (size[rows].reshape(shape).max(axis=2) for size in sizes)
         with np.errstate(invalid="ignore", divide="ignore"):
-            ratio = np.where(first > 0, second / first, np.nan)
+            ratio = np.where(first > none, second / first, np.nan)
         for fill in (_of_item(ratio), _of_all(ratio)):
             ratio = np.where(np.isnan(ratio), fill, ratio)
         ratios[rows] = np.repeat(np.where(np.isnan(ratio), 1.0, ratio)[:, :, None], block.dim, axis=2).ravel()
@@ -179,10 +193,29 @@ def _tries(dial: Dial[Asked]) -> Sequence[float]:
     return [*(v for v in (dial.value / factor for factor in STRETCH) if v > dial.end), dial.end]
 
 
+def posed_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Posed | None:
+    """Return the program with another value; of `every` instant without a reserve where it is for a proof.
+
+    None where a value is none that the number can have.
+    """
+    try:
+        return dial.turned(value).posed(posed.analysis, every=every)
+    except SynergripError:
+        return None
+
+
 def decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Decision | None:
-    """Return what comes of another value; of `every` instant without a reserve where it is for a proof."""
-    other = dial.turned(value).posed(posed.analysis, every=every)
+    """Return what comes of another value; arguments as of `posed_at`."""
+    other = posed_at(dial, value, posed, every=every)
     return None if other is None else solved("any plan", other.program())
+
+
+def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outcome | None:
+    """Return what planning says with another value; None where it is refused as bad input."""
+    try:
+        return dial.turned(value).outcome(effort)
+    except SynergripError:
+        return None
 
 
 def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:

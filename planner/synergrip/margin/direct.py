@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.extreme import FAR, Extreme, extreme, short_of
-from synergrip.changes.least_change import rounded
+from synergrip.changes.least_change import outcome_at, posed_at, rounded
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.dial import Dial, quantity
@@ -25,7 +25,7 @@ FARTHER = (1.1, 1.5)
 """Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
-MORE = (1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
+MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 """Shares by which a bound is wider than what the plan uses that is there, one after the other until it has a plan."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
@@ -51,19 +51,20 @@ def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
     """Return all numbers of a grasp and a task that has a plan."""
     timed = plan.task
     friction, mass, grasp = friction_dial(asked), mass_dial(asked), asked.grasp
-    loaded, moves = bool(np.any(timed.wrench)), bool(np.any(timed.target.values))
+    load = load_dial(asked, timed) if np.any(timed.wrench) else None
+    motion = amplitude_dial(asked, timed) if np.any(timed.target.values) else None
     no_mass = "nothing in the task weighs the object" if grasp.held else "a grasp given as matrices has no object"
     return (
         Wanted("critical_friction_scale", "", friction, "no contact has friction", friction.value if friction else 1.0),
         Wanted("heaviest_kg", "kg", mass, no_mass),
-        Wanted("load_factor", "", load_dial(asked, timed) if loaded else None, "there is no load"),
+        Wanted("load_factor", "", load, "there is no load", load.value if load else 1.0),
         Wanted("least_peak_N", "N", _cap(asked, plan), ""),
         Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
         Wanted(
             "shortest_duration_s", "s", duration_dial(asked, timed),
             "nothing depends on how long the task takes, or a part of it has times of its own",
         ),
-        Wanted("largest_amplitude", "", amplitude_dial(asked, timed) if moves else None, "no motion is wanted"),
+        Wanted("largest_amplitude", "", motion, "no motion is wanted", motion.value if motion else 1.0),
     )  # fmt: skip
 
 
@@ -111,7 +112,7 @@ def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name:
 
 
 def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
-    own = dial.turned(dial.value).posed(posed.analysis) if dial.cause in OF_PLAN else posed
+    own = posed_at(dial, dial.value, posed) if dial.cause in OF_PLAN else posed
     own = posed if own is None else own
     found = extreme(dial, own, own.program())
     if found.value is None:
@@ -121,7 +122,7 @@ def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNu
     if plan.executed is not None:
         return _along(of, found, plan)
     value = rounded(found.value, up=dial.eased == "up")
-    outcome = dial.turned(value).outcome()
+    outcome = outcome_at(dial, value)
     if not isinstance(outcome, Plan):
         return DirectNumber.none(of.name, of.unit, "no plan verified at the end of it")
     return _ends(of, found, value, outcome)
@@ -134,7 +135,7 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
         return _ends(of, found, dial.value, plan)
     for more in MORE:
         value = rounded(dial.value * (1 + more), up=True)
-        outcome = dial.turned(value).outcome(BRIEF)
+        outcome = outcome_at(dial, value, BRIEF)
         if isinstance(outcome, Plan):
             return _ends(of, found, value, outcome)
     return DirectNumber.none(of.name, of.unit, f"no plan verified with up to {MORE[-1]:.0%} more than the plan uses")
@@ -209,7 +210,7 @@ class _Search(Value):
 
     def _with(self, value: float) -> _Search:
         value = rounded(value, up=self.dial.eased == "up")
-        outcome = self.dial.turned(value).outcome(BRIEF)
+        outcome = outcome_at(self.dial, value, BRIEF)
         if isinstance(outcome, Plan):
             return replace(self, good=value, best=outcome)
         return replace(self, bad=value)

@@ -78,7 +78,9 @@ def margins(
         if name not in known:
             raise InputError.at("only", one_of(name, known))
     found: dict[str, DirectNumber] = {}
-    interrupted = made.interrupted
+    if made.interrupted:
+        return _found(made, {}, interrupted=True)
+    interrupted = False
     try:
         for number in direct(asked, made, lambda name: not names or name in names):
             found[number.name] = number

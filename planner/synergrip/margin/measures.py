@@ -25,7 +25,7 @@ FORMULAS = (
 )
 """Name, unit and formula of every measure."""
 ALIKE = 1e-6
-"""Share of the largest value up to which values are as bad as each other: the first of them is named."""
+"""Share of the worst value up to which others are as bad: the first of them is named."""
 
 
 @made_by("margins(grasp, task).measures")
@@ -51,8 +51,9 @@ class Measure(Value):
     def worst(self) -> Worst:
         """Where it is worst, and when first."""
         goodness = -self.value if self.most_is_worst else self.value
-        alike = ALIKE * float(np.abs(goodness[np.isfinite(goodness)]).max(initial=0.0))
-        k, i = (int(place[0]) for place in np.nonzero(goodness <= goodness.min() + alike))
+        worst = float(goodness.min())
+        alike = ALIKE * abs(worst) if np.isfinite(worst) else 0.0
+        k, i = (int(place[0]) for place in np.nonzero(goodness <= worst + alike))
         return Worst(float(self.value[k, i]), self.contacts[i], float(self.times[k]))
 
 

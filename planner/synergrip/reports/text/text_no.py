@@ -61,7 +61,7 @@ def _repairs(found: Explanation) -> Iterator[str]:
         if with_plan and (rest := [each for each in found.repairs if not each.verified]):
             told = ", ".join(f"{changed(each)} {values(each)[1]}" for each in rest)
             yield from wrapped(
-                "", f"no plan of the hand that moves was found with {told}, where its start posture has one"
+                "", f"no plan was found with {told}, where the linear model of the start posture has one"
             )
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
