@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -10,17 +9,13 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.conic.decide import Decision, decide
+from synergrip.changes.at_a_value import decided_at, narrowed, no_plan, posed_at, solved
+from synergrip.conic.decide import Decision
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Block, Program
-from synergrip.conic.relaxed import proving
 from synergrip.conic.rows import Item, Kind
-from synergrip.conic.solvers import clarabel_
 from synergrip.conic.variable_bounds import LARGEST
-from synergrip.errors import SynergripError
 from synergrip.linalg import Array, frozen
-from synergrip.planning.outcome import Outcome
-from synergrip.planning.pace import WHOLE, Effort
 from synergrip.values import Value
 
 STEP = 0.25
@@ -33,10 +28,6 @@ NO_ENTRY = 1e-12
 """Share of the largest entry of A up to which a row sees no unknown."""
 STRETCH = (1.05, 1.25, 2.0, 5.0, 20.0, 100.0)
 """Factors that are tried until there is a plan, before the least one is looked for."""
-CLOSE = 5e-5
-"""Relative distance at which a bisection ends."""
-DIGITS = 5
-"""Of a value that is told: it is within 1e-4 of the least one."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,11 +44,6 @@ class LeastChange(Value):
     def size(self) -> float:
         """How large the change is."""
         return np.inf if self.value is None else self.dial.size(self.value)
-
-
-def solved(name: str, program: Program) -> Decision:
-    """Return what comes of a program, verified."""
-    return decide(name, program, proving(clarabel_.solve))
 
 
 def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
@@ -169,20 +155,20 @@ def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float],
 
 def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
     """Return the nearest of some values with a plan, and from there, where sets of plans are nested, the least one."""
-    low, high, certain = dial.value, None, True
+    decided: dict[float, Decision | None] = {}
+
+    def has_plan(value: float) -> bool:
+        decided[value] = found = decided_at(dial, value, posed)
+        return found is not None and found.acceptable
+
+    low, high = dial.value, None
     for value in _tries(dial):
-        decision = decided_at(dial, value, posed)
-        if decision is not None and decision.acceptable:
-            high = value
+        if has_plan(value):
+            high, low = narrowed(value, low, has_plan)
             break
-        low, certain = value, decision is not None and decision.infeasible
-    while high is not None and abs(high - low) > CLOSE * max(abs(high), abs(low)):
-        middle = float(np.sqrt(high * low) if low * high > 0 else (high + low) / 2)
-        decision = decided_at(dial, middle, posed)
-        if decision is not None and decision.acceptable:
-            high = middle
-        else:
-            low, certain = middle, decision is not None and decision.infeasible
+        low = value
+    last = decided.get(low)
+    certain = low == dial.value or (last is not None and last.infeasible)
     return LeastChange(dial, high, certain and dial.nested and posed.strict)
 
 
@@ -193,42 +179,7 @@ def _tries(dial: Dial[Asked]) -> Sequence[float]:
     return [*(v for v in (dial.value / factor for factor in STRETCH) if v > dial.end), dial.end]
 
 
-def posed_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Posed | None:
-    """Return the program with another value; of `every` instant without a reserve where it is for a proof.
-
-    None where a value is none that the number can have.
-    """
-    try:
-        return dial.turned(value).posed(posed.analysis, every=every)
-    except SynergripError:
-        return None
-
-
-def decided_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Decision | None:
-    """Return what comes of another value; arguments as of `posed_at`."""
-    other = posed_at(dial, value, posed, every=every)
-    return None if other is None else solved("any plan", other.program())
-
-
-def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outcome | None:
-    """Return what planning says with another value; None where it is refused as bad input."""
-    try:
-        return dial.turned(value).outcome(effort)
-    except SynergripError:
-        return None
-
-
 def short_of(dial: Dial[Asked], value: float, posed: Posed, share: float) -> bool:
     """Return whether it is certified that a change smaller by a share of the value leaves no plan."""
-    before = value - (dial.ahead(share * abs(value) / dial.span) - dial.value)
-    decision = decided_at(dial, before, posed, every=True) if dial.nested else None
-    return decision is not None and decision.infeasible
-
-
-def rounded(value: float, *, up: bool) -> float:
-    """Return a value in `DIGITS` digits, rounded up or down."""
-    if value == 0:
-        return 0.0
-    digit = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
-    count = (math.ceil if up else math.floor)(value / digit)
-    return float(f"{count * digit:.{DIGITS}g}")
+    before = dial.easier(value, -share * abs(value))
+    return dial.nested and no_plan(posed_at(dial, before, posed, every=True))

@@ -5,15 +5,13 @@ Nothing here is the least of its kind, and of what is not found nothing is claim
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import rounded
+from synergrip.changes.at_a_value import between, first_plan
 from synergrip.changes.turning import dials
 from synergrip.conic.limits.dial import Dial
 from synergrip.explain.repairs import Repair, beyond
-from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
 
 FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
@@ -36,7 +34,8 @@ def tried(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> It
         heard: is told of each.
     """
     for dial in numbers:
-        for found in first_with_a_plan(dial, _values(dial, FACTORS), lambda repair: None):
+        found = first_repair(dial, _values(dial, FACTORS))
+        if found is not None:
             nearer = _nearer(dial, found)
             heard(nearer)
             yield nearer
@@ -47,23 +46,25 @@ def _nearer(dial: Dial[Asked], found: Repair) -> Repair:
     factors = [value for value in _values(dial, FACTORS) if abs(value - dial.value) < abs(found.to - dial.value)]
     without = factors[-1] if factors else dial.value
     for _ in range(HALVES):
-        value = rounded(math.sqrt(without * found.to), up=dial.eased == "up")
-        nearer = next(first_with_a_plan(dial, [value], lambda repair: None), None)
+        value = dial.rounded(between(without, found.to))
+        nearer = first_repair(dial, [value])
         found, without = (found, value) if nearer is None else (nearer, without)
     return found
 
 
 def tried_briefly(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
     """Yield a few numbers with the smallest factor that a plan is soon found with; arguments as of `tried`."""
-    found = 0
+    told = 0
     for factor in FIRST:
         for dial in numbers:
-            for repair in first_with_a_plan(dial, _values(dial, (factor,)), heard, BRIEF):
-                yield repair
-                found += 1
-            if found == FEW:
+            found = first_repair(dial, _values(dial, (factor,)), BRIEF)
+            if found is not None:
+                heard(found)
+                yield found
+                told += 1
+            if told == FEW:
                 return
-        if found:
+        if told:
             return
 
 
@@ -82,22 +83,15 @@ def second_changes(
         to = beyond(one, repair.to, ROOMY)
         changed = one.turned(to)
         for two in dials(changed, changed.timed, posed.analysis):
-            if two.key != one.key:
-                for second in first_with_a_plan(two, _values(two, FACTORS), lambda repair: None, BRIEF):
-                    yield Repair.of(one, to, second.outcome), second
+            second = first_repair(two, _values(two, FACTORS), BRIEF) if two.key != one.key else None
+            if second is not None:
+                yield Repair.of(one, to, second.outcome), second
 
 
-def first_with_a_plan(
-    dial: Dial[Asked], values: Sequence[float], heard: Callable[[Repair], None], effort: Effort = WHOLE
-) -> Iterator[Repair]:
-    """Yield the first of some values with which there is a plan, if any."""
-    for value in values:
-        outcome = dial.turned(value).outcome(effort)
-        if isinstance(outcome, Plan):
-            found = Repair.of(dial, value, outcome)
-            heard(found)
-            yield found
-            return
+def first_repair(dial: Dial[Asked], values: Sequence[float], effort: Effort = WHOLE) -> Repair | None:
+    """Return the first of some values with which there is a plan, if any."""
+    found = first_plan(dial, values, effort)
+    return None if found is None else Repair.of(dial, *found)
 
 
 def _values(dial: Dial[Asked], factors: Sequence[float]) -> list[float]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from synergrip.changes.asked import Asked
-from synergrip.changes.least_change import solved
+from synergrip.changes.at_a_value import no_plan
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
@@ -32,7 +32,6 @@ def clashing(asked: Asked) -> tuple[str, ...] | None:
     def clash(limits: Sequence[Limit]) -> bool:
         cones = () if any(isinstance(limit, SlipMargin) for limit in limits) else (SlipMargin(0.0),)
         free = () if any(isinstance(limit, JointRange) for limit in limits) else let_go
-        posed = asked.with_limits((*cones, *free, *limits)).posed(every=True)
-        return posed is not None and solved("any plan", posed.program()).infeasible
+        return no_plan(asked.with_limits((*cones, *free, *limits)).posed(every=True))
 
     return tuple(limit.key for limit in irreducible(stated[::-1], clash)[::-1]) if clash(stated) else None

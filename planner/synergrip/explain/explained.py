@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import LeastChange, least_change, solved
+from synergrip.changes.at_a_value import solved
+from synergrip.changes.least_change import LeastChange, least_change
 from synergrip.changes.turning import dials
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause, Dial
@@ -82,14 +83,10 @@ def _smaller(planned: Sequence[Repair], others: Sequence[Repair]) -> tuple[tuple
     """Return the changes, the smaller of two where the hand that moves needs less than its start, and others."""
     if not others:
         return tuple(planned), ()
-    smaller = {each.key: each for each in others}
-    held = [each if _better(each, smaller.get(each.key, each)) else smaller[each.key] for each in planned]
+    other = {each.key: each for each in others}
+    held = [min(each, other.get(each.key, each), key=lambda one: (not one.verified, one.size)) for each in planned]
     keys = {each.key for each in held}
     return tuple(sorted(held, key=lambda each: each.size)), tuple(each for each in others if each.key not in keys)
-
-
-def _better(one: Repair, other: Repair) -> bool:
-    return one is other or (one.verified and one.size <= other.size)
 
 
 def _of_the_motion(

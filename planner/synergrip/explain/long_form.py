@@ -13,7 +13,7 @@ from synergrip.changes.least_change import least_change
 from synergrip.changes.turning import contact_dials, stiffness_dial
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
-from synergrip.explain.along import first_with_a_plan, second_changes
+from synergrip.explain.along import first_repair, second_changes
 from synergrip.explain.clashing import clashing
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.pairs import GIVEN, pairs
@@ -75,4 +75,7 @@ def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repai
         if repair.verified:
             yield repair
     dial = stiffness_dial(asked)
-    yield from first_with_a_plan(dial, [dial.value * factor for factor in STIFFER], heard)
+    stiffer = first_repair(dial, [dial.value * factor for factor in STIFFER])
+    if stiffer is not None:
+        heard(stiffer)
+        yield stiffer

@@ -8,7 +8,8 @@ from itertools import combinations
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import solved, turning_column, with_turns
+from synergrip.changes.at_a_value import solved
+from synergrip.changes.least_change import turning_column, with_turns
 from synergrip.changes.turning import dials
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from synergrip.changes.asked import Asked
-from synergrip.changes.least_change import rounded
+from synergrip.changes.at_a_value import first_plan, with_room
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
 from synergrip.explain.explanation import STAGES, Explanation
-from synergrip.explain.repairs import ROOM, Repair
+from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
 from synergrip.explain.when import NOT_KNOWN, When
-from synergrip.planning.outcome import Infeasible, Plan, Unknown
+from synergrip.planning.outcome import Infeasible, Unknown
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analysis import Analysis
-from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.tasks.control import ControlError
-from synergrip.tasks.tracking import RIGID_TOLERANCE, target_displacement, wish_size
+from synergrip.tasks.tracking import RIGID_TOLERANCE, out_of_reach, target_displacement, wish_size
 
 FEW = 3
 """Candidates for missing synergies of the short form."""
@@ -62,16 +59,11 @@ def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analys
     refusal = no.refusal if isinstance(no, Infeasible) else None
     least, whole = refusal.size if isinstance(refusal, MotionDirectionError) else 0.0, len(task.axes) == len(AXES)
     if whole:  # on some of the axes what they see may be had by a motion that is wanted nowhere
-        _, left = motion_coordinates(
-            analysis.response, analysis.spaces, target_displacement(analysis, task, task.target.values)
-        )
-        outside = np.linalg.norm(analysis.response.scale.twist(left), axis=1)
+        outside = out_of_reach(analysis, target_displacement(analysis, task, task.target.values))
         late = outside > max(task.tolerance, RIGID_TOLERANCE * size)
         known, least = replace(known, when=When.of(task.times, late)), max(least, float(outside.max()))
     dial: Dial[Asked] = Dial(
         "tolerance", "task.tolerance", task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size or 1.0
     )
-    value = rounded(least * (1 + ROOM), up=True)
-    outcome = dial.turned(value).outcome()
-    held = (Repair.of(dial, value, outcome, proven=whole),) if isinstance(outcome, Plan) else ()
-    return replace(known, repairs=held)
+    found = first_plan(dial, [dial.rounded(with_room(dial, least))])
+    return replace(known, repairs=() if found is None else (Repair.of(dial, *found, proven=whole),))

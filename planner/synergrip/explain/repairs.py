@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import LeastChange, rounded, short_of
+from synergrip.changes.at_a_value import outcome_at, with_room
+from synergrip.changes.least_change import LeastChange, short_of
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.documents.naming import made_by
 from synergrip.planning.outcome import Outcome, Plan
@@ -16,8 +17,6 @@ from synergrip.values import Value
 
 SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
-ROOM = 2e-6
-"""Relative room beyond the least value: a plan on the very edge is a matter of rounding."""
 MORE = (0.0, 0.002, 0.01, 0.05, 0.2, 0.5, 1.0)
 """How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
 ENOUGH = (0.02, 0.1)
@@ -109,7 +108,7 @@ def _planned(change: LeastChange, posed: Posed, farther: Sequence[float], effort
     tried = None
     for more in farther if posed.analysis.grasp.held is not None else (0.0,):
         value = beyond(dial, least, more)
-        tried = dial.turned(value).outcome(effort)
+        tried = outcome_at(dial, value, effort)
         if isinstance(tried, Plan):
             break
     else:
@@ -125,7 +124,5 @@ def beyond(dial: Dial[Asked], least: float, more: float) -> float:
         least: its nearest value with a plan.
         more: share of the value by which to go farther.
     """
-    change = abs(least - dial.value)
-    turn = change + max(more * abs(least), ROOM * max(abs(least), change))
-    value = rounded(dial.ahead(turn / dial.span), up=dial.eased == "up")
+    value = dial.rounded(with_room(dial, least, more))
     return min(value, dial.end) if dial.eased == "up" else max(value, dial.end)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.least_change import solved
+from synergrip.changes.at_a_value import solved
 from synergrip.conic.certificate import PRIMAL_TOLERANCE, judge_infeasible
 from synergrip.conic.decide import Decision
 from synergrip.conic.program import Block, Program

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.extreme import FAR, Extreme, extreme, short_of
-from synergrip.changes.least_change import outcome_at, posed_at, rounded
+from synergrip.changes.at_a_value import first_plan, outcome_at, posed_at, with_room
+from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.dial import Dial, quantity
-from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.normal_force import NormalForce, least_normal_force
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
@@ -72,7 +72,7 @@ def _cap(asked: Asked, plan: Plan) -> Dial[Asked]:
     """Return a bound on all normal forces, from the largest of a plan on."""
     largest = float(plan.forces[:, asked.grasp.normal_rows].max())
     others = tuple(limit for limit in asked.limits if not isinstance(limit, NormalForce))
-    lower = max((limit.lower for limit in asked.limits if isinstance(limit, NormalForce)), default=0.0)
+    lower = least_normal_force(asked.limits)
 
     (dial, *_) = NormalForce(lower=lower, upper=max(largest, lower)).dials(asked.grasp)
     return Dial(
@@ -93,18 +93,16 @@ def _effort(asked: Asked, plan: Plan) -> Dial[Asked] | None:
     return Dial("effort", "limits.actuator_effort", largest, "", turned, written=lambda value: quantity(value, ""))
 
 
-def direct(asked: Asked, plan: Plan, which: Callable[[str], bool] = lambda name: True) -> Iterator[DirectNumber]:
-    """Yield the numbers, each as it is found.
+def direct(numbers: Iterable[Wanted], asked: Asked, plan: Plan) -> Iterator[DirectNumber]:
+    """Yield numbers, each as it is found.
 
     Args:
+        numbers: some of `wanted`.
         asked: what is asked, limits filled in.
         plan: of it.
-        which: says by its name whether one is wanted.
     """
     posed = asked.posed(plan.analysis)
-    for each in wanted(asked, plan):
-        if not which(each.name):
-            continue
+    for each in numbers:
         if each.dial is None or posed is None:
             yield DirectNumber.none(each.name, each.unit, each.absent)
             continue
@@ -121,11 +119,10 @@ def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNu
         return _near(of, found, plan)
     if plan.executed is not None:
         return _along(of, found, plan)
-    value = rounded(found.value, up=dial.eased == "up")
-    outcome = outcome_at(dial, value)
-    if not isinstance(outcome, Plan):
+    attained = first_plan(dial, [dial.rounded(found.value)])
+    if attained is None:
         return DirectNumber.none(of.name, of.unit, "no plan verified at the end of it")
-    return _ends(of, found, value, outcome)
+    return _ends(of, found, *attained)
 
 
 def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
@@ -133,12 +130,11 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial = found.dial
     if dial.cause not in OF_PLAN:
         return _ends(of, found, dial.value, plan)
-    for more in MORE:
-        value = rounded(dial.value * (1 + more), up=True)
-        outcome = outcome_at(dial, value, BRIEF)
-        if isinstance(outcome, Plan):
-            return _ends(of, found, value, outcome)
-    return DirectNumber.none(of.name, of.unit, f"no plan verified with up to {MORE[-1]:.0%} more than the plan uses")
+    attained = first_plan(dial, (dial.rounded(dial.value * (1 + more)) for more in MORE), BRIEF)
+    if attained is None:
+        more = f"up to {MORE[-1]:.0%} more than the plan uses"
+        return DirectNumber.none(of.name, of.unit, f"no plan verified with {more}")
+    return _ends(of, found, *attained)
 
 
 def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> DirectNumber:
@@ -201,7 +197,7 @@ class _Search(Value):
 
     def tried(self, share: float) -> _Search:
         """Return it with the value at a share of the way from what is asked to the end of the start posture."""
-        value = short_of(self.dial, self.dial.value + share * (self.end - self.dial.value))
+        value = with_room(self.dial, self.dial.value + share * (self.end - self.dial.value))
         return self._with(value) if value > 0 else self
 
     def halved(self) -> _Search:
@@ -209,7 +205,7 @@ class _Search(Value):
         return self if self.bad is None else self._with((self.good + self.bad) / 2)
 
     def _with(self, value: float) -> _Search:
-        value = rounded(value, up=self.dial.eased == "up")
+        value = self.dial.rounded(value)
         outcome = outcome_at(self.dial, value, BRIEF)
         if isinstance(outcome, Plan):
             return replace(self, good=value, best=outcome)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from synergrip.changes.asked import Asked
-from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.normal_force import least_normal_force
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, one_of
@@ -73,16 +73,17 @@ def margins(
     if not isinstance(made, Plan):
         return made
     asked = Asked.of(made.grasp, task, made.task)
-    known = [each.name for each in wanted(asked, made)]
+    numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:
-        if name not in known:
-            raise InputError.at("only", one_of(name, known))
+        if name not in numbers:
+            raise InputError.at("only", one_of(name, list(numbers)))
+    chosen = [each for name, each in numbers.items() if not names or name in names]
     found: dict[str, DirectNumber] = {}
     if made.interrupted:
         return _found(made, {}, interrupted=True)
     interrupted = False
     try:
-        for number in direct(asked, made, lambda name: not names or name in names):
+        for number in direct(chosen, asked, made):
             found[number.name] = number
             heard(number)
     except KeyboardInterrupt:
@@ -92,7 +93,7 @@ def margins(
 
 def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
     grasp = made.grasp
-    least = max((limit.lower for limit in made.task.limits if isinstance(limit, NormalForce)), default=0.0)
+    least = least_normal_force(made.task.limits)
     own = measures(grasp, made.time, made.forces, least)
     linear = None
     if made.executed is not None:

@@ -75,8 +75,13 @@ def undone(analysis: Analysis, task: TimedTask) -> float:
     """Return how much of a wanted motion is none of the hand's and left undone, at most [m, rotations times length]."""
     if task.target.kind != "motion" or task.tracking == "compliant" or len(task.axes) < len(AXES):
         return 0.0
-    _, outside = motion_coordinates(analysis.response, analysis.spaces, task.target.values)
-    return float(np.linalg.norm(analysis.response.scale.twist(outside), axis=1).max(initial=0.0))
+    return float(out_of_reach(analysis, task.target.values).max(initial=0.0))
+
+
+def out_of_reach(analysis: Analysis, motions: Array) -> Array:
+    """Return (K,) how much of motions (K, 6) about B is no rigid motion of the hand [m, rotations times length]."""
+    _, outside = motion_coordinates(analysis.response, analysis.spaces, motions)
+    return frozen(np.linalg.norm(analysis.response.scale.twist(outside), axis=1))
 
 
 def in_motions(analysis: Analysis, task: TimedTask) -> TimedTask:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
@@ -20,6 +21,8 @@ Cause = Literal[
 """What can keep a task from having a plan, in words that stay the same; "limit" is one of somebody's own."""
 
 T = TypeVar("T")
+DIGITS = 5
+"""Of a value that is told: it is within 1e-4 of the least one."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,7 +70,19 @@ class Dial(Value, Generic[T]):
 
     def ahead(self, turn: float) -> float:
         """Return the value after a relative turn toward room."""
-        return self.value + (1.0 if self.eased == "up" else -1.0) * turn * self.span
+        return self.easier(self.value, turn * self.span)
+
+    def easier(self, value: float, by: float) -> float:
+        """Return another value moved toward room; away from it where `by` is negative."""
+        return value + by if self.eased == "up" else value - by
+
+    def rounded(self, value: float) -> float:
+        """Return another value in `DIGITS` digits, rounded toward room."""
+        if value == 0:
+            return 0.0
+        digit = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
+        count = (math.ceil if self.eased == "up" else math.floor)(value / digit)
+        return float(f"{count * digit:.{DIGITS}g}")
 
     def set(self, value: float) -> str:
         """Return the argument of ``--set`` that gives it a value."""

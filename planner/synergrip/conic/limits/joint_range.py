@@ -161,10 +161,7 @@ def _unit(lower: Array, upper: Array) -> Array:
 
 def _times(ranges: JointRange, stated: dict[str, Array]) -> float:
     """Return how many times as wide all ranges are as those that are stated; 1 where not all are as many times so."""
-    wide, of_hand = (
-        _unit(lower, upper) for lower, upper in ((ranges.lower, ranges.upper), (stated["lower"], stated["upper"]))
-    )
-    ratios = np.asarray(wide / of_hand)
+    ratios = np.asarray(_unit(ranges.lower, ranges.upper) / _unit(stated["lower"], stated["upper"]))
     return float(ratios.mean()) if np.ptp(ratios) <= 1e-9 * ratios.max() else 1.0
 
 

@@ -129,6 +129,11 @@ def _bound(key: str, value: Any, none: float) -> float:
     return size(key, value, f"a force in newtons of at least 0, or {word} for no bound", at_least=0.0)
 
 
+def least_normal_force(limits: Sequence[Limit]) -> float:
+    """Return the largest of the least normal forces that limits ask for [N]; 0 where none asks for any."""
+    return max([0.0, *(limit.lower for limit in limits if isinstance(limit, NormalForce))])
+
+
 def bound_unit(bound: float, force_unit: float) -> float:
     """Return the unit [N] of the rows of a bound: its own where it is far from all forces, to drown nothing."""
     return abs(bound) if np.isfinite(bound) and abs(bound) > FAR * force_unit else force_unit
