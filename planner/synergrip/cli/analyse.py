@@ -17,6 +17,7 @@ from synergrip.cli.running import (
     answering,
     color,
     picture_place,
+    placed,
     show,
     shown_anyway,
     writing,
@@ -46,30 +47,27 @@ def analyse(
 ) -> None:
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
     with answering(form):
-        from synergrip.errors import NotRestrainedError, SynergripError
-        from synergrip.problems.problem import load_problem, located
+        from synergrip.errors import NotRestrainedError
+        from synergrip.problems.problem import load_problem
         from synergrip.statics.analysis import analyse as work_out
         from synergrip.statics.dimensions import dimension_table
 
         picture_place(picture)
         loaded = load_problem(problem, overrides or [])
         found: Analysis | NotRestrainedError
-        try:
-            found = work_out(loaded.grasp, loaded.timed.wrench)
-        except NotRestrainedError as refusal:
-            found = refusal
-        except SynergripError as error:
-            raise located(loaded, error) from None
+        with placed(loaded):
+            try:
+                found = work_out(loaded.grasp, loaded.timed.wrench)
+            except NotRestrainedError as refusal:
+                found = refusal
         columns = dimension_table(loaded.grasp) if table else None
         written = None
-        try:
+        with placed(loaded):
             with shown_anyway(form, lambda: _text(loaded, found, columns, None),
                               lambda: _document(loaded, found, columns)):  # fmt: skip
                 written = _drawn(loaded, found, picture) if picture else None
             show(form, lambda: _text(loaded, found, columns, written),
                  lambda: _document(loaded, found, columns) | ({"picture": written} if picture else {}))  # fmt: skip
-        except SynergripError as error:
-            raise located(loaded, error) from None
     raise typer.Exit(found.exit_code if isinstance(found, NotRestrainedError) else 0)
 
 

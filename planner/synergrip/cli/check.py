@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, show
+from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, placed, show
 
 
 def check(
@@ -18,9 +18,9 @@ def check(
 ) -> None:
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
-        from synergrip.errors import Refusal, SynergripError
+        from synergrip.errors import Refusal
         from synergrip.planning.references import read_references
-        from synergrip.problems.problem import load_problem, located
+        from synergrip.problems.problem import load_problem
 
         loaded = load_problem(problem, overrides or [])
         references = read_references(plan, loaded.grasp)  # what is wrong with files is told before the slow imports
@@ -29,13 +29,12 @@ def check(
         from synergrip.reports.data.json_analysis import refused_document
         from synergrip.reports.text.text_check import judgement_document, judgement_text, refused_text
 
-        try:
-            judgement = judge_references(loaded.grasp, loaded.timed, references)
-            code = judgement.exit_code
-            show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
-        except Refusal as error:
-            refusal, code = error, error.exit_code
-            show(form, lambda: refused_text(loaded, refusal, color()), lambda: refused_document(refusal))
-        except SynergripError as error:
-            raise located(loaded, error) from None
+        with placed(loaded):
+            try:
+                judgement = judge_references(loaded.grasp, loaded.timed, references)
+                code = judgement.exit_code
+                show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
+            except Refusal as error:
+                refusal, code = error, error.exit_code
+                show(form, lambda: refused_text(loaded, refusal, color()), lambda: refused_document(refusal))
     raise typer.Exit(code)

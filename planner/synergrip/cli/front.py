@@ -7,7 +7,17 @@ from typing import Annotated
 import typer
 
 from synergrip.cli.progress import counted, telling
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, heard, show
+from synergrip.cli.running import (
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    end_without_plan,
+    heard,
+    placed,
+    show,
+)
 
 
 def front(
@@ -18,26 +28,18 @@ def front(
 ) -> None:
     """Trade slip margin against peak force: the least peak for each margin, up to the largest (Pareto front)."""
     with answering(form):
-        from synergrip.errors import SynergripError
         from synergrip.margin.front import front as points_of
         from synergrip.margin.front import largest
         from synergrip.planning.outcome import Plan
         from synergrip.planning.solvers import SOLVERS
-        from synergrip.problems.problem import load_problem, located
-        from synergrip.reports.data.json_plan import outcome_document
+        from synergrip.problems.problem import load_problem
         from synergrip.reports.text.front_report import front_document, front_text
-        from synergrip.reports.text.text_plan import verdict_lines
 
         solver, loaded = telling(SOLVERS["clarabel"]), load_problem(problem, overrides or [])
-        try:
-            with heard():
-                best = largest(loaded.grasp, loaded.timed, solver)
-        except SynergripError as error:
-            raise located(loaded, error) from None
+        with placed(loaded), heard():
+            best = largest(loaded.grasp, loaded.timed, solver)
         if not isinstance(best, Plan):
-            document = outcome_document(loaded.title, loaded.grasp, best, loaded.notes, loaded.source)
-            show(form, lambda: "\n".join(verdict_lines(loaded, best, color())), lambda: document)
-            raise typer.Exit(best.exit_code)
+            end_without_plan(form, loaded, best)
         points, interrupted = [], best.interrupted
         try:
             with heard():

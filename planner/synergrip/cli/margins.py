@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, heard, show
+from synergrip.cli.running import (
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    color,
+    end_without_plan,
+    heard,
+    placed,
+    show,
+)
 
 if TYPE_CHECKING:
     from synergrip.margin.direct_number import DirectNumber
@@ -24,25 +35,17 @@ def margins(
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
     with answering(form):
-        from synergrip.errors import SynergripError
         from synergrip.margin.margins import Margins
         from synergrip.margin.margins import margins as found_by
-        from synergrip.problems.problem import load_problem, located
+        from synergrip.problems.problem import load_problem
         from synergrip.reports.data.json_margins import margins_document
-        from synergrip.reports.data.json_plan import outcome_document
         from synergrip.reports.text.text_margins import margins_text
-        from synergrip.reports.text.text_plan import verdict_lines
 
         loaded = load_problem(problem, overrides or [])
-        try:
-            with heard():
-                found = found_by(loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell)
-        except SynergripError as error:
-            raise located(loaded, error) from None
+        with placed(loaded), heard():
+            found = found_by(loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell)
         if not isinstance(found, Margins):
-            document = outcome_document(loaded.title, loaded.grasp, found, loaded.notes, loaded.source)
-            show(form, lambda: "\n".join(verdict_lines(loaded, found, color())), lambda: document)
-            raise typer.Exit(found.exit_code)
+            end_without_plan(form, loaded, found)
         told = margins_document(loaded.title, found, loaded.notes)
         show(form, lambda: margins_text(loaded, found, color()), lambda: told)
     raise typer.Exit(130 if found.interrupted else 0)

@@ -20,6 +20,7 @@ from synergrip.cli.running import (
     color,
     heard,
     picture_place,
+    placed,
     possible,
     show,
     shown_anyway,
@@ -119,14 +120,8 @@ def _explained(outcome: Outcome) -> None:
 
 def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) -> Outcome:
     """Plan; an interrupt keeps what the goals so far have led to."""
-    from synergrip.errors import SynergripError
-    from synergrip.problems.problem import located
-
-    try:
-        with heard():
-            return make(problem.grasp, problem.task, answers)
-    except SynergripError as error:
-        raise located(problem, error) from None
+    with placed(problem), heard():
+        return make(problem.grasp, problem.task, answers)
 
 
 def _save(outcome: Outcome, path: Path) -> None:

@@ -11,13 +11,17 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
 from synergrip.cli import ending
 from synergrip.cli.streams import PrintError
 from synergrip.errors import InputError, InterruptError, OutputError, SelfCheckError, SynergripError
+
+if TYPE_CHECKING:
+    from synergrip.planning.outcome import Infeasible, Unknown
+    from synergrip.problems.problem import Problem
 
 
 class Format(StrEnum):
@@ -77,6 +81,27 @@ def heard() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, outside)
+
+
+@contextmanager
+def placed(problem: Problem) -> Iterator[None]:
+    """Let an error of what is asked say where its key stands in the problem file."""
+    from synergrip.problems.problem import located
+
+    try:
+        yield
+    except SynergripError as error:
+        raise located(problem, error) from None
+
+
+def end_without_plan(form: Format, problem: Problem, outcome: Infeasible | Unknown) -> NoReturn:
+    """Print why there is no plan, and leave with the exit code that says so."""
+    from synergrip.reports.data.json_plan import outcome_document
+    from synergrip.reports.text.text_plan import verdict_lines
+
+    document = outcome_document(problem.title, problem.grasp, outcome, problem.notes, problem.source)
+    show(form, lambda: "\n".join(verdict_lines(problem, outcome, color())), lambda: document)
+    raise typer.Exit(outcome.exit_code)
 
 
 @contextmanager

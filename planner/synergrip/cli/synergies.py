@@ -18,6 +18,7 @@ from synergrip.cli.running import (
     answering,
     heard,
     picture_place,
+    placed,
     possible,
     show,
     shown_anyway,
@@ -177,10 +178,9 @@ def needed(
 ) -> None:
     """Find the fewest synergies for a task: margin, effort, peak force and tracking error over their number."""
     with answering(form):
-        from synergrip.errors import SynergripError
         from synergrip.explain.synergies.synergies_needed import synergies_needed
         from synergrip.files import refuse_unwritable
-        from synergrip.problems.problem import load_problem, located
+        from synergrip.problems.problem import load_problem
         from synergrip.reports.data.needed_files import needed_document, write_needed
         from synergrip.reports.text.text_needed import needed_text
 
@@ -192,13 +192,8 @@ def needed(
         def told(size: int, done: int, of: int) -> None:
             counted(done, of, f"subsets of {size}")
 
-        try:
-            with heard():
-                found = synergies_needed(
-                    loaded.grasp, loaded.timed, by=by, most=most, up_to=up_to, along=along, told=told
-                )
-        except SynergripError as error:
-            raise located(loaded, error) from None
+        with placed(loaded), heard():
+            found = synergies_needed(loaded.grasp, loaded.timed, by=by, most=most, up_to=up_to, along=along, told=told)
         with shown_anyway(form, lambda: needed_text(loaded, found), lambda: needed_document(found)):
             if csv is not None:
                 with writing("--csv", csv):
