@@ -9,6 +9,7 @@ import pytest
 from random_grasps import random_grasp
 from small_grasps import pinch, tripod
 
+import synergrip as sg
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.margin.measures import measures
@@ -73,6 +74,33 @@ def test_the_worst_is_the_first_of_those_that_are_as_bad() -> None:
     own[2, 3] = 2.0
     worst = measures(grasp, TIMES, own)["required friction"].worst
     assert (worst.name, worst.time_s, worst.value) == ("C0", 0.0, pytest.approx(0.15))
+
+
+def test_a_contact_without_friction_needs_none_and_is_no_cone_of_half_a_right_angle() -> None:
+    grasp = random_grasp(np.random.default_rng(0), ["frictionless", "hard", "hard", "hard"])
+    own = forces(grasp)
+    found = {name: each.value[:, 0] for name, each in measures(grasp, TIMES, own).items()}
+    assert np.array_equal(found["slip margin"], own[:, 0])
+    assert np.array_equal(found["cone distance"], own[:, 0])
+    assert np.all(np.isinf(found["angle to cone"]))
+    assert np.all(np.isinf(found["friction safety factor"]))
+    assert np.all(found["required friction"] == 0)
+
+
+def test_no_friction_holds_a_contact_that_would_have_to_pull() -> None:
+    own = np.tile([-0.5, 0.2, 0.0], (3, 3))
+    found = measures(tripod(mu=0.8), TIMES, own)
+    assert np.all(np.isinf(found["required friction"].value))
+    assert np.all(found["friction safety factor"].value < 0)
+    assert np.allclose(found["slip margin"].value, -0.8 * 0.5 - 0.2)
+
+
+def test_slip_margins_are_those_of_the_plan() -> None:
+    for name in ("tripod", "pinch-soft", "gripper-box"):
+        problem = sg.load_problem(name)
+        plan = sg.plan(problem.grasp, problem.task)
+        assert isinstance(plan, sg.Plan)
+        assert np.allclose(measures(plan.grasp, plan.time, plan.forces)["slip margin"].value, plan.margins, atol=1e-9)
 
 
 def test_a_factor_that_is_huge_elsewhere_hides_no_small_one() -> None:

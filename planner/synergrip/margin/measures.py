@@ -75,29 +75,17 @@ def measures(grasp: Grasp, times: Array, forces: Array, least: Sequence[float] |
         forces: (T, n_l) contact forces [N, N m].
         least: the normal force below which a contact counts as lifted off [N].
     """
-    head, tail, mu = (np.stack(parts, axis=1) for parts in zip(*_cones(grasp, forces), strict=True))
-    normal = forces[:, grasp.normal_rows]
+    pairs = [(contact, forces[:, rows]) for contact, rows in zip(grasp.contacts, grasp.rows, strict=True)]
+    slip = np.column_stack([contact.slip_margin(own) for contact, own in pairs])
+    nearest = (contact.nearest_cone(own) for contact, own in pairs)
+    head, tail, mu = (np.stack(parts, axis=1) for parts in zip(*nearest, strict=True))
+    names, normal, shears = tuple(contact.name for contact in grasp.contacts), forces[:, grasp.normal_rows], tail > 0
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(tail > 0, head / tail, np.inf)
-        needed = np.where(tail > 0, mu / ratio, 0.0)
-    names = tuple(contact.name for contact in grasp.contacts)
-    slip, narrow = head - tail, np.arctan(mu) - np.arctan(needed)
-    values = (slip, slip / np.sqrt(1 + mu**2), np.degrees(narrow), ratio, needed, normal - least)
+        ratio = np.where(shears, head / tail, np.inf)
+        needed = np.where(shears, np.where(head > 0, mu * tail / head, np.inf), 0.0)
+    narrow = np.where(shears | (mu > 0), np.degrees(np.arctan(mu) - np.arctan(needed)), np.inf)
+    values = (slip, slip / np.sqrt(1 + mu**2), narrow, ratio, needed, normal - least)
     return {
         name: Measure(name, unit, formula, frozen(value), names, times, name == "required friction")
         for (name, unit, formula), value in zip(FORMULAS, values, strict=True)
     }
-
-
-def _cones(grasp: Grasp, forces: Array) -> list[tuple[Array, Array, Array]]:
-    """Return for each contact (T,) mu n and t of its nearest cone, and mu."""
-    found = []
-    for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
-        own = forces[:, rows]
-        sides = [
-            (own @ W[0], np.linalg.norm(own @ W[1:].T, axis=1), np.full(len(own), W[0, 0])) for W in contact.kind.cones
-        ]
-        heads, tails, friction = (np.stack(part) for part in zip(*sides, strict=True))
-        nearest = np.argmin(heads - tails, axis=0)
-        found.append(tuple(part[nearest, np.arange(len(own))] for part in (heads, tails, friction)))
-    return found

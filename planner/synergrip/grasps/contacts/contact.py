@@ -91,10 +91,22 @@ class Contact(ByContent):
         if force.shape[-1:] != (rows,):
             wanted = f"forces (..., {rows}), one for each of {', '.join(self.kind.components)}"
             raise InputError.at("force", f"expected {wanted}, got shape {force.shape}")
-        images = [force @ W.T for W in self.cones]
-        margins = [image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1) for image in images]
-        margin, normal = np.min(margins, axis=0), force[..., 0]
+        head, tail, _ = self.nearest_cone(force)
+        margin, normal = head - tail, force[..., 0]
         return np.asarray(np.where(normal < 0, np.minimum(margin, normal), margin))
+
+    def nearest_cone(self, force: Array) -> tuple[Array, Array, Array]:
+        """Return of forces (..., rows) ``(W lambda)_0``, ``||(W lambda)_1..||`` [N] and the friction mu, (...) each.
+
+        They are those of the cone whose slip margin is the smallest; without friction mu is 0, and so is the second.
+        """
+        images = [force @ W.T for W in self.cones]
+        heads = np.stack([image[..., 0] for image in images])
+        tails = np.stack([np.linalg.norm(image[..., 1:], axis=-1) for image in images])
+        nearest = np.argmin(heads - tails, axis=0)
+        friction = np.array([W[0, 0] if len(W) > 1 else 0.0 for W in self.cones])
+        head, tail = (np.take_along_axis(each, nearest[None], axis=0)[0] for each in (heads, tails))
+        return head, tail, friction[nearest]
 
 
 def contact_frame(normal: Array, tangent: Array | None = None) -> Array:

@@ -53,7 +53,9 @@ def _measures(found: Margins) -> str:
 
 def _value(measure: Measure) -> str:
     value = measure.worst.value
-    return f"{value:.4g} {measure.unit}".strip() if np.isfinite(value) else "no friction is needed"
+    if np.isfinite(value):
+        return f"{value:.4g} {measure.unit}".strip()
+    return "none would do" if measure.most_is_worst else "no friction is needed"
 
 
 def _numbers(found: Margins) -> Iterator[str]:
