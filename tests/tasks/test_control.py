@@ -28,6 +28,7 @@ def test_more_directions_than_synergies_are_refused_by_count_with_what_competes(
     answer = refused("tripod", forces=2, motions=("z", "rz", "x"))
     assert answer.stage == "count"
     assert "asks for 5 independent directions, the hand has n_z = 4" in answer.why
+    assert "its synergies control 2 of internal force, 2 of motion and 0 of reconfiguration" in answer.why
     assert "2 of internal force and 3 of motion (z, rz, x) compete" in answer.why
     assert answer.explanation.cause == "count"
 

@@ -59,7 +59,8 @@ def explained(
     planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
     others: list[Repair] = []
     if isinstance(no, Unknown) and not interrupted:
-        others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(numbers, planned), heard))
+        turned = [each.dial for each in helping] if short and helping else numbers
+        others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(turned, planned), heard))
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping)
     text, in_vain = _text(no, held, known), _in_vain(found)

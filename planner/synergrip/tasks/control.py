@@ -82,7 +82,10 @@ def refuse_control(analysis: Analysis, control: Control) -> None:
     """
     n_z, dimensions = analysis.grasp.n_z, analysis.spaces.dimensions
     if control.asked > n_z:
-        message = f"asks for {control.asked} independent directions, the hand has n_z = {n_z}; {_competing(control)}"
+        message = (
+            f"asks for {control.asked} independent directions, the hand has n_z = {n_z}; {_competing(control)}; its "
+            "synergies control {} of internal force, {} of motion and {} of reconfiguration".format(*dimensions)
+        )
         raise ControlError(message, "count", control.asked, n_z)
     kinds = (("internal force", "E_s", control.forces, 0), ("reconfiguration", "Gamma_zr", control.reconfiguration, 2))
     for what, space, asked, place in kinds:
