@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from synergrip.cli import ending
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -16,12 +18,16 @@ from synergrip.cli.running import (
     color,
     end_without_plan,
     heard,
+    picture_place,
     placed,
     show,
+    shown_anyway,
+    writing,
 )
 
 if TYPE_CHECKING:
     from synergrip.margin.direct_number import DirectNumber
+    from synergrip.margin.margins import Margins
 
 
 def margins(
@@ -31,6 +37,10 @@ def margins(
     only: Annotated[
         list[str] | None,
         typer.Option("--only", metavar="NAME", help="A number such as heaviest_kg; may be repeated."),
+    ] = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option("--picture", metavar="FILE", help="Draw margins over time and in the cones: .svg, .png, .pdf."),
     ] = None,
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
@@ -42,13 +52,30 @@ def margins(
         from synergrip.reports.text.text_margins import margins_text
 
         loaded = load_problem(problem, overrides or [])
+        picture_place(picture)
         with placed(loaded), heard():
             found = found_by(loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell)
         if not isinstance(found, Margins):
             end_without_plan(form, loaded, found)
-        told = margins_document(loaded.title, found, loaded.notes)
-        show(form, lambda: margins_text(loaded, found, color()), lambda: told)
+        told, drawn = margins_document(loaded.title, found, loaded.notes), list[str]()
+
+        def text() -> str:
+            return "\n".join([margins_text(loaded, found, color()), *(f"\nwrote {name}" for name in drawn)])
+
+        with shown_anyway(form, text, lambda: told):
+            if picture:
+                _draw(found, loaded.title, picture)
+                drawn.append(str(picture))
+        show(form, text, lambda: told | ({"picture": str(picture)} if picture else {}))
     raise typer.Exit(130 if found.interrupted else 0)
+
+
+def _draw(found: Margins, title: str, picture: Path) -> None:
+    from synergrip.reports.pictures.margins_picture import draw_margins
+
+    with writing("--picture", picture):
+        draw_margins(found, title, picture)
+    ending.keep(picture)
 
 
 def _tell(number: DirectNumber) -> None:
