@@ -18,6 +18,9 @@ from synergrip.statics.twists import describe_twist
 MOST, FEW = 6, 3
 """Principal values that a line shows, and squeezes that are told one by one."""
 
+ALIKE = 1e-6
+"""Relative difference up to which principal values are the same, and their axes no one's in particular."""
+
 
 def properties_text(found: GraspProperties) -> str:
     """Return classes, squeezes, stiffness, manipulability and distances to singularity, and where they are from."""
@@ -74,21 +77,24 @@ def _ellipsoids(found: GraspProperties) -> Iterator[str]:
         yield from wrapped(f"{name:9}", _direction(found, ellipsoid), WIDTH)
     length = 1e3 * found.analysis.response.scale.length
     text = (
-        f"of what has translations and rotations in one these are compared by the length of the grasp, {length:.4g} mm; "
+        f"what has translations and rotations in one compares them by the length of the grasp, {length:.4g} mm; "
         "F is the force map and U the motion map of the references, and their unit that of the synergies"
     )
     yield from wrapped("         ", text, WIDTH)
 
 
 def _direction(found: GraspProperties, ellipsoid: Ellipsoid) -> str:
+    """Return the direction of the largest value; where several are as large, how many there are."""
     value, analysis = ellipsoid.values[0], found.analysis
-    twist = describe_twist(ellipsoid.axes[:, 0], analysis.grasp.contacts, analysis.response.scale.length)
     size = "not resisted at all" if np.isinf(value) else f"{value:.4g} {ellipsoid.unit}"
-    return f"{twist}: {size}"
+    alike = int(np.sum(ellipsoid.values >= value * (1 - ALIKE)))
+    if alike > 1:
+        return f"{alike} directions alike: {size}"
+    return f"{describe_twist(ellipsoid.axes[:, 0], analysis.grasp.contacts, analysis.response.scale.length)}: {size}"
 
 
 def _values(values: Array) -> str:
-    shown = [f"{value:.3g}" for value in values[:MOST]]
+    shown = [f"{value:.4g}" for value in values[:MOST]]
     return "  ".join([*shown, *([f"and {len(values) - MOST} more"] if len(values) > MOST else [])])
 
 
