@@ -88,7 +88,14 @@ def test_plans_made_in_code_say_the_same_and_those_of_files_say_it_once(tmp_path
     assert isinstance(answer, sg.Plan)
     assert any(note.startswith("Task.loads[0]: gravity of 1.62 m/s^2") for note in answer.notes)
     told = command_line.document(
-        "plan", "pinch-soft", "--set", "grasp.friction_factor=5", "-o", str(tmp_path / "out"), "--set", "limits.margin=0.1 N"
+        "plan",
+        "pinch-soft",
+        "--set",
+        "grasp.friction_factor=5",
+        "-o",
+        str(tmp_path / "out"),
+        "--set",
+        "limits.margin=0.1 N",
     )
     assert len(doubts(told["notes"])) == 1
 
