@@ -32,7 +32,7 @@ class Plain:
         self.C_s = grasp.C_s / np.outer(self.force, self.force)
         K = np.linalg.inv(self.C_s + self.J @ grasp.C_q @ self.J.T + self.J @ self.S @ grasp.C_z @ self.S.T @ self.J.T)
         self.stiffness = self.G @ K @ self.G.T
-        self.U = np.linalg.inv(self.stiffness) @ self.G @ K @ self.J @ self.S
+        self.U = np.linalg.pinv(self.stiffness, rcond=SMALL, hermitian=True) @ self.G @ K @ self.J @ self.S
         self.F = K @ (self.J @ self.S - self.G.T @ self.U)
 
     def spaces(self, J: np.ndarray) -> dict[str, np.ndarray]:
@@ -67,12 +67,13 @@ def _numbers(found: GraspProperties, plain: Plain) -> Iterator[str]:
     of_hand = np.linalg.svd(plain.J @ plain.S, compute_uv=False)
     counted = np.where(of_hand > SMALL * of_hand[0], of_hand, 0.0)
     held = np.linalg.svd(plain.G, compute_uv=False)
+    least = held[5] if len(held) == 6 and held[5] > SMALL * held[0] else 0.0
     pairs = {
         "stiffness": (found.ellipsoids["stiffness"].values, stiffness[::-1]),
-        "compliance": (found.ellipsoids["compliance"].values, 1 / stiffness),
+        "compliance": (1 / found.ellipsoids["compliance"].values, stiffness),
         "motion": (found.ellipsoids["motion by references"].values, np.linalg.svd(plain.U, compute_uv=False)),
         "force": (found.ellipsoids["force by references"].values, np.linalg.svd(plain.F, compute_uv=False)),
-        "distance of G": (found.singularity["restraint"].smallest, held[-1]),
+        "distance of G": (found.singularity["restraint"].smallest, least),
         "distance of J S": (found.singularity["synergies"].smallest, counted[-1]),
         "relative distance of J S": (found.singularity["synergies"].relative, counted[-1] / counted[0]),
         "matrix": (found.stiffness, plain.motion.T @ plain.stiffness @ plain.motion),

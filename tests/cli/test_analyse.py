@@ -117,6 +117,15 @@ def test_ambiguous_rows_are_marked() -> None:
 POSTURE = 'hand.posture={ spread = "30 deg", finger1 = "0 deg", finger2 = "90.00001 deg", finger3 = "90.00001 deg" }'
 
 
+def test_what_can_hardly_be_meant_is_told_here_too() -> None:
+    doubtful = ("tripod", "--set", "grasp.friction_factor=5")
+    for options in ((), ("--table",), ("--quality",)):
+        words = " ".join(run(*doubtful, *options).stdout.split())
+        assert words.count("a coefficient of friction of 4 (contacts 'C1', 'C2', 'C3')") == 1
+    (note,) = document(*doubtful)["notes"]
+    assert "grasp.friction_factor: a coefficient of friction of 4" in note
+
+
 def test_quality_is_shown_instead_and_is_a_part_of_the_document() -> None:
     plain, shown = run("tripod").stdout, run("tripod", "--quality").stdout
     assert shown.splitlines()[:2] == plain.splitlines()[:2]

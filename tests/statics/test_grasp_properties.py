@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from free_grasps import FORMS, free_grasp
 from plain_properties import disagreements, same_space
 from random_grasps import compliance, moved_frame, random_grasp
 from scipy.linalg import null_space
@@ -101,6 +102,16 @@ def test_table_two_is_what_its_dimensions_say() -> None:
 def test_an_implementation_from_the_definitions_agrees() -> None:
     for seed in range(12):
         grasp = random_grasp(np.random.default_rng([3, seed]), degenerate=seed % 2 == 0)
+        assert disagreements(grasp) == [], seed
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_of_an_object_that_is_free_to_move_all_else_is_told_as_the_definitions_have_it(form: str) -> None:
+    for seed in range(3):
+        grasp = free_grasp(np.random.default_rng([9, seed]), form)
+        found = grasp_properties(grasp)
+        assert found.of_joints["indeterminate"].dimension == FORMS[form]
+        assert np.sum(np.isinf(found.ellipsoids["compliance"].values)) == FORMS[form]
         assert disagreements(grasp) == [], seed
 
 

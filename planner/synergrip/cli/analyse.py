@@ -83,6 +83,7 @@ def analyse(
 
 def _text(problem: Problem, found: Analysis | NotRestrainedError, asked: Asked, written: str | None) -> str:
     from synergrip.errors import NotRestrainedError
+    from synergrip.reports.text.tables import wrapped
     from synergrip.reports.text.text_analysis import analysis_text
     from synergrip.reports.text.text_check import refused_text
     from synergrip.reports.text.text_dimensions import dimensions_text
@@ -100,6 +101,8 @@ def _text(problem: Problem, found: Analysis | NotRestrainedError, asked: Asked, 
         parts.append(dimensions_text(columns, problem.grasp.synergies))
     if properties is not None:
         parts.append(properties_text(properties))
+    if problem.notes:
+        parts.append("\n".join(line for note in problem.notes for line in wrapped("note     ", note)))
     if written is not None:
         parts.append(f"wrote {written}")
     return "\n\n".join(parts)
@@ -116,6 +119,8 @@ def _document(problem: Problem, found: Analysis | NotRestrainedError, asked: Ask
         document = unrestrained_document(problem.grasp, found)
     else:
         document = analysis_document(found)
+    if problem.notes:
+        document["notes"] = [*document.get("notes", ()), *problem.notes]
     more = {} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)}
     return document | more | ({} if properties is None else {"properties": properties_document(properties)})
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.linalg import RANK_TOLERANCE, Array, frozen
+from synergrip.linalg import RANK_TOLERANCE, SINGULAR, Array, frozen
 from synergrip.statics.response import Response
 from synergrip.values import ByName, Value
 
@@ -103,8 +103,8 @@ def _of_stiffness(response: Response) -> Iterator[Ellipsoid]:
 def _block(name: str, formula: str, unit: str, block: Array) -> Ellipsoid:
     """Return the ellipsoid of a symmetric block (3, 3), which is positive semidefinite but for rounding."""
     values, axes = np.linalg.eigh(block)
-    return Ellipsoid(name, formula, unit, STIFFNESS, frozen(np.maximum(values[::-1], 0.0)),
-                     frozen(_signed(axes[:, ::-1])))  # fmt: skip
+    values = np.where(values > SINGULAR * values[-1], values, 0.0)
+    return Ellipsoid(name, formula, unit, STIFFNESS, frozen(values[::-1]), frozen(_signed(axes[:, ::-1])))
 
 
 def _of_references(response: Response, forces: int, motions: int) -> Iterator[Ellipsoid]:

@@ -71,7 +71,7 @@ def _columns(found: GraspProperties, effect: ReferenceEffect) -> Iterator[str]:
 
 def _ellipsoids(found: GraspProperties) -> Iterator[str]:
     rows = [(each.name, _values(each.values), each.unit, each.formula) for each in found.ellipsoids.values()]
-    yield "how it yields at the start posture, and what references of size 1 do there: principal values"
+    yield "how it yields at the start posture, and what references of size 1 do there (manipulability): half axes"
     yield table(("", "values", "unit", "of"), rows)
     for name, ellipsoid in (("stiffest", found.ellipsoids["stiffness"]), ("softest", found.ellipsoids["compliance"])):
         yield from wrapped(f"{name:9}", _direction(found, ellipsoid), WIDTH)
