@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
-from made_kinds import made_kind
+from made_kinds import made_kind, spin_of
 
 from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp, grasp_matrix
@@ -89,4 +91,28 @@ def random_grasp(
         w_0=frozen(np.zeros(6)),
         joints=tuple(f"q{i + 1}" for i in range(n_q)),
         synergies=tuple(f"z{i + 1}" for i in range(n_z)),
+    )
+
+
+def moved_frame(grasp: Grasp, shift: np.ndarray, length: float, force: float) -> Grasp:
+    """The same grasp with another origin of B and other units of length and force."""
+    contacts = tuple(
+        replace(
+            c, point=frozen(length * (c.point + shift)), kind=made_kind(c.kind.name, c.friction, length * spin_of(c))
+        )
+        for c in grasp.contacts
+    )
+    unit = np.array(
+        [1.0 if c != "m" else 1.0 / length for _, c in grasp.components]
+    )  # spin rows turn, they do not move
+    J = length * unit[:, None] * grasp.J
+    size = length / force * np.outer(unit, unit)
+    return replace(
+        grasp,
+        contacts=contacts,
+        G=grasp_matrix(contacts),
+        J=frozen(J),
+        C_s=frozen(size * grasp.C_s),
+        C_q=frozen(grasp.C_q / (force * length)),
+        C_z=frozen(grasp.C_z / (force * length)),
     )

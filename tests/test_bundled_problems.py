@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from synergrip.grasps.plausible import grasp_doubts
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, bundled_problems, load_problem
 from synergrip.statics.analysis import analyse
+from synergrip.tasks.plausible import task_doubts
 
 NAMES = bundled_problems()
 
@@ -38,6 +40,7 @@ def test_answer_is_as_expected(name: str) -> None:
     if expect.dims is not None:
         assert analyse(problem.grasp).spaces.dimensions == expect.dims
         assert not analyse(problem.grasp).spaces.ambiguous
+    assert not [*grasp_doubts(problem.grasp), *task_doubts(problem.task, problem.timed, problem.grasp)]
     outcome = plan(problem.grasp, problem.task)
     assert outcome.verdict == expect.verdict
     if isinstance(outcome, Plan):

@@ -74,6 +74,7 @@ RIGHT: dict[str, dict[str, Any]] = {
                             "joints": list("abcdef"), "synergies": ["s"], "title": ""},
     "GivenContact": {"name": "a", "kind": hard, "point": (0, 0, 0), "normal": (1, 0, 0)},
     "analyse": {"grasp": grasp, "load": still},
+    "grasp_properties": {"grasp": grasp},
     "analyse_many": {"grasps": [grasp]},
     "respond": {"grasp": grasp, "load": still},
     "subspaces": {"response": response},
@@ -170,7 +171,7 @@ MADE_BY = {
     "Plan": "plan(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
     "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
-    "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
+    "GraspProperties": "grasp_properties(", "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
 }  # fmt: skip
 
 

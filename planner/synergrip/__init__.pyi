@@ -30,6 +30,8 @@ from synergrip.grasps.matrices import GivenContact as GivenContact
 from synergrip.grasps.matrices import read_matrices as read_matrices
 from synergrip.statics.analysis import analyse as analyse
 from synergrip.statics.analysis import Analysis as Analysis
+from synergrip.statics.grasp_properties import grasp_properties as grasp_properties
+from synergrip.statics.grasp_properties import GraspProperties as GraspProperties
 from synergrip.grasps.stack import GraspStack as GraspStack
 from synergrip.statics.analyses import analyse_many as analyse_many
 from synergrip.statics.analyses import Analyses as Analyses

@@ -115,3 +115,41 @@ def test_ambiguous_rows_are_marked() -> None:
 
 
 POSTURE = 'hand.posture={ spread = "30 deg", finger1 = "0 deg", finger2 = "90.00001 deg", finger3 = "90.00001 deg" }'
+
+
+def test_what_can_hardly_be_meant_is_told_here_too() -> None:
+    doubtful = ("tripod", "--set", "grasp.friction_factor=5")
+    for options in ((), ("--table",), ("--quality",)):
+        words = " ".join(run(*doubtful, *options).stdout.split())
+        assert words.count("a coefficient of friction of 4 (contacts 'C1', 'C2', 'C3')") == 1
+    (note,) = document(*doubtful)["notes"]
+    assert "grasp.friction_factor: a coefficient of friction of 4" in note
+
+
+def test_quality_is_shown_instead_and_is_a_part_of_the_document() -> None:
+    plain, shown = run("tripod").stdout, run("tripod", "--quality").stdout
+    assert shown.splitlines()[:2] == plain.splitlines()[:2]
+    assert "is graspable, defective and hyperstatic" in shown
+    found = document("tripod", "--quality")
+    properties = found.pop("properties")
+    assert found == document("tripod")
+    assert {name: each["dimension"] for name, each in properties["references"].items()} == {
+        "pure squeeze": 1, "spurious squeeze": 1, "motion without force": 2, "redundant motion": 0,
+    }  # fmt: skip
+    for group in (*properties["classes"].values(), properties["references"], properties["ellipsoids"],
+                  properties["singularity"]):  # fmt: skip
+        for each in group.values():
+            assert each["formula"]
+            assert each["unit"]
+            assert each["source"]
+
+
+def test_quality_tells_of_an_object_that_is_not_held_and_of_many_squeezes() -> None:
+    shown = run("pinch-hard", "--quality")
+    assert shown.exit_code == 1
+    assert "softest  rotation about the line through left and right: not resisted at all" in shown.stdout
+    properties = document("pinch-hard", "--quality", code=1)["properties"]
+    assert properties["classes"]["joints"]["indeterminate"]["holds"] is True
+    assert properties["compliance"] is None
+    assert properties["ellipsoids"]["compliance"]["values"][0] is None
+    assert "and 5 more, in the JSON document" in run("human-ball", "--quality").stdout

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_kinds import made_kind, spin_of
-from random_grasps import compliance, random_grasp
+from made_kinds import made_kind
+from random_grasps import compliance, moved_frame, random_grasp
 
 from synergrip.errors import NotRestrainedError, RigidContactError
 from synergrip.grasps.contacts.contact import Contact, contact_frame
@@ -93,30 +93,6 @@ def test_internal_forces_need_no_load_and_the_reaction_balances_it(seed: int) ->
     assert np.abs(scale.wrench((G @ response.dlambda_dzr).T)).max() < 1e-11 * np.abs(response.dlambda_dzr).max()
     assert np.allclose(G @ response.right_inverse, np.eye(6), atol=1e-10)
     assert np.all(np.linalg.eigvalsh(response.du_dw) > 0)
-
-
-def moved_frame(grasp: Grasp, shift: np.ndarray, length: float, force: float) -> Grasp:
-    """The same grasp with another origin of B and other units of length and force."""
-    contacts = tuple(
-        replace(
-            c, point=frozen(length * (c.point + shift)), kind=made_kind(c.kind.name, c.friction, length * spin_of(c))
-        )
-        for c in grasp.contacts
-    )
-    unit = np.array(
-        [1.0 if c != "m" else 1.0 / length for _, c in grasp.components]
-    )  # spin rows turn, they do not move
-    J = length * unit[:, None] * grasp.J
-    size = length / force * np.outer(unit, unit)
-    return replace(
-        grasp,
-        contacts=contacts,
-        G=grasp_matrix(contacts),
-        J=frozen(J),
-        C_s=frozen(size * grasp.C_s),
-        C_q=frozen(grasp.C_q / (force * length)),
-        C_z=frozen(grasp.C_z / (force * length)),
-    )
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -28,8 +28,10 @@ if TYPE_CHECKING:
     from synergrip.problems.problem import Problem
     from synergrip.statics.analysis import Analysis
     from synergrip.statics.dimensions import DimensionColumn
+    from synergrip.statics.grasp_properties import GraspProperties
 
     Columns = tuple[DimensionColumn, DimensionColumn]
+    Asked = tuple[Columns | None, GraspProperties | None]
 
 
 def analyse(
@@ -44,6 +46,12 @@ def analyse(
         bool,
         typer.Option("--table", help="Show the dimensions with the first 1, 2, ... synergies instead, hard and soft."),
     ] = False,
+    quality: Annotated[
+        bool,
+        typer.Option(
+            "--quality", help="Show what textbooks name instead: classes, squeezes, stiffness, manipulability."
+        ),
+    ] = False,
 ) -> None:
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
     with answering(form):
@@ -51,6 +59,7 @@ def analyse(
         from synergrip.problems.problem import load_problem
         from synergrip.statics.analysis import analyse as work_out
         from synergrip.statics.dimensions import dimension_table
+        from synergrip.statics.grasp_properties import grasp_properties
 
         picture_place(picture)
         loaded = load_problem(problem, overrides or [])
@@ -60,47 +69,60 @@ def analyse(
                 found = work_out(loaded.grasp, loaded.timed.wrench)
             except NotRestrainedError as refusal:
                 found = refusal
-        columns = dimension_table(loaded.grasp) if table else None
+            asked = (dimension_table(loaded.grasp) if table else None,
+                     grasp_properties(loaded.grasp) if quality else None)  # fmt: skip
         written = None
         with placed(loaded):
-            with shown_anyway(form, lambda: _text(loaded, found, columns, None),
-                              lambda: _document(loaded, found, columns)):  # fmt: skip
+            with shown_anyway(form, lambda: _text(loaded, found, asked, None),
+                              lambda: _document(loaded, found, asked)):  # fmt: skip
                 written = _drawn(loaded, found, picture) if picture else None
-            show(form, lambda: _text(loaded, found, columns, written),
-                 lambda: _document(loaded, found, columns) | ({"picture": written} if picture else {}))  # fmt: skip
+            show(form, lambda: _text(loaded, found, asked, written),
+                 lambda: _document(loaded, found, asked) | ({"picture": written} if picture else {}))  # fmt: skip
     raise typer.Exit(found.exit_code if isinstance(found, NotRestrainedError) else 0)
 
 
-def _text(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None, written: str | None) -> str:
+def _text(problem: Problem, found: Analysis | NotRestrainedError, asked: Asked, written: str | None) -> str:
     from synergrip.errors import NotRestrainedError
+    from synergrip.reports.text.tables import wrapped
     from synergrip.reports.text.text_analysis import analysis_text
     from synergrip.reports.text.text_check import refused_text
     from synergrip.reports.text.text_dimensions import dimensions_text
     from synergrip.reports.text.text_problem import problem_lines
+    from synergrip.reports.text.text_properties import properties_text
 
+    columns, properties = asked
     if isinstance(found, NotRestrainedError):
         parts = [refused_text(problem, found, color())]
-    elif columns is not None:
+    elif columns is not None or properties is not None:
         parts = ["\n".join(problem_lines(problem))]
     else:
         parts = [analysis_text(problem, found, color())]
     if columns is not None:
         parts.append(dimensions_text(columns, problem.grasp.synergies))
+    if properties is not None:
+        parts.append(properties_text(properties))
+    if problem.notes:
+        parts.append("\n".join(line for note in problem.notes for line in wrapped("note     ", note)))
     if written is not None:
         parts.append(f"wrote {written}")
     return "\n\n".join(parts)
 
 
-def _document(problem: Problem, found: Analysis | NotRestrainedError, columns: Columns | None) -> dict[str, Any]:
+def _document(problem: Problem, found: Analysis | NotRestrainedError, asked: Asked) -> dict[str, Any]:
     from synergrip.errors import NotRestrainedError
     from synergrip.reports.data.json_analysis import analysis_document, unrestrained_document
+    from synergrip.reports.data.json_properties import properties_document
     from synergrip.reports.text.text_dimensions import dimensions_document
 
+    columns, properties = asked
     if isinstance(found, NotRestrainedError):
         document = unrestrained_document(problem.grasp, found)
     else:
         document = analysis_document(found)
-    return document | ({} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)})
+    if problem.notes:
+        document["notes"] = [*document.get("notes", ()), *problem.notes]
+    more = {} if columns is None else {"table": dimensions_document(columns, problem.grasp.n_z)}
+    return document | more | ({} if properties is None else {"properties": properties_document(properties)})
 
 
 def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path) -> str | None:

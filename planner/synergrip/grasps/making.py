@@ -22,6 +22,7 @@ from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, Pad, SynergySet
+from synergrip.hands.posture_units import posture_doubt
 from synergrip.hands.synergies.matrix import outside_limits, stands_still
 from synergrip.hands.synergies.matrix import posture as posture_of
 from synergrip.hands.synergies.select import SetChoice, select
@@ -112,7 +113,11 @@ def make_grasp(
     raise_issues(issues)
     if direction is not None:
         q = closed(hand, q, direction, body, touches)
-    placed = place(title, hand, chosen, q, body, touches, C_q, C_z)
+    try:
+        placed = place(title, hand, chosen, q, body, touches, C_q, C_z)
+    except InputError as error:
+        said = posture_doubt(hand.joints, q)
+        raise InputError([*error.issues, *([Issue(said, key="posture")] if said else [])]) from None
     held = Held(hand=hand, synergies=chosen, q=q, C_q=C_q, body=placed.body, touches=tuple(touches), gaps=placed.gaps)
     return replace(placed.grasp, held=held)
 

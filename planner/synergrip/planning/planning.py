@@ -9,6 +9,7 @@ from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.plausible import grasp_doubts
 from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.first_goal import Planner
@@ -21,6 +22,7 @@ from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answerer, answerer
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.restraint import NO_LOAD
+from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
@@ -55,7 +57,10 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     """
     outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
-    return outcome if isinstance(outcome, Plan) else replace(outcome, asked=task)
+    if not isinstance(outcome, Plan):
+        return replace(outcome, asked=task)
+    doubts = (*grasp_doubts(outcome.grasp), *task_doubts(task, outcome.task, outcome.grasp))
+    return replace(outcome, notes=(*outcome.notes, *map(str, doubts))) if doubts else outcome
 
 
 def planned_with(

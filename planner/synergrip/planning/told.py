@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from synergrip.conic.limits.limit import Usage
@@ -30,6 +31,13 @@ def structure_document(grasp: Grasp, analysis: Analysis | None) -> dict[str, Any
         "characteristic_length_m": analysis.response.scale.length,
         "free_twists": analysis.response.free_twists.T.tolist(),
     }  # fmt: skip
+
+
+def notes_together(own: Sequence[str], of_problem: Sequence[str]) -> list[str]:
+    """Return the notes of a plan and of its problem; those that both have are told with their place in the file."""
+    told = [each.partition(": ")[2] or each for each in own]
+    new = (each for each, text in zip(own, told, strict=True) if not any(note.endswith(text) for note in of_problem))
+    return list(dict.fromkeys([*new, *of_problem]))
 
 
 def check_document(check: Check) -> dict[str, Any]:

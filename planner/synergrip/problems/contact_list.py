@@ -48,6 +48,12 @@ def contact_list(defaults: ContactsTable | None, entries: Sequence[ContactEntry]
     return tuple(contacts)
 
 
+def stated_in(defaults: ContactsTable | None, entries: Sequence[ContactEntry], name: str) -> list[str]:
+    """Return for each contact the key that states a value of it: that of its own entry, or of the defaults."""
+    sources = _sources(defaults or ContactsTable(), entries)
+    return [f"{'contacts' if getattr(each.entry, name) is None else each.table}.{name}" for each in sources]
+
+
 def _sources(shared: ContactsTable, entries: Sequence[ContactEntry]) -> Iterator[_Source]:
     by_pad = {entry.at: index for index, entry in enumerate(entries) if entry.at is not None}
     for i, pad in enumerate(shared.at):

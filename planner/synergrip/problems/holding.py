@@ -49,7 +49,7 @@ def hand_grasp(file: ProblemFile, folder: Path) -> Grasp:
             synergy_compliance=table.compliance.synergy or 0.0, title=file.title, relative_to=folder,
         )  # fmt: skip
     except InputError as error:
-        raise error.located(_in_file) from None
+        raise error.located(in_file) from None
 
 
 KEYS = {
@@ -60,7 +60,7 @@ KEYS = {
 """Argument of `make_grasp` -> key of the problem file."""
 
 
-def _in_file(issue: Issue) -> Issue:
+def in_file(issue: Issue) -> Issue:
     """Return an issue with the key of the file in the place of the argument; one that has its place keeps it."""
     if issue.file:
         return issue

@@ -23,10 +23,12 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.problems.contact_factors import with_factors
+from synergrip.problems.doubts import doubts_of, spot_notes
 from synergrip.problems.limits_table import limits_of
 from synergrip.problems.loads import Keys, stated_at, task_of
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
 from synergrip.problems.problem_values import document_of
+from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import MAXIMISED, TimedTask
 from synergrip.tasks.timing import at_start, happening
@@ -61,7 +63,7 @@ class Problem(Value):
     """The same at its knots, for this grasp."""
     keys: Keys
     notes: tuple[str, ...] = ()
-    """What is doubtful about the grasp, though it is no error."""
+    """What is doubtful about grasp and task, though it is no error."""
 
     @property
     def held(self) -> Held | None:
@@ -146,7 +148,9 @@ def _problem(name: str, path: Path, file: ProblemFile, document: Document) -> Pr
     except InputError as error:
         raise stated_at(error, keys).located(document.locate) from None
     grasp = at_start(touching.grasp, timed.wrench[0])
-    return Problem(name, path, file, document, grasp, task, timed, keys, touching.notes)
+    asked_for = [stated_at(InputError([each]), keys).issues[0] for each in task_doubts(task, timed, grasp)]
+    doubts = [str(document.locate(each)) for each in (*touching.doubts, *asked_for)]
+    return Problem(name, path, file, document, grasp, task, timed, keys, (*touching.notes, *doubts))
 
 
 def _asked(file: ProblemFile, folder: Path, touching: _Touching | None) -> tuple[Task, Keys]:
@@ -168,6 +172,7 @@ class _Touching:
 
     grasp: Grasp
     notes: tuple[str, ...]
+    doubts: tuple[Issue, ...]
 
 
 def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
@@ -195,23 +200,12 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
 
         matrices = path.parent / file.grasp.file
         grasp = with_factors(read_given(matrices, "grasp.file"), file.grasp, "grasp")
-        return _Touching(grasp, (*_spot_notes(matrices), *frame_notes(grasp)))
+        return _Touching(grasp, (*spot_notes(matrices), *frame_notes(grasp)), doubts_of(grasp, file, path.parent))
     from synergrip.problems.holding import hand_grasp
 
     grasp = with_factors(hand_grasp(file, path.parent), file.contacts, "contacts")
     notes = grasp.held.notes if grasp.held else ()
-    return _Touching(grasp, (*notes, *frame_notes(grasp)))
-
-
-def _spot_notes(matrices: Path) -> tuple[str, ...]:
-    """Return a note for each contact of a grasp file whose point is that of another one."""
-    from synergrip.grasps.placing import same_spots
-
-    contacts = [
-        data for data in read_document(matrices, "grasp file", numbers=True).data["contacts"] if data.get("point_m")
-    ]
-    points = [np.array(data["point_m"], dtype=float) for data in contacts]
-    return tuple(message for _, message in same_spots([data["name"] for data in contacts], points))
+    return _Touching(grasp, (*notes, *frame_notes(grasp)), doubts_of(grasp, file, path.parent))
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:

@@ -11,6 +11,7 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError, Issue, one_of, raise_issues, suggest
 from synergrip.hands.follower_ranges import FollowerRange, follower_ranges, why_outside
 from synergrip.hands.hand import Coupling, Hand, Joint, SynergySet
+from synergrip.hands.posture_units import unit_hint
 from synergrip.hands.units import SI_UNITS, joint_kinds, misfits, synergy_kinds
 from synergrip.linalg import Array, frozen
 
@@ -209,8 +210,7 @@ def outside_limits(
             factor, unit = SHOWN_IN[SI_UNITS[joint.kind]]
             lower, upper, found = joint.lower * factor, joint.upper * factor, value * factor
             message = f"joint '{joint.name}' would be at {found:.4g} {unit}, outside {lower:.4g} to {upper:.4g} {unit}"
-            if joint.name in because:
-                message += f"; {because[joint.name]}"
+            message += f"; {because[joint.name]}" if joint.name in because else unit_hint(joint, float(value))
             issues.append(Issue(message, key=key))
     return issues
 

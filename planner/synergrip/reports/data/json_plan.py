@@ -22,6 +22,7 @@ from synergrip.planning.told import (
     check_document,
     finite,
     margin_document,
+    notes_together,
     series_document,
     structure_document,
     true_document,
@@ -56,7 +57,7 @@ def outcome_document(
         "time_s": outcome.task.times.tolist(),
         PROVENANCE: provenance_document(outcome, source),
         "programs": [_program(decision) for decision in outcome.decisions],
-        "notes": list(dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *notes])),
+        "notes": notes_together(outcome.notes if isinstance(outcome, Plan) else (), notes),
     }
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))

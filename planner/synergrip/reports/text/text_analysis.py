@@ -47,18 +47,19 @@ def _dimensions(analysis: Analysis) -> tuple[str, ...]:
 def _motions(analysis: Analysis) -> Iterator[str]:
     length = analysis.response.scale.length
     for i, motion in enumerate(analysis.spaces.Gamma_ucs.T):
-        synergies = _combination(analysis.spaces.Gamma_zcs[:, i], analysis.grasp.synergies)
+        synergies = combination(analysis.spaces.Gamma_zcs[:, i], analysis.grasp.synergies)
         twist = describe_twist(motion, analysis.grasp.contacts, length)
         yield from wrapped(f"Γ_ucs {i + 1}  ", f"{twist}; by {synergies}", WIDTH)
 
 
 def _redundancy(analysis: Analysis) -> Iterator[str]:
     for i, column in enumerate(analysis.spaces.Gamma_zr.T):
-        text = f"{_combination(column, analysis.grasp.synergies)} moves no contact"
+        text = f"{combination(column, analysis.grasp.synergies)} moves no contact"
         yield from wrapped(f"Γ_zr {i + 1}   ", text, WIDTH)
 
 
-def _combination(column: np.ndarray, names: tuple[str, ...]) -> str:
+def combination(column: np.ndarray, names: tuple[str, ...]) -> str:
+    """Return references as a sum of synergies by name, the largest with the factor 1."""
     largest = float(np.abs(column).max())
     kept = [(value / largest, name) for value, name in zip(column, names, strict=True) if abs(value) > 1e-6 * largest]
     terms = [f"{'-' if v < 0 else '+'} {'' if abs(abs(v) - 1) < 5e-4 else f'{abs(v):.3g} '}{n}" for v, n in kept]

@@ -11,6 +11,7 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
+from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
@@ -36,7 +37,7 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
         _measures(found), "", *_numbers(found),
     ]  # fmt: skip
-    notes = dict.fromkeys([*plan.notes, *problem.notes])
+    notes = notes_together(plan.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])
 

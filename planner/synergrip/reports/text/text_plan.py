@@ -18,6 +18,7 @@ from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
 from synergrip.linalg import Array
 from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
+from synergrip.planning.told import notes_together
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
@@ -65,7 +66,7 @@ def verdict_lines(
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
         lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
-    notes = dict.fromkeys([*(outcome.notes if isinstance(outcome, Plan) else ()), *problem.notes])
+    notes = notes_together(outcome.notes if isinstance(outcome, Plan) else (), problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]

@@ -1,0 +1,84 @@
+"""What of a grasp can hardly be meant: too much friction, contacts on an edge, a posture in another unit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from synergrip.errors import Issue
+from synergrip.grasps.contacts.contact import contact_frame
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.shapes.shape import Shape
+from synergrip.hands.posture_units import posture_doubt
+from synergrip.linalg import Array
+
+MOST_FRICTION = 2.0
+"""Coefficient of friction that hardly any pair of dry surfaces exceeds."""
+NEAR = 1e-3
+"""Nearer than this to an edge a contact is on it, as far as hands are placed [m]."""
+STEPS, WAYS = 10, 16
+"""Distances and directions in which an edge is looked for."""
+BEND = np.cos(np.radians(30))
+"""Cosine of the angle between normals from which on there is an edge between their places."""
+
+
+def grasp_doubts(grasp: Grasp, friction_at: Callable[[int, str], str] = lambda place, name: name) -> Iterator[Issue]:
+    """Yield what can hardly be meant, each with its key: that of the problem file where there is one.
+
+    Args:
+        grasp: the grasp.
+        friction_at: the key of a parameter of a contact, by its place among the contacts.
+    """
+    yield from _too_much_friction(grasp, friction_at)
+    if grasp.held is not None:
+        yield from _on_edges(grasp)
+        if said := posture_doubt(grasp.held.hand.joints, grasp.held.q):
+            yield Issue(said, key="posture")
+
+
+def _too_much_friction(grasp: Grasp, friction_at: Callable[[int, str], str]) -> Iterator[Issue]:
+    """Yield one for each key and value, with the contacts that have it."""
+    found: dict[tuple[str, float], list[str]] = {}
+    for place, contact in enumerate(grasp.contacts):
+        for name in ("friction", "cross_friction"):
+            value = float(getattr(contact.kind, name, 0.0))
+            if value > MOST_FRICTION:
+                found.setdefault((friction_at(place, name), value), []).append(f"'{contact.name}'")
+    for (key, value), names in found.items():
+        where = f"contact{'s' if len(names) > 1 else ''} {', '.join(names)}"
+        message = (
+            f"a coefficient of friction of {value:.4g} ({where}) is above {MOST_FRICTION:g}: rubber on dry, rough "
+            "surfaces has about 1; neither an angle nor a percentage is meant"
+        )
+        yield Issue(message, key=key)
+
+
+def _on_edges(grasp: Grasp) -> Iterator[Issue]:
+    held = grasp.held
+    if held is None or held.body.shape is None:
+        return
+    for contact, touch in zip(grasp.contacts, held.touches, strict=True):
+        distance = edge_distance(held.body.shape, contact.point)
+        if distance is not None:
+            message = (
+                f"contact '{contact.name}' is {1e3 * distance:.2g} mm or less from an edge of the "
+                f"{held.body.shape.title}: a pad that is placed a little otherwise touches another face, or none"
+            )
+            yield Issue(message, key=touch.key or "contacts")
+
+
+def edge_distance(shape: Shape, point: Array) -> float | None:
+    """Return how far [m] an edge is from a point (3,) of the surface, rounded up to a tenth of `NEAR`.
+
+    Returns:
+        None when there is none within `NEAR`: nowhere around does the normal of the surface turn by 30 degrees.
+    """
+    gap, outward = shape.surface(point)
+    frame = contact_frame(outward)
+    angles = 2 * np.pi * np.arange(WAYS) / WAYS
+    ways = np.column_stack([np.cos(angles), np.sin(angles)]) @ frame[:, 1:].T  # (WAYS, 3)
+    distances = NEAR * np.arange(1, STEPS + 1) / STEPS
+    around = point - gap * outward + distances[:, None, None] * ways
+    bent = np.any(shape.surface(around)[1] @ outward < BEND, axis=1)
+    return float(distances[int(np.argmax(bent))]) if np.any(bent) else None

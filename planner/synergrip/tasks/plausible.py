@@ -1,0 +1,67 @@
+"""What is asked of a grasp that can hardly be meant: gravity of another planet, motions larger than the object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from synergrip.errors import Issue
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import scale_of
+from synergrip.grasps.shapes.shape import Shape
+from synergrip.tasks.gravity import Gravity
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+
+EARTH = 9.81
+"""[m/s^2]"""
+FAR = 0.05
+"""Share of it by which gravity on the ground never differs."""
+TURN = 2 * np.pi
+
+
+def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
+    """Yield what can hardly be meant, each with its argument.
+
+    Args:
+        task: what is asked; what is known of gravity stands there.
+        timed: the same at its knots.
+        grasp: of whom.
+    """
+    for place, load in enumerate(task.loads if isinstance(task, Task) else ()):
+        if isinstance(load, Gravity):
+            size = float(np.linalg.norm(load.acceleration))
+            if abs(size - EARTH) > FAR * EARTH:
+                message = (
+                    f"gravity of {size:.4g} m/s^2 is far from {EARTH} m/s^2, that of the earth: what is asked for is "
+                    "the acceleration in m/s^2, neither a weight nor a multiple of g"
+                )
+                yield Issue(message, key=f"Task.loads[{place}]")
+    yield from _large_motion(timed, grasp)
+
+
+def _large_motion(timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
+    """Yield a motion that is larger than the object, or than the grasp where no shape is known."""
+    values = timed.target.values
+    if not values.size:
+        return
+    motion = timed.target.kind == "motion"
+    shift = float(np.linalg.norm(values[:, :3] if motion else values, axis=1).max())
+    shape = grasp.held.body.shape if grasp.held is not None else None
+    size = extent(shape) if shape is not None else 2 * scale_of(grasp).length
+    whose = f"the {shape.title}" if shape is not None else "the grasp"
+    if shift > size:
+        message = (
+            f"a motion of {1e3 * shift:.4g} mm is larger than {whose} ({1e3 * size:.4g} mm): hands hardly reach so far"
+        )
+        yield Issue(message, key="Task.target")
+    turn = float(np.linalg.norm(values[:, 3:6], axis=1).max()) if motion else 0.0
+    if turn > TURN:
+        message = f"a turn by {np.degrees(turn):.4g} deg is more than a whole one: no grasp turns its object so far"
+        yield Issue(message, key="Task.target")
+
+
+def extent(shape: Shape) -> float:
+    """Return the largest extent of a shape along the axes of B [m]."""
+    return max(float((shape.farthest(axis) - shape.farthest(-axis)) @ axis) for axis in np.eye(3))
