@@ -16,11 +16,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
-STEPS = 110
+STEPS = 60
 """Halvings of the interval of sigma."""
 WIDEST = 60.0
 """Where the logarithm of sigma / (its end - sigma) is looked for: from less this to this."""
@@ -97,6 +98,11 @@ def balls(start: Array, change: Array) -> Balls:
     return Balls(frozen(lower), frozen(upper), frozen(towards), frozen(sigma))
 
 
+def inside_by(value: Array) -> Array:
+    """Return by how much (...) values (..., d) are inside their cones."""
+    return np.asarray(value[..., 0] - np.linalg.norm(value[..., 1:], axis=-1))
+
+
 def quadratic(start: Array, change: Array) -> tuple[Array, Array, Array]:
     """Return M (N, n, n), m (N, n) and c (N,) of ``q(w) = s_0^2 - ||s_1..||^2``."""
     head, tail, b, T = start[:, 0], start[:, 1:], change[:, 0], change[:, 1:]
@@ -105,24 +111,30 @@ def quadratic(start: Array, change: Array) -> tuple[Array, Array, Array]:
     return M, head[:, None] * b - (T.mT @ tail[..., None])[..., 0], np.maximum(head - size, 0.0) * (head + size)
 
 
-def proven(start: Array, change: Array, sigma: Array, radius: float) -> bool:
-    """Return whether multipliers 1 / sigma (N,) prove that a ball is inside all N cones: every matrix is semidefinite.
+def proven(start: Array, change: Array, sigma: Array, radius: Array) -> NDArray[np.bool_]:
+    """Return of which (N,) cones multipliers 1 / sigma prove that a ball is inside: a matrix is semidefinite.
 
-    They are scaled such that the ball has radius 1 and q(0) is near 1, so that all entries are comparable.
+    It is scaled such that the ball has radius 1, so that all entries are comparable. A ball of radius 0, or of any radius
+    in a cone that nothing touches, is not asked about.
+
+    Args:
+        start: (N, d).
+        change: (N, d, n).
+        sigma: (N,), of `balls`.
+        radius: (N,).
     """
-    if not len(start) or not radius > 0:
-        return True
+    asked = (radius > 0) & np.any(change != 0, axis=(-2, -1)) & np.isfinite(radius)
     if start.shape[-1] == 1:
-        return bool(np.all(start[:, 0] >= radius * np.linalg.norm(change[:, 0], axis=-1)))
-    moves = np.any(change != 0, axis=(-2, -1))
-    M, m, c = quadratic(start[moves], change[moves] * radius)
-    tau, n = radius**2 / sigma[moves], m.shape[1]
+        return np.asarray(~asked | (start[:, 0] >= radius * np.linalg.norm(change[:, 0], axis=-1)))
+    radius = np.where(asked, radius, 1.0)
+    M, m, c = quadratic(start, change * radius[:, None, None])
+    tau, n = radius**2 / sigma, m.shape[1]
     whole = np.zeros((len(c), n + 1, n + 1))
     whole[:, :n, :n] = M + tau[:, None, None] * np.eye(n)
     whole[:, :n, n] = whole[:, n, :n] = m
     whole[:, n, n] = c - tau
     least = np.linalg.eigvalsh(whole)[:, 0]
-    return bool(np.all(least >= -SAME * np.abs(whole).max(axis=(1, 2))))
+    return np.asarray(~asked | (least >= -SAME * np.abs(whole).max(axis=(1, 2))))
 
 
 def _end_of_sigma(mu: Array) -> tuple[Array, Array]:

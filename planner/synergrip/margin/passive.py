@@ -36,7 +36,7 @@ def passive_ball(reaction: Reaction) -> Withstood:
     if not np.isfinite(upper[worst]):
         return NO_END
     holds = all(
-        proven(each.start, each.change, sigma, lower)
+        np.all(proven(each.start, each.change, sigma, np.full(len(sigma), lower)))
         for each, _, _, _, sigma in found
         if each.block.kind is not Kind.ZERO
     )

@@ -52,6 +52,11 @@ class Cones(Value):
         block = replace(self.block, first_knot=knot, knots=int(own.any()))
         return replace(self, block=block, start=self.start[own], change=self.change[own], rows=self.rows[own])
 
+    @property
+    def first(self) -> Cones:
+        """The same as those of the first knot."""
+        return replace(self, block=replace(self.block, first_knot=0))
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reaction(Value):
