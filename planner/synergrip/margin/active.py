@@ -84,7 +84,7 @@ def active_along(reaction: Reaction, direction: Array) -> End:
     limit, item, time = "", "", None
     if (found := conflicts(reaction.program, z if certificate.y is None else certificate.y)) and found[0].items:
         limit, item = found[0].key, found[0].items[0]
-        time = float(reaction.plan.time[found[0].knots[0]]) if found[0].knots else None
+        time = float(reaction.times[found[0].knots[0]]) if found[0].knots else None
     wrench = reaction.wrench(beyond * direction / size)
     ended = Withstood(lower, beyond / size, limit, item, time, wrench, certificate.verified)
     return End(direction, ended, -(reaction.columns.T @ z))

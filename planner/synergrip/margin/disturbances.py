@@ -131,7 +131,7 @@ def _active(reaction: Reaction, passive: Withstood, known: Sequence[End]) -> Wit
     """Return the ball of what is withstood when internal forces answer, between an answer and a wrench without one."""
     end = nearest_end(reaction, known)
     outside = as_radius(reaction, end)
-    first = int(np.argmin(np.abs(reaction.plan.time - (outside.time_s or 0.0))))
+    first = int(np.argmin(np.abs(reaction.times - (outside.time_s or 0.0))))
     inside = reaction.unit * largest_answered(reaction, passive.lower / reaction.unit, end.radius, first)
     return replace(outside, lower=inside if outside.upper is None else min(inside, outside.upper))
 

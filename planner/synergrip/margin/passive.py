@@ -88,4 +88,4 @@ def _ended(
     """Return what ends at a cone, as multiples of a direction (6,) in scaled coordinates and force units."""
     knot, limit, item = cones.place(index)
     wrench = reaction.wrench(upper * direction)
-    return Withstood(lower, upper, limit, item, float(reaction.plan.time[knot]), wrench, holds)
+    return Withstood(lower, upper, limit, item, float(reaction.times[knot]), wrench, holds)

@@ -73,7 +73,7 @@ class Answering(Value):
         of_knot = np.zeros((len(reaction.program.b), n))
         of_knot[entries.row, entries.col % n] = -entries.data
         cones = tuple(reaction.cones())
-        return cls(cones, tuple(of_knot[each.rows] for each in cones), len(reaction.plan.time))
+        return cls(cones, tuple(of_knot[each.rows] for each in cones), len(reaction.times))
 
     def answered(self, shift: Array, slope: Array) -> Answers:
         """Return answers with the ball that each proves, none where a cone is left at once.
@@ -110,7 +110,7 @@ def largest_answered(reaction: Reaction, known: float, least: float, first: int 
         least: no larger one is looked for: one that is not withstood whatever the answer.
         first: the knot that leaves least room: its answer is looked for first, and tried at all others.
     """
-    knots, n = len(reaction.plan.time), reaction.n_alpha
+    knots, n = len(reaction.times), reaction.n_alpha
     equations = any(block.kind is Kind.ZERO for block in reaction.program.blocks if block.rows)
     if reaction.free.size or not n or equations:
         return known

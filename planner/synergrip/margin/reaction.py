@@ -6,7 +6,7 @@ scaled coordinates (`Scale.wrench`), in force units.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,10 +17,10 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
+from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array, Places, frozen
 from synergrip.margin.reacting import Reacting, statics_of
 from synergrip.planning.outcome import Plan
-from synergrip.statics.each import Each
 from synergrip.values import Value
 
 
@@ -60,37 +60,49 @@ class Cones(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reaction(Value):
-    """A plan, and what an extra wrench makes of its limits: friction cones as they are, without margin or reserve."""
+    """Cones at some instants, and what internal forces and an extra wrench make of them."""
 
-    plan: Plan
-    limits: tuple[Limit, ...]
-    each: Each | None
-    """The statics at the knots of a hand that moves."""
+    times: Array
+    """(T,) [s]."""
+    scale: Scale
+    """Says how large a wrench is."""
+    unit: float
+    """[N] of the scaled wrench."""
+    free: Array
+    """(6, k) motions of the object that no contact resists: a wrench that works on them is not withstood."""
+    under_wrench: Callable[[Array], Program]
+    """Returns of an extra wrench (6,) about B [N, N m] the program of the internal forces, whose objective is of no
+    use."""
     program: Program
-    """Of the internal forces, without the extra wrench; its objective is of no use."""
+    """Without an extra wrench."""
     columns: Array
     """(m, 6) B."""
 
     @classmethod
+    def made(
+        cls, times: Array, scale: Scale, unit: float, free: Array, under_wrench: Callable[[Array], Program]
+    ) -> Reaction:
+        """Return it with the columns that the programs tell."""
+        program = under_wrench(np.zeros(6))
+        moves = [unit * column for column in scale.motion]  # of w = motion' w~
+        columns = [under_wrench(wrench).b - program.b for wrench in moves]
+        return cls(times, scale, unit, free, under_wrench, program, frozen(np.column_stack(columns)))
+
+    @classmethod
     def of(cls, plan: Plan, *, cones_alone: bool = False) -> Reaction:
-        """Return it for all limits of the task, or for the friction cones alone.
+        """Return that of a plan: of all limits of the task, or of the friction cones alone, without margin or reserve.
 
         Limits on changes from knot to knot are left out: nothing is said of when the wrench comes.
         """
         dropped = (FrictionCone, FrictionReserve)
         others = [limit for limit in plan.task.all_limits if not isinstance(limit, dropped) and not limit.couples_knots]
         limits: tuple[Limit, ...] = (FrictionCone(0.0), *(() if cones_alone else others))
-        each = statics_of(plan)
-        program = _program(plan, limits, each, np.zeros(6))
-        unit = plan.formulation.force_unit
-        moves = [unit * column for column in plan.analysis.response.scale.motion]  # of w = motion' w~
-        columns = [_program(plan, limits, each, wrench).b - program.b for wrench in moves]
-        return cls(plan, limits, each, program, frozen(np.column_stack(columns)))
+        each, response = statics_of(plan), plan.analysis.response
 
-    @property
-    def unit(self) -> float:
-        """[N] of the scaled wrench."""
-        return self.plan.formulation.force_unit
+        def under_wrench(wrench: Array) -> Program:
+            return build(Reacting.of(plan, each, wrench), limits, LeastEffort())
+
+        return cls.made(plan.time, response.scale, plan.formulation.force_unit, response.free, under_wrench)
 
     @property
     def n_alpha(self) -> int:
@@ -99,27 +111,22 @@ class Reaction(Value):
 
     def scaled(self, wrench: Array) -> Array:
         """Return wrenches (..., 6) [N, N m] in scaled coordinates and force units."""
-        return self.plan.analysis.response.scale.wrench(wrench) / self.unit
+        return self.scale.wrench(wrench) / self.unit
 
     def wrench(self, scaled: Array) -> Array:
         """Return the wrench (6,) about B [N, N m] of one in scaled coordinates and force units."""
-        return frozen(self.unit * self.plan.analysis.response.scale.motion.T @ scaled)
+        return frozen(self.unit * self.scale.motion.T @ scaled)
 
     def under(self, scaled: Array) -> Program:
         """Return the program of the internal forces under an extra wrench, with the bounds that hold there."""
-        return _program(self.plan, self.limits, self.each, self.wrench(scaled))
-
-    @property
-    def free(self) -> Array:
-        """(6, k) motions of the object that no contact resists: a wrench that works on them is not withstood."""
-        return self.plan.analysis.response.free
+        return self.under_wrench(self.wrench(scaled))
 
     def works_on_free(self, scaled: Array) -> bool:
         """Return whether an extra wrench moves the object where no contact resists."""
         return bool(np.any(np.abs(self.free.T @ scaled) > FREE * np.linalg.norm(scaled)))
 
     def cones(self) -> Iterator[Cones]:
-        """Yield the cones of every block that an extra wrench may touch."""
+        """Yield the cones of every block."""
         for block, rows in self.program.slices():
             if block.rows:
                 places = np.arange(rows.start, rows.stop).reshape(-1, block.dim)
@@ -128,7 +135,3 @@ class Reaction(Value):
 
 FREE = 1e-8
 """Share of a wrench that may work on a free motion for rounding."""
-
-
-def _program(plan: Plan, limits: tuple[Limit, ...], each: Each | None, wrench: Array) -> Program:
-    return build(Reacting.of(plan, each, wrench), limits, LeastEffort())

@@ -1,0 +1,225 @@
+"""The classical figures of a grasp, and what its synergies cost of them.
+
+Unit normal forces, L1: the normal forces of all contacts together are one newton at most (Ferrari and Canny, Planning
+optimal grasps, 1992). Wrenches are those of the length-scaled norm: moments about the centroid of the contacts, divided
+by their mean distance L from it, so that all figures are free of units.
+
+Fully actuated, a hand makes every contact force in the cones: the grasp wrench space is the hull of what the contacts
+do one by one, epsilon the radius of the largest ball about 0 in it. With synergies alone an external wrench w is met by
+``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller convex set, of the same norm and unit forces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import sparse
+
+from synergrip.changes.at_a_value import solved
+from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Item, Kind
+from synergrip.documents.judging import described, expected, is_whole
+from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen, split
+from synergrip.margin.contact_wrenches import FEWEST, UnitForces
+from synergrip.margin.wrench_hull import HullFigures, hull, hull_figures, is_flat
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.response import Response
+from synergrip.statics.restraint import NO_LOAD
+from synergrip.values import Value
+
+EDGES = 8
+"""Of the pyramid of a hard finger, to begin with."""
+FAR = 1e3
+"""Largest internal force in the unit of the normal forces: these are 1, and friction is not as large."""
+RANDOM = 20
+"""Directions beside the axes in which the farthest wrenches that synergies hold are looked for first."""
+ROOM = 1e-7
+"""How much less far than the solver says a wrench is taken to be held, and how much farther none."""
+NOTHING = 1e-6
+"""How far a wrench may go along a direction in which the synergies hold none, for the digits of the solver."""
+ENDS = (0.0, 0.0)
+
+
+@made_by("wrench_space_quality(grasp)")
+@dataclass(frozen=True, eq=False, repr=False)
+class WrenchSpaceQuality(Value):
+    """Figures of a grasp without a task, free of units; a pair is at least and at most.
+
+    Example:
+        >>> found = wrench_space_quality(grasp)  # doctest: +SKIP
+        >>> found.epsilon, found.epsilon_synergies, found.isotropy  # doctest: +SKIP
+        ((0.1683, 0.1699), (0.0412, 0.0498), 0.61)
+    """
+
+    epsilon: tuple[float, float]
+    """Radius of the largest ball about 0 in the grasp wrench space, every contact force being made: between the hull of
+    points in the cones and a supporting plane of the cones themselves. 0 without force closure."""
+    epsilon_synergies: tuple[float, float]
+    """The same where internal forces are those of E_s: between a hull of wrenches with an answer and a plane beyond
+    which none has one."""
+    volume: tuple[float, float]
+    """Of the grasp wrench space: of a hull of points in the cones, and of pyramids around them."""
+    volume_synergies: tuple[float, float]
+    """The same where internal forces are those of E_s: of the hull, which is refined near 0 only, and no more than that
+    of the whole grasp wrench space."""
+    singular_values: Array
+    """(6,) of the grasp matrix G, descending."""
+    singular_values_synergies: Array
+    """(6,) of G on the forces that synergies and loads make: the span of G+ and E_s."""
+    edges: int
+    """Of the pyramid of a hard finger, before points were added where they count."""
+    length: float
+    """L [m]."""
+    why: str = ""
+    """Why there is no ball, where it is known."""
+
+    @property
+    def smallest_singular_value(self) -> float:
+        """Of G: the least wrench that contact forces of size 1 can be needed for."""
+        return float(self.singular_values[-1])
+
+    @property
+    def isotropy(self) -> float:
+        """The smallest singular value of G over the largest; 1 where no direction is favoured."""
+        return _ratio(self.singular_values)
+
+    @property
+    def isotropy_synergies(self) -> float:
+        """The same of G on the forces that synergies and loads make."""
+        return _ratio(self.singular_values_synergies)
+
+
+@naming_arguments
+def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> WrenchSpaceQuality:
+    """Return the classical figures of a grasp: epsilon and volume of its wrench space, singular values, isotropy.
+
+    Args:
+        grasp: the grasp, or its analysis.
+        edges: of the pyramid of a hard finger, 3 or more; a sphere of three components has three rings of as many.
+
+    Raises:
+        InputError: no grasp; fewer edges; a kind of contact of one's own whose cones share components.
+        RigidContactError: some contact direction has no compliance at all.
+
+    Example:
+        >>> wrench_space_quality(grasp).isotropy > 0  # doctest: +SKIP
+        True
+    """
+    if not isinstance(grasp, Analysis):
+        expected("grasp", grasp, Grasp, "make_grasp(...)")
+    if not is_whole(edges) or edges < FEWEST:
+        raise InputError.at("edges", f"expected a whole number of at least {FEWEST}, got {described(edges)}")
+    analysis = grasp if isinstance(grasp, Analysis) else analyse(grasp, NO_LOAD)
+    response = analysis.response
+    G = response.scale.scaled_grasp(response.grasp.G).T
+    of_synergies = _singular_values(G @ _made(analysis))
+    found = {"singular_values": _singular_values(G), "singular_values_synergies": of_synergies, "edges": int(edges),
+             "length": response.scale.length}  # fmt: skip
+    if not response.restrained:
+        why = "contacts leave the object free to move: the wrench space is flat"
+        return WrenchSpaceQuality(ENDS, ENDS, ENDS, ENDS, **found, why=why)
+    own = Contacts.of(response)
+    around = own.points(edges, outside=True)
+    if is_flat(around):
+        return WrenchSpaceQuality(ENDS, ENDS, ENDS, ENDS, **found, why="the wrench space is flat")
+    whole, most = hull_figures(own.points(edges), own.farthest), hull(around)[1]
+    made = controlled_figures(response, analysis.spaces.E_s)
+    why = "" if whole.epsilon[1] else "the grasp has no force closure"
+    why = why or ("" if made.epsilon[1] else "the synergies hold no load from every direction")
+    return WrenchSpaceQuality(
+        whole.epsilon, made.epsilon, (whole.volume, most), (made.volume, most), **found, why=why
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Contacts(Value):
+    """What each contact of a grasp does to the object with a normal force of one newton."""
+
+    forces: tuple[UnitForces, ...]
+    maps: tuple[Array, ...]
+    """(6, rows) to wrenches in scaled coordinates."""
+
+    @classmethod
+    def of(cls, response: Response) -> Contacts:
+        """Return those of a grasp."""
+        grasp, scale = response.grasp, response.scale
+        maps = tuple(frozen(scale.wrench(grasp.G[:, rows].T).T) for rows in grasp.rows)
+        return cls(tuple(UnitForces.of(contact) for contact in grasp.contacts), maps)
+
+    def points(self, edges: int, *, outside: bool = False) -> Array:
+        """Return 0 and the wrenches (p, 6) of the edges of all pyramids, inside the cones or around them."""
+        pairs = zip(self.forces, self.maps, strict=True)
+        return np.vstack([np.zeros((1, 6)), *(own.points(edges, outside=outside) @ G.T for own, G in pairs)])
+
+    def farthest(self, along: Array) -> tuple[Array, float]:
+        """Return the wrench (n_c, 6) of each contact that goes farthest along a direction (6,), and how far one does."""
+        points = np.array([G @ own.farthest(G.T @ along) for own, G in zip(self.forces, self.maps, strict=True)])
+        return points, max(float((points @ along).max()), 0.0)
+
+
+def controlled_figures(response: Response, internal: Array) -> HullFigures:
+    """Return the figures of external wrenches that are met with some internal forces, unit normal forces together.
+
+    Args:
+        response: of the grasp.
+        internal: (n_l, k) the internal forces, such as E_s; with all of them the wrenches are the grasp wrench space.
+    """
+    program = _unit_program(response, internal)
+
+    def farthest(along: Array) -> tuple[Array, float]:
+        q = np.append(-along, np.zeros(internal.shape[1]))
+        decision = solved("farthest wrench", replace(program, q=frozen(q)))
+        x = decision.solution.x
+        if not decision.optimal or not np.all(np.isfinite(x)):
+            return np.zeros((1, 6)), np.inf
+        return x[None, :6] * (1 - ROOM), float(along @ x[:6]) + ROOM
+
+    rng = np.random.default_rng(0)
+    first = np.vstack([np.eye(6), -np.eye(6), rng.normal(size=(RANDOM, 6))])
+    found = [farthest(along / np.linalg.norm(along)) for along in first]
+    points, most = np.vstack([np.zeros((1, 6)), *(each for each, _ in found)]), min(reach for _, reach in found)
+    return hull_figures(points, farthest, NOTHING, most)
+
+
+def _unit_program(response: Response, internal: Array) -> Program:
+    """Return cones of ``-G+ w + internal x``, and that the normal forces together are 1 at most.
+
+    The unknowns are w in scaled coordinates, and x.
+    """
+    grasp, rows, blocks = response.grasp, [], []
+    for contact, own in zip(grasp.contacts, grasp.rows, strict=True):
+        for side, W in zip(contact.kind.sides, contact.cones, strict=True):
+            row = np.zeros((len(W), grasp.n_l))
+            row[:, own] = W
+            kind = Kind.NONNEGATIVE if len(W) == 1 else Kind.SECOND_ORDER
+            rows.append(row)
+            blocks.append(Block("friction cone", kind, len(W), (Item(contact.name, side),), 0, 1, friction=True))
+    total = np.zeros((1, grasp.n_l))
+    total[0, grasp.normal_rows] = -1.0
+    whole = np.vstack([*rows, total])
+    blocks.append(Block("normal forces", Kind.NONNEGATIVE, 1, (Item("all"),), 0, 1))
+    A = -whole @ np.hstack([response.dlambda_dw @ response.scale.motion.T, internal])
+    n, b = A.shape[1], np.eye(len(whole))[-1]
+    return Program(
+        sparse.csc_matrix((n, n)), frozen(np.zeros(n)), sparse.csc_matrix(A), frozen(b), tuple(blocks), 1, n,
+        frozen(np.full(n, FAR)),
+    )  # fmt: skip
+
+
+def _made(analysis: Analysis) -> Array:
+    """Return an orthonormal basis (n_l, k), in scaled forces, of those that synergies and loads make."""
+    response = analysis.response
+    made = np.hstack([response.dlambda_dw @ response.scale.motion.T, analysis.spaces.E_s])
+    return split((response.scale.force[:, None] * made).T).row_space
+
+
+def _singular_values(matrix: Array) -> Array:
+    return frozen(np.linalg.svd(matrix, compute_uv=False))
+
+
+def _ratio(values: Array) -> float:
+    return float(values[-1] / values[0]) if values[0] > 0 else 0.0
