@@ -30,7 +30,21 @@ def margins(
     overrides: SetOption = None,
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="NAME", help="A number such as heaviest_kg; may be repeated."),
+        typer.Option(
+            "--only", metavar="NAME", help="A number such as heaviest_kg, disturbance or quality; may be repeated."
+        ),
+    ] = None,
+    direction: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--direction",
+            metavar="'FX FY FZ MX MY MZ'",
+            help="An extra wrench along which to say how much is withstood; may be repeated.",
+        ),
+    ] = None,
+    box: Annotated[
+        str | None,
+        typer.Option("--box", metavar="'FX FY FZ MX MY MZ'", help="Half-widths [N, N m] of a box of extra wrenches."),
     ] = None,
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
@@ -43,12 +57,30 @@ def margins(
 
         loaded = load_problem(problem, overrides or [])
         with placed(loaded), heard():
-            found = found_by(loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell)
+            found = found_by(
+                loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell,
+                directions=[six("--direction", text) for text in direction] if direction else None,
+                box=None if box is None else six("--box", box),
+            )  # fmt: skip
         if not isinstance(found, Margins):
             end_without_plan(form, loaded, found)
         told = margins_document(loaded.title, found, loaded.notes)
         show(form, lambda: margins_text(loaded, found, color()), lambda: told)
     raise typer.Exit(130 if found.interrupted else 0)
+
+
+def six(option: str, text: str) -> list[float]:
+    """Return the numbers of an option, told as mistakes by its name."""
+    from synergrip.errors import InputError
+
+    try:
+        found = [float(part) for part in text.replace(",", " ").split()]
+    except ValueError:
+        found = []
+    if len(found) != 6:
+        wanted = "6 numbers, 3 forces and 3 moments, such as '0 0 -1 0 0 0'"
+        raise InputError.at(option, f"expected {wanted}; got '{text}'")
+    return found
 
 
 def _tell(number: DirectNumber) -> None:

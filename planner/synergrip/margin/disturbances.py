@@ -41,7 +41,7 @@ class WithstoodAlong(Value):
     """
 
     wrench: Array
-    """(6,) about B, axes of N: of one newton, or of one newton metre where it has no force; the half-widths of a box."""
+    """(6,) about B, axes of N: of one newton, or one newton metre where it has no force; the half-widths of a box."""
     unit: str
     """Of the sizes: "N", "N m", or nothing for the factor of a box."""
     passive: Withstood
@@ -81,7 +81,7 @@ class Disturbances(Value):
     of: str
     """Which linear model they are of: of "the start posture", or about "the true equilibria" of a hand that moves."""
     executed: ExecutedWrench | None
-    """The wrench at which a contact slips first, nearly the whole of it, on the hand that moves; None without a hand."""
+    """Nearly the wrench at which a contact slips first, on the hand that moves; None without a hand."""
 
     @property
     def known_share(self) -> float | None:
@@ -118,7 +118,9 @@ def disturbances(
     every, cones = Reaction.of(plan), Reaction.of(plan, cones_alone=True)
     ends = [active_along(every, every.scaled(wrench)) for wrench in wrenches]
     along = tuple(_along(every, cones, wrench, end) for wrench, end in zip(wrenches, ends, strict=True))
-    axes = ends if directions is AXES else [active_along(every, every.scaled(np.array(axis))) for axis in AXES]
+    axes = (
+        ends if np.array_equal(wrenches, AXES) else [active_along(every, every.scaled(np.array(axis))) for axis in AXES]
+    )
     passive, slip, scale = passive_ball(every), passive_ball(cones), plan.analysis.response.scale
     return Disturbances(
         passive, slip, _active(every, passive, [*ends, *axes]), along,

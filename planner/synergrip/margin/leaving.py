@@ -1,9 +1,9 @@
 """How far an extra wrench may go before a cone is left: along rays, and in every direction at once.
 
-The value of a cone is ``s(w) = a + B w`` with s(0) in the cone; ``s_0 >= ||s_1..||``, or ``s_0 >= 0`` where there is one
-row. Along a ray the end is a root of a quadratic. For the ball ``||w|| <= r`` let ``q(w) = s_0^2 - ||s_1..||^2 =
-w'M w + 2 m'w + c``. The ball is inside exactly when q is nowhere negative in it, and by the S-lemma (Yakubovich) that is
-so exactly when for some tau >= 0
+The value of a cone is ``s(w) = a + B w`` with s(0) in the cone: ``s_0 >= ||s_1..||``, or ``s_0 >= 0`` where there is
+one row. Along a ray the end is a root of a quadratic. For the ball ``||w|| <= r`` let ``q(w) = s_0^2 - ||s_1..||^2 =
+w'M w + 2 m'w + c``. The ball is inside exactly when q is nowhere negative in it, and by the S-lemma (Yakubovich) that
+is so exactly when for some tau >= 0
 
     q(w) >= tau (r^2 - ||w||^2) for all w,   that is   [[M + tau I, m], [m', c - tau r^2]] >= 0.
 
@@ -114,8 +114,8 @@ def quadratic(start: Array, change: Array) -> tuple[Array, Array, Array]:
 def proven(start: Array, change: Array, sigma: Array, radius: Array) -> NDArray[np.bool_]:
     """Return of which (N,) cones multipliers 1 / sigma prove that a ball is inside: a matrix is semidefinite.
 
-    It is scaled such that the ball has radius 1, so that all entries are comparable. A ball of radius 0, or of any radius
-    in a cone that nothing touches, is not asked about.
+    It is scaled such that the ball has radius 1, so that all entries are comparable. A ball of radius 0, or of any
+    radius in a cone that nothing touches, is not asked about.
 
     Args:
         start: (N, d).
@@ -179,7 +179,8 @@ def _attained(start: Array, change: Array, inner: Array, V: Array) -> tuple[Arra
     Args:
         start: (N, d).
         change: (N, d, n).
-        inner: (N, n) the stationary point in the eigenvectors V (N, n, n).
+        inner: (N, n) the stationary point, in the eigenvectors.
+        V: (N, n, n) the eigenvectors of M, that of the pole first.
     """
     point, pole = (V @ inner[..., None])[..., 0], V[..., 0]
     there = start + (change @ point[..., None])[..., 0]

@@ -6,14 +6,13 @@ largest ball, the largest multiple of a box and the way along a ray are known (`
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
 
 from synergrip.conic.rows import Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.leaving import SHORT, along, balls, proven
+from synergrip.margin.leaving import SHORT, Balls, along, balls, proven
 from synergrip.margin.reaction import Cones, Reaction
 from synergrip.margin.withstood import NO_END, Withstood, none_of_it, scaled
 
@@ -22,25 +21,20 @@ def passive_ball(reaction: Reaction) -> Withstood:
     """Return the radius [N] of the largest ball of extra wrenches, by the length-scaled norm."""
     if reaction.free.size:
         return none_of_it(reaction, reaction.free[:, 0])
-    found = []
-    for cones in reaction.cones():
-        if cones.block.kind is Kind.ZERO:
-            found.append((cones, *_equations(cones)))
-            continue
-        each = balls(cones.start, cones.change)
-        found.append((cones, each.lower, each.upper, each.towards, each.sigma))
+    found = [(cones, _balls(cones)) for cones in reaction.cones()]
     if not found:
         return NO_END
-    cones, _, upper, towards, _ = min(found, key=lambda each: float(each[2].min()))
-    worst, lower = int(np.argmin(upper)), min(float(each[1].min()) for each in found)
-    if not np.isfinite(upper[worst]):
+    cones, ball = min(found, key=lambda each: float(each[1].upper.min()))
+    worst, lower = int(np.argmin(ball.upper)), min(float(each.lower.min()) for _, each in found)
+    upper = float(ball.upper[worst])
+    if not np.isfinite(upper):
         return NO_END
     holds = all(
-        np.all(proven(each.start, each.change, sigma, np.full(len(sigma), lower)))
-        for each, _, _, _, sigma in found
+        np.all(proven(each.start, each.change, own.sigma, np.full(len(own.sigma), lower)))
+        for each, own in found
         if each.block.kind is not Kind.ZERO
     )
-    found_end = _ended(reaction, cones, worst, lower, float(upper[worst]), towards[worst], holds=holds)
+    found_end = _ended(reaction, cones, worst, lower, upper, ball.towards[worst], holds=holds)
     return scaled(found_end, reaction.unit)
 
 
@@ -75,11 +69,13 @@ def corners(half_widths: Array) -> Array:
     return frozen(list(product(*ends)))
 
 
-def _equations(cones: Cones) -> Iterator[Array]:
-    """Yield what `balls` knows, of equations: they are kept by nothing that they see."""
+def _balls(cones: Cones) -> Balls:
+    """Return the largest ball in each cone; an equation is kept by nothing that it sees."""
+    if cones.block.kind is not Kind.ZERO:
+        return balls(cones.start, cones.change)
     sees = np.any(cones.change != 0, axis=(-2, -1))
     radius, largest = np.where(sees, 0.0, np.inf), np.abs(cones.change).sum(axis=1)
-    yield from (radius, radius, largest / np.maximum(np.linalg.norm(largest, axis=1), 1e-300)[:, None], radius)
+    return Balls(radius, radius, largest / np.maximum(np.linalg.norm(largest, axis=1), 1e-300)[:, None], radius)
 
 
 def _ended(

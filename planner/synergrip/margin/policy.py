@@ -20,7 +20,7 @@ from synergrip.changes.at_a_value import solved
 from synergrip.conic.relaxed import relaxed
 from synergrip.conic.rows import Kind
 from synergrip.conic.solvers.semidefinite import Semidefinite, solve_semidefinite
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.margin.leaving import balls, inside_by, proven
 from synergrip.margin.reaction import Cones, Reaction
 from synergrip.values import Value
@@ -32,7 +32,7 @@ GAIN = 2e-3
 KNOTS = 4
 """For which programs are solved, the worst knot first."""
 KEPT = 1e-7
-"""How far beyond its edge a cone that no extra wrench touches may be, in its unit: plans keep limits to ten times it."""
+"""How far beyond its edge a cone that no extra wrench touches may be, in its unit: plans keep ten times that."""
 EASE = 1e-9
 """Share of the size of a cone that is added to the tangent where a plan has no force at a contact."""
 

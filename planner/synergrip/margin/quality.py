@@ -11,21 +11,19 @@ do one by one, epsilon the radius of the largest ball about 0 in it. With synerg
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from scipy import sparse
 
-from synergrip.changes.at_a_value import solved
-from synergrip.conic.program import Block, Program
-from synergrip.conic.rows import Item, Kind
 from synergrip.documents.judging import described, expected, is_whole
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, split
 from synergrip.margin.contact_wrenches import FEWEST, UnitForces
-from synergrip.margin.wrench_hull import HullFigures, hull, hull_figures, is_flat
+from synergrip.margin.controlled_wrenches import controlled_figures
+from synergrip.margin.wrench_hull import hull, hull_figures, is_flat
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import Response
 from synergrip.statics.restraint import NO_LOAD
@@ -33,14 +31,6 @@ from synergrip.values import Value
 
 EDGES = 8
 """Of the pyramid of a hard finger, to begin with."""
-FAR = 1e3
-"""Largest internal force in the unit of the normal forces: these are 1, and friction is not as large."""
-RANDOM = 20
-"""Directions beside the axes in which the farthest wrenches that synergies hold are looked for first."""
-ROOM = 1e-7
-"""How much less far than the solver says a wrench is taken to be held, and how much farther none."""
-NOTHING = 1e-6
-"""How far a wrench may go along a direction in which the synergies hold none, for the digits of the solver."""
 ENDS = (0.0, 0.0)
 
 
@@ -116,23 +106,20 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     analysis = grasp if isinstance(grasp, Analysis) else analyse(grasp, NO_LOAD)
     response = analysis.response
     G = response.scale.scaled_grasp(response.grasp.G).T
-    of_synergies = _singular_values(G @ _made(analysis))
-    found = {"singular_values": _singular_values(G), "singular_values_synergies": of_synergies, "edges": int(edges),
-             "length": response.scale.length}  # fmt: skip
-    if not response.restrained:
-        why = "contacts leave the object free to move: the wrench space is flat"
-        return WrenchSpaceQuality(ENDS, ENDS, ENDS, ENDS, **found, why=why)
+    found = partial(
+        WrenchSpaceQuality, singular_values=_singular_values(G), edges=int(edges), length=response.scale.length,
+        singular_values_synergies=_singular_values(G @ _made(analysis)),
+    )  # fmt: skip
     own = Contacts.of(response)
     around = own.points(edges, outside=True)
-    if is_flat(around):
-        return WrenchSpaceQuality(ENDS, ENDS, ENDS, ENDS, **found, why="the wrench space is flat")
+    if not response.restrained or is_flat(around):
+        why = "the wrench space is flat: there is a wrench that no contact forces make"
+        return found(ENDS, ENDS, ENDS, ENDS, why=why)
     whole, most = hull_figures(own.points(edges), own.farthest), hull(around)[1]
     made = controlled_figures(response, analysis.spaces.E_s)
     why = "" if whole.epsilon[1] else "the grasp has no force closure"
-    why = why or ("" if made.epsilon[1] else "the synergies hold no load from every direction")
-    return WrenchSpaceQuality(
-        whole.epsilon, made.epsilon, (whole.volume, most), (made.volume, most), **found, why=why
-    )  # fmt: skip
+    why = why or ("" if made.epsilon[1] else "the synergies do not hold loads from every direction")
+    return found(whole.epsilon, made.epsilon, (whole.volume, most), (made.volume, most), why=why)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -156,58 +143,9 @@ class Contacts(Value):
         return np.vstack([np.zeros((1, 6)), *(own.points(edges, outside=outside) @ G.T for own, G in pairs)])
 
     def farthest(self, along: Array) -> tuple[Array, float]:
-        """Return the wrench (n_c, 6) of each contact that goes farthest along a direction (6,), and how far one does."""
+        """Return the wrench (n_c, 6) of each contact that goes farthest along a direction, and how far one does."""
         points = np.array([G @ own.farthest(G.T @ along) for own, G in zip(self.forces, self.maps, strict=True)])
         return points, max(float((points @ along).max()), 0.0)
-
-
-def controlled_figures(response: Response, internal: Array) -> HullFigures:
-    """Return the figures of external wrenches that are met with some internal forces, unit normal forces together.
-
-    Args:
-        response: of the grasp.
-        internal: (n_l, k) the internal forces, such as E_s; with all of them the wrenches are the grasp wrench space.
-    """
-    program = _unit_program(response, internal)
-
-    def farthest(along: Array) -> tuple[Array, float]:
-        q = np.append(-along, np.zeros(internal.shape[1]))
-        decision = solved("farthest wrench", replace(program, q=frozen(q)))
-        x = decision.solution.x
-        if not decision.optimal or not np.all(np.isfinite(x)):
-            return np.zeros((1, 6)), np.inf
-        return x[None, :6] * (1 - ROOM), float(along @ x[:6]) + ROOM
-
-    rng = np.random.default_rng(0)
-    first = np.vstack([np.eye(6), -np.eye(6), rng.normal(size=(RANDOM, 6))])
-    found = [farthest(along / np.linalg.norm(along)) for along in first]
-    points, most = np.vstack([np.zeros((1, 6)), *(each for each, _ in found)]), min(reach for _, reach in found)
-    return hull_figures(points, farthest, NOTHING, most)
-
-
-def _unit_program(response: Response, internal: Array) -> Program:
-    """Return cones of ``-G+ w + internal x``, and that the normal forces together are 1 at most.
-
-    The unknowns are w in scaled coordinates, and x.
-    """
-    grasp, rows, blocks = response.grasp, [], []
-    for contact, own in zip(grasp.contacts, grasp.rows, strict=True):
-        for side, W in zip(contact.kind.sides, contact.cones, strict=True):
-            row = np.zeros((len(W), grasp.n_l))
-            row[:, own] = W
-            kind = Kind.NONNEGATIVE if len(W) == 1 else Kind.SECOND_ORDER
-            rows.append(row)
-            blocks.append(Block("friction cone", kind, len(W), (Item(contact.name, side),), 0, 1, friction=True))
-    total = np.zeros((1, grasp.n_l))
-    total[0, grasp.normal_rows] = -1.0
-    whole = np.vstack([*rows, total])
-    blocks.append(Block("normal forces", Kind.NONNEGATIVE, 1, (Item("all"),), 0, 1))
-    A = -whole @ np.hstack([response.dlambda_dw @ response.scale.motion.T, internal])
-    n, b = A.shape[1], np.eye(len(whole))[-1]
-    return Program(
-        sparse.csc_matrix((n, n)), frozen(np.zeros(n)), sparse.csc_matrix(A), frozen(b), tuple(blocks), 1, n,
-        frozen(np.full(n, FAR)),
-    )  # fmt: skip
 
 
 def _made(analysis: Analysis) -> Array:

@@ -1,7 +1,7 @@
 """How every cone of a plan answers to an extra wrench and to internal forces: one program, and six columns beside it.
 
-The value of all cones is ``b - A x + B w``: x is what is added to the internal forces of all knots, w the extra wrench in
-scaled coordinates (`Scale.wrench`), in force units.
+The value of all cones is ``b - A x + B w``: x is what is added to the internal forces of all knots, w the extra wrench
+in scaled coordinates (`Scale.wrench`), in force units.
 """
 
 from __future__ import annotations

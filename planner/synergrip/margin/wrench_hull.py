@@ -1,4 +1,4 @@
-"""The hull of what all contacts can do to the object with normal forces of one newton together: its ball, its volume."""
+"""The hull of what contacts can do to the object with normal forces of one newton together: its ball, its volume."""
 
 from __future__ import annotations
 
@@ -40,9 +40,7 @@ Farthest = Callable[[Array], tuple[Array, float]]
 """Of a unit vector (6,): points (n, 6) of a set that go far along it, and how far none goes beyond."""
 
 
-def hull_figures(
-    inside: Array, farthest: Farthest, nothing: float = NOTHING, most: float = np.inf
-) -> HullFigures:
+def hull_figures(inside: Array, farthest: Farthest, nothing: float = NOTHING, most: float = np.inf) -> HullFigures:
     """Return the figures of a convex set, from a hull to which points are added where it is nearest to 0.
 
     Args:
@@ -94,7 +92,7 @@ def _turned(normal: Array, points: Array, reach: float, farthest: Farthest) -> f
 def is_flat(points: Array) -> bool:
     """Return whether points (p, 6), 0 among them, lie in less than six dimensions."""
     sizes = singular_values(points)
-    return Decision.of(sizes, float(sizes[0])).rank < points.shape[1]
+    return bool(Decision.of(sizes, float(sizes[0])).rank < points.shape[1])
 
 
 def hull(points: Array) -> tuple[Array, float]:

@@ -58,7 +58,7 @@ def solve_semidefinite(program: Semidefinite) -> Array | None:
 
 
 def _triangle(matrix: Array) -> Array:
-    """Return the upper triangle of (k, k, ...) by columns, off the diagonal times the root of 2: (k (k + 1) / 2, ...)."""
+    """Return the upper triangle (k (k + 1) / 2, ...) of (k, k, ...) by columns, off the diagonal times root 2."""
     columns, rows = np.tril_indices(len(matrix))
     entries = matrix[rows, columns]
     weights = np.where(rows == columns, 1.0, np.sqrt(2.0))
