@@ -33,6 +33,12 @@ NEAREST = 3
 """Directions from which a nearer end is looked for."""
 TURNS = 6
 """How often the direction is turned at most."""
+ASIDE = 4
+"""How often a nearer end is looked for from beside the nearest one."""
+FAR_ASIDE = 0.2
+"""Size of each component that is added to its direction."""
+WORTH = 1.2
+"""Times the nearest end that a promise may be for which the next direction is tried."""
 SAME = 1e-4
 """Relative gain of a turn below which it is the last one."""
 
@@ -105,19 +111,31 @@ def nearest_end(reaction: Reaction, known: Sequence[End]) -> End:
     """Return an end that is near by the length-scaled norm: an upper bound on the largest ball inside W.
 
     From the nearest of those that are known each direction is turned into the normal of the half-space there, as long
-    as ends get nearer: they never get farther.
+    as ends get nearer: they never get farther. On an edge of W, where several half-spaces meet, that may come to rest too
+    early; so it is begun once more a little aside, some times.
     """
-    ended = [end for end in known if end.normal is not None or end.found.upper is not None]
+    ended = [end for end in known if end.found.upper is not None]
     if not ended:
         return min(known, key=lambda end: end.found.lower * float(np.linalg.norm(end.towards)))
     best = min(ended, key=lambda end: end.radius)
     for end in sorted(ended, key=lambda end: min(end.radius, end.promised))[:NEAREST]:
-        here = end
-        for _ in range(TURNS):
-            if here.normal is None or not here.promised < min(here.radius, best.radius) * (1 - SAME):
-                break
-            here = active_along(reaction, here.normal / np.linalg.norm(here.normal))
-            best = min(best, here, key=lambda each: each.radius)
+        best = min(best, _turned(reaction, end, best.radius), key=lambda each: each.radius)
+    rng = np.random.default_rng(0)
+    for _ in range(ASIDE if best.radius > 0 else 0):
+        aside = best.towards / np.linalg.norm(best.towards) + FAR_ASIDE * rng.normal(size=6)
+        begun = active_along(reaction, aside / np.linalg.norm(aside))
+        best = min(best, _turned(reaction, begun, best.radius), key=lambda each: each.radius)
+    return best
+
+
+def _turned(reaction: Reaction, end: End, least: float) -> End:
+    """Return an end that is at least as near, by turning its direction; no nearer than `least` may be all there is."""
+    best = end
+    for _ in range(TURNS):
+        if end.normal is None or not end.promised < best.radius * (1 - SAME) or end.promised > least * WORTH:
+            break
+        end = active_along(reaction, end.normal / np.linalg.norm(end.normal))
+        best = min(best, end, key=lambda each: each.radius)
     return best
 
 

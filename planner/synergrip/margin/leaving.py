@@ -124,9 +124,9 @@ def proven(start: Array, change: Array, sigma: Array, radius: Array) -> NDArray[
         radius: (N,).
     """
     asked = (radius > 0) & np.any(change != 0, axis=(-2, -1)) & np.isfinite(radius)
+    radius = np.where(asked, radius, 1.0)
     if start.shape[-1] == 1:
         return np.asarray(~asked | (start[:, 0] >= radius * np.linalg.norm(change[:, 0], axis=-1)))
-    radius = np.where(asked, radius, 1.0)
     M, m, c = quadratic(start, change * radius[:, None, None])
     tau, n = radius**2 / sigma, m.shape[1]
     whole = np.zeros((len(c), n + 1, n + 1))
@@ -165,9 +165,8 @@ def _at(place: Array, end: Array, has_end: Array) -> tuple[Array, Array]:
 
 def _divisors(mu: Array, sigma: Array, last: Array, has_end: Array) -> Array:
     """Return ``1 + sigma mu`` (N, n), to all digits at the pole."""
-    result = 1 + sigma[:, None] * mu
-    result[:, 0] = np.where(has_end, last, result[:, 0])
-    return result
+    of_pole = last[:, None] + sigma[:, None] * (mu - mu[:, :1])
+    return np.where(has_end[:, None], of_pole, 1 + sigma[:, None] * mu)
 
 
 def _attained(start: Array, change: Array, inner: Array, V: Array) -> tuple[Array, Array]:

@@ -31,6 +31,8 @@ from synergrip.values import Value
 
 EDGES = 8
 """Of the pyramid of a hard finger, to begin with."""
+MOST = 64
+"""Edges: a hull of more takes longer than adding points where they count."""
 ENDS = (0.0, 0.0)
 
 
@@ -51,6 +53,8 @@ class WrenchSpaceQuality(Value):
     epsilon_synergies: tuple[float, float]
     """The same where internal forces are those of E_s: between a hull of wrenches with an answer and a plane beyond
     which none has one."""
+    epsilon_pyramids: tuple[float, float]
+    """That of pyramids inside the cones and around them, as they are, with `edges`."""
     volume: tuple[float, float]
     """Of the grasp wrench space: of a hull of points in the cones, and of pyramids around them."""
     volume_synergies: tuple[float, float]
@@ -89,10 +93,10 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
 
     Args:
         grasp: the grasp, or its analysis.
-        edges: of the pyramid of a hard finger, 3 or more; a sphere of three components has three rings of as many.
+        edges: of the pyramid of a hard finger, 3 to 64; a sphere of three components has three rings of as many.
 
     Raises:
-        InputError: no grasp; fewer edges; a kind of contact of one's own whose cones share components.
+        InputError: no grasp; fewer edges, or more; a kind of contact of one's own whose cones share components.
         RigidContactError: some contact direction has no compliance at all.
 
     Example:
@@ -101,8 +105,8 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     """
     if not isinstance(grasp, Analysis):
         expected("grasp", grasp, Grasp, "make_grasp(...)")
-    if not is_whole(edges) or edges < FEWEST:
-        raise InputError.at("edges", f"expected a whole number of at least {FEWEST}, got {described(edges)}")
+    if not is_whole(edges) or not FEWEST <= edges <= MOST:
+        raise InputError.at("edges", f"expected a whole number from {FEWEST} to {MOST}, got {described(edges)}")
     analysis = grasp if isinstance(grasp, Analysis) else analyse(grasp, NO_LOAD)
     response = analysis.response
     G = response.scale.scaled_grasp(response.grasp.G).T
@@ -114,12 +118,14 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     around = own.points(edges, outside=True)
     if not response.restrained or is_flat(around):
         why = "the wrench space is flat: there is a wrench that no contact forces make"
-        return found(ENDS, ENDS, ENDS, ENDS, why=why)
-    whole, most = hull_figures(own.points(edges), own.farthest), hull(around)[1]
+        return found(ENDS, ENDS, ENDS, ENDS, ENDS, why=why)
+    inner, (outer, most) = hull(own.points(edges))[0], hull(around)
+    whole = hull_figures(own.points(edges), own.farthest)
     made = controlled_figures(response, analysis.spaces.E_s)
     why = "" if whole.epsilon[1] else "the grasp has no force closure"
     why = why or ("" if made.epsilon[1] else "the synergies do not hold loads from every direction")
-    return found(whole.epsilon, made.epsilon, (whole.volume, most), (made.volume, most), why=why)
+    pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
+    return found(whole.epsilon, made.epsilon, pyramids, (whole.volume, most), (made.volume, most), why=why)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

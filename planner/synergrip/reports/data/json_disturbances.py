@@ -28,7 +28,7 @@ def disturbance_document(found: Disturbances) -> dict[str, Any]:
 
 def quality_document(found: WrenchSpaceQuality) -> dict[str, Any]:
     """Return the part of the classical figures."""
-    pairs = ("epsilon", "epsilon_synergies", "volume", "volume_synergies")
+    pairs = ("epsilon", "epsilon_synergies", "epsilon_pyramids", "volume", "volume_synergies")
     numbers = ("smallest_singular_value", "isotropy", "isotropy_synergies")
     return {
         **{name: dict(zip(("lower", "upper"), getattr(found, name), strict=True)) for name in pairs},
