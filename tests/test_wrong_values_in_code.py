@@ -115,6 +115,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
+    "wrench_space_quality": {"grasp": grasp, "edges": 8},
     "exact_proof": {"no": sg.plan(unheld.grasp, unheld.task)},
     "synergies_needed": {"grasp": grasp, "task": task, "by": "effort", "most": 1, "up_to": 1, "along": False},
 }  # fmt: skip
@@ -129,6 +130,7 @@ OTHERS = {
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
+    "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -172,6 +174,8 @@ MADE_BY = {
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
     "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
     "GraspProperties": "grasp_properties(", "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
+    "Disturbances": "disturbances(", "WithstoodAlong": "disturbances(", "Withstood": "disturbances(",
+    "WrenchSpaceQuality": "wrench_space_quality(",
 }  # fmt: skip
 
 

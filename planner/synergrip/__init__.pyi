@@ -107,6 +107,12 @@ from synergrip.margin.margins import margins as margins
 from synergrip.margin.margins import Margins as Margins
 from synergrip.margin.measures import Measure as Measure
 from synergrip.margin.direct_number import DirectNumber as DirectNumber
+from synergrip.margin.disturbances import disturbances as disturbances
+from synergrip.margin.disturbances import Disturbances as Disturbances
+from synergrip.margin.disturbances import WithstoodAlong as WithstoodAlong
+from synergrip.margin.withstood import Withstood as Withstood
+from synergrip.margin.quality import wrench_space_quality as wrench_space_quality
+from synergrip.margin.quality import WrenchSpaceQuality as WrenchSpaceQuality
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

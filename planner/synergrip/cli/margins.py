@@ -36,7 +36,21 @@ def margins(
     overrides: SetOption = None,
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="NAME", help="A number such as heaviest_kg; may be repeated."),
+        typer.Option(
+            "--only", metavar="NAME", help="A number such as heaviest_kg, disturbance or quality; may be repeated."
+        ),
+    ] = None,
+    direction: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--direction",
+            metavar="'FX FY FZ MX MY MZ'",
+            help="An extra wrench along which to say how much is withstood; may be repeated.",
+        ),
+    ] = None,
+    box: Annotated[
+        str | None,
+        typer.Option("--box", metavar="'FX FY FZ MX MY MZ'", help="Half-widths [N, N m] of a box of extra wrenches."),
     ] = None,
     picture: Annotated[
         Path | None,
@@ -54,7 +68,11 @@ def margins(
         loaded = load_problem(problem, overrides or [])
         picture_place(picture)
         with placed(loaded), heard():
-            found = found_by(loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell)
+            found = found_by(
+                loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell,
+                directions=[six("--direction", text) for text in direction] if direction else None,
+                box=None if box is None else six("--box", box),
+            )  # fmt: skip
         if not isinstance(found, Margins):
             end_without_plan(form, loaded, found)
         told, drawn = margins_document(loaded.title, found, loaded.notes), list[str]()
@@ -76,6 +94,20 @@ def _draw(found: Margins, title: str, picture: Path) -> None:
     with writing("--picture", picture):
         draw_margins(found, title, picture)
     ending.keep(picture)
+
+
+def six(option: str, text: str) -> list[float]:
+    """Return the numbers of an option, told as mistakes by its name."""
+    from synergrip.errors import InputError
+
+    try:
+        found = [float(part) for part in text.replace(",", " ").split()]
+    except ValueError:
+        found = []
+    if len(found) != 6:
+        wanted = "6 numbers, 3 forces and 3 moments, such as '0 0 -1 0 0 0'"
+        raise InputError.at(option, f"expected {wanted}; got '{text}'")
+    return found
 
 
 def _tell(number: DirectNumber) -> None:

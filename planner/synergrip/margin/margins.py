@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.normal_force import least_normal_force
@@ -11,9 +11,12 @@ from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen
 from synergrip.margin.direct import direct, wanted
 from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.disturbances import AXES, Disturbances, disturbances, judged_box, judged_directions
 from synergrip.margin.measures import Measure, measures
+from synergrip.margin.quality import WrenchSpaceQuality, wrench_space_quality
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
@@ -41,26 +44,33 @@ class Margins(Value):
     direct: Mapping[str, DirectNumber] = field(default_factory=dict)
     """By name; those that were found before somebody interrupted."""
     interrupted: bool = False
+    disturbance: Disturbances | None = None
+    """What it withstands beside its load; None where it was not asked for."""
+    quality: WrenchSpaceQuality | None = None
+    """The classical figures of the grasp; None where they were not asked for, or nothing is known of its contacts."""
 
 
 @naming_arguments
 def margins(
     grasp: Grasp, task: Task | TimedTask, *, only: Sequence[str] = (),
     heard: Callable[[DirectNumber], None] = lambda number: None,
+    directions: Sequence[Sequence[float]] | Array | None = None, box: Sequence[float] | Array | None = None,
 ) -> Margins | Infeasible | Unknown:  # fmt: skip
-    """Return the margins of the plan of a task, and how far each of its numbers may go.
+    """Return the margins of the plan of a task, how far each of its numbers may go, and what it withstands.
 
     Args:
         grasp: the grasp.
         task: what is asked.
-        only: names of the numbers that are wanted; all when empty.
+        only: names of the numbers that are wanted, "disturbance" and "quality" among them; all when empty.
         heard: is told of each number as it is found.
+        directions: (n, 6) of extra wrenches, see `disturbances`; both ways along and about every axis when None.
+        box: (6,) half-widths of a box of extra wrenches, see `disturbances`.
 
     Returns:
         The margins; or what `plan` says where there is no plan.
 
     Raises:
-        InputError: a name that is none, and what `plan` raises.
+        InputError: a name that is none, directions or half-widths that are none, and what `plan` raises.
 
     Example:
         >>> margins(problem.grasp, problem.task, only=("load_factor",)).direct["load_factor"].proven  # doctest: +SKIP
@@ -69,29 +79,45 @@ def margins(
     judge = Arguments("")
     names = judge.several("only", only, str, '"heaviest_kg"')
     judge.finish()
+    chosen = frozen(AXES) if directions is None else judged_directions(directions)
+    widths = judged_box(box)
     made = plan(grasp, task)
     if not isinstance(made, Plan):
         return made
     asked = Asked.of(made.grasp, task, made.task)
     numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:
-        if name not in numbers:
-            raise InputError.at("only", one_of(name, list(numbers)))
-    chosen = [each for name, each in numbers.items() if not names or name in names]
-    found: dict[str, DirectNumber] = {}
+        if name not in (*numbers, *BESIDE):
+            raise InputError.at("only", one_of(name, [*numbers, *BESIDE]))
+    found, direct_numbers = _found(made), dict[str, DirectNumber]()
     if made.interrupted:
-        return _found(made, {}, interrupted=True)
-    interrupted = False
+        return replace(found, interrupted=True)
     try:
-        for number in direct(chosen, asked, made):
-            found[number.name] = number
+        for number in direct([each for name, each in numbers.items() if not names or name in names], asked, made):
+            direct_numbers[number.name] = number
+            found = replace(found, direct=dict(direct_numbers))
             heard(number)
+        if not names or "disturbance" in names or directions is not None or box is not None:
+            found = replace(found, disturbance=disturbances(made, directions=chosen, box=widths))
+        if not names or "quality" in names:
+            found = replace(found, quality=_quality(made))
     except KeyboardInterrupt:
-        interrupted = True
-    return _found(made, found, interrupted=interrupted)
+        return replace(found, interrupted=True)
+    return found
 
 
-def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
+BESIDE = ("disturbance", "quality")
+"""What may be asked for by name beside the numbers."""
+
+
+def _quality(made: Plan) -> WrenchSpaceQuality | None:
+    try:
+        return wrench_space_quality(made.analysis)
+    except InputError:  # contacts of a kind of one's own
+        return None
+
+
+def _found(made: Plan) -> Margins:
     grasp = made.grasp
     least = least_normal_force(made.task.limits)
     own = measures(grasp, made.time, made.forces, least)
@@ -99,4 +125,4 @@ def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool
     if made.executed is not None:
         promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
         linear = measures(grasp, made.time, promised.forces, least)
-    return Margins(made, own, linear, numbers, interrupted)
+    return Margins(made, own, linear)

@@ -10,6 +10,7 @@ from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
 from synergrip.planning.arrays import names_of
 from synergrip.planning.told import finite, margin_document, notes_together, structure_document
+from synergrip.reports.data.json_disturbances import disturbance_document, quality_document
 from synergrip.reports.data.json_plan import plain
 
 
@@ -27,6 +28,8 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        "disturbance": None if found.disturbance is None else disturbance_document(found.disturbance),
+        "quality": None if found.quality is None else quality_document(found.quality),
         "interrupted": found.interrupted,
         "notes": notes_together(plan.notes, notes),
     })  # fmt: skip

@@ -14,6 +14,7 @@ from synergrip.margin.measures import Measure
 from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 
@@ -35,8 +36,11 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         *problem_lines(problem), "",
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
-        _measures(found), "", *_numbers(found),
+        _measures(found),
     ]  # fmt: skip
+    lines += ["", *_numbers(found)] if found.direct else []
+    lines += [] if found.disturbance is None else ["", *disturbance_lines(found.disturbance)]
+    lines += [] if found.quality is None else ["", *quality_lines(found.quality)]
     notes = notes_together(plan.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])

@@ -1,0 +1,169 @@
+"""The classical figures of a grasp, and what its synergies cost of them.
+
+Unit normal forces, L1: the normal forces of all contacts together are one newton at most (Ferrari and Canny, Planning
+optimal grasps, 1992). Wrenches are those of the length-scaled norm: moments about the centroid of the contacts, divided
+by their mean distance L from it, so that all figures are free of units.
+
+Fully actuated, a hand makes every contact force in the cones: the grasp wrench space is the hull of what the contacts
+do one by one, epsilon the radius of the largest ball about 0 in it. With synergies alone an external wrench w is met by
+``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller convex set, of the same norm and unit forces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from synergrip.documents.judging import described, expected, is_whole
+from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, frozen, split
+from synergrip.margin.contact_wrenches import FEWEST, UnitForces
+from synergrip.margin.controlled_wrenches import controlled_figures
+from synergrip.margin.wrench_hull import hull, hull_figures, is_flat
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.response import Response
+from synergrip.statics.restraint import NO_LOAD
+from synergrip.values import Value
+
+EDGES = 8
+"""Of the pyramid of a hard finger, to begin with."""
+MOST = 64
+"""Edges: a hull of more takes longer than adding points where they count."""
+ENDS = (0.0, 0.0)
+
+
+@made_by("wrench_space_quality(grasp)")
+@dataclass(frozen=True, eq=False, repr=False)
+class WrenchSpaceQuality(Value):
+    """Figures of a grasp without a task, free of units; a pair is at least and at most.
+
+    Example:
+        >>> found = wrench_space_quality(grasp)  # doctest: +SKIP
+        >>> found.epsilon, found.epsilon_synergies, found.isotropy  # doctest: +SKIP
+        ((0.1683, 0.1699), (0.0412, 0.0498), 0.61)
+    """
+
+    epsilon: tuple[float, float]
+    """Radius of the largest ball about 0 in the grasp wrench space, every contact force being made: between the hull of
+    points in the cones and a supporting plane of the cones themselves. 0 without force closure."""
+    epsilon_synergies: tuple[float, float]
+    """The same where internal forces are those of E_s: between a hull of wrenches with an answer and a plane beyond
+    which none has one."""
+    epsilon_pyramids: tuple[float, float]
+    """That of pyramids inside the cones and around them, as they are, with `edges`."""
+    volume: tuple[float, float]
+    """Of the grasp wrench space: of a hull of points in the cones, and of pyramids around them."""
+    volume_synergies: tuple[float, float]
+    """The same where internal forces are those of E_s: of the hull, which is refined near 0 only, and no more than that
+    of the whole grasp wrench space."""
+    singular_values: Array
+    """(6,) of the grasp matrix G, descending."""
+    singular_values_synergies: Array
+    """(6,) of G on the forces that synergies and loads make: the span of G+ and E_s."""
+    edges: int
+    """Of the pyramid of a hard finger, before points were added where they count."""
+    length: float
+    """L [m]."""
+    why: str = ""
+    """Why there is no ball, where it is known."""
+
+    @property
+    def smallest_singular_value(self) -> float:
+        """Of G: the least wrench that contact forces of size 1 can be needed for."""
+        return float(self.singular_values[-1])
+
+    @property
+    def isotropy(self) -> float:
+        """The smallest singular value of G over the largest; 1 where no direction is favoured."""
+        return _ratio(self.singular_values)
+
+    @property
+    def isotropy_synergies(self) -> float:
+        """The same of G on the forces that synergies and loads make."""
+        return _ratio(self.singular_values_synergies)
+
+
+@naming_arguments
+def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> WrenchSpaceQuality:
+    """Return the classical figures of a grasp: epsilon and volume of its wrench space, singular values, isotropy.
+
+    Args:
+        grasp: the grasp, or its analysis.
+        edges: of the pyramid of a hard finger, 3 to 64; a sphere of three components has three rings of as many.
+
+    Raises:
+        InputError: no grasp; fewer edges, or more; a kind of contact of one's own whose cones share components.
+        RigidContactError: some contact direction has no compliance at all.
+
+    Example:
+        >>> wrench_space_quality(grasp).isotropy > 0  # doctest: +SKIP
+        True
+    """
+    if not isinstance(grasp, Analysis):
+        expected("grasp", grasp, Grasp, "make_grasp(...)")
+    if not is_whole(edges) or not FEWEST <= edges <= MOST:
+        raise InputError.at("edges", f"expected a whole number from {FEWEST} to {MOST}, got {described(edges)}")
+    analysis = grasp if isinstance(grasp, Analysis) else analyse(grasp, NO_LOAD)
+    response = analysis.response
+    G = response.scale.scaled_grasp(response.grasp.G).T
+    found = partial(
+        WrenchSpaceQuality, singular_values=_singular_values(G), edges=int(edges), length=response.scale.length,
+        singular_values_synergies=_singular_values(G @ _made(analysis)),
+    )  # fmt: skip
+    own = Contacts.of(response)
+    around = own.points(edges, outside=True)
+    if not response.restrained or is_flat(around):
+        why = "the wrench space is flat: there is a wrench that no contact forces make"
+        return found(ENDS, ENDS, ENDS, ENDS, ENDS, why=why)
+    inner, (outer, most) = hull(own.points(edges))[0], hull(around)
+    whole = hull_figures(own.points(edges), own.farthest)
+    made = controlled_figures(response, analysis.spaces.E_s)
+    why = "" if whole.epsilon[1] else "the grasp has no force closure"
+    why = why or ("" if made.epsilon[1] else "the synergies do not hold loads from every direction")
+    pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
+    return found(whole.epsilon, made.epsilon, pyramids, (whole.volume, most), (made.volume, most), why=why)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Contacts(Value):
+    """What each contact of a grasp does to the object with a normal force of one newton."""
+
+    forces: tuple[UnitForces, ...]
+    maps: tuple[Array, ...]
+    """(6, rows) to wrenches in scaled coordinates."""
+
+    @classmethod
+    def of(cls, response: Response) -> Contacts:
+        """Return those of a grasp."""
+        grasp, scale = response.grasp, response.scale
+        maps = tuple(frozen(scale.wrench(grasp.G[:, rows].T).T) for rows in grasp.rows)
+        return cls(tuple(UnitForces.of(contact) for contact in grasp.contacts), maps)
+
+    def points(self, edges: int, *, outside: bool = False) -> Array:
+        """Return 0 and the wrenches (p, 6) of the edges of all pyramids, inside the cones or around them."""
+        pairs = zip(self.forces, self.maps, strict=True)
+        return np.vstack([np.zeros((1, 6)), *(own.points(edges, outside=outside) @ G.T for own, G in pairs)])
+
+    def farthest(self, along: Array) -> tuple[Array, float]:
+        """Return the wrench (n_c, 6) of each contact that goes farthest along a direction, and how far one does."""
+        points = np.array([G @ own.farthest(G.T @ along) for own, G in zip(self.forces, self.maps, strict=True)])
+        return points, max(float((points @ along).max()), 0.0)
+
+
+def _made(analysis: Analysis) -> Array:
+    """Return an orthonormal basis (n_l, k), in scaled forces, of those that synergies and loads make."""
+    response = analysis.response
+    made = np.hstack([response.dlambda_dw @ response.scale.motion.T, analysis.spaces.E_s])
+    return split((response.scale.force[:, None] * made).T).row_space
+
+
+def _singular_values(matrix: Array) -> Array:
+    return frozen(np.linalg.svd(matrix, compute_uv=False))
+
+
+def _ratio(values: Array) -> float:
+    return float(values[-1] / values[0]) if values[0] > 0 else 0.0

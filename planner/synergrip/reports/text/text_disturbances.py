@@ -1,0 +1,117 @@
+"""What a plan withstands, and the classical figures of its grasp, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from synergrip.margin.disturbances import AXES, Disturbances, WithstoodAlong
+from synergrip.margin.executed_wrench import ExecutedWrench
+from synergrip.margin.quality import WrenchSpaceQuality
+from synergrip.margin.withstood import Withstood
+from synergrip.reports.text.tables import table, wrapped
+
+NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")
+SAME = 5e-5
+"""Relative difference of two ends that are told as one number."""
+NONE_LEFT = 1e-6
+"""[N] or [N m] below which nothing is left."""
+
+
+def disturbance_lines(found: Disturbances) -> Iterator[str]:
+    """Yield what is withstood: in any direction, along and about the axes or what was asked for, in a box."""
+    yield f"What it withstands beside its load, of the linear model {_about(found)}"
+    rows = [("any direction", *_cells("N", found.slip, found.passive, found.active))]
+    every = np.array([each.wrench for each in found.along])
+    if np.array_equal(every, AXES):
+        pairs = zip(NAMES, found.along[::2], found.along[1::2], strict=True)
+        rows += [(name, *_lesser(one, other)) for name, one, other in pairs]
+    else:
+        rows += [
+            (_written(each.wrench), *_cells(each.unit, each.slip, each.passive, each.active)) for each in found.along
+        ]
+    if found.box is not None:
+        box = found.box
+        rows.append((f"box of {_written(box.wrench)}", *_cells("times", box.slip, box.passive, box.active)))
+    head = ("", "until it slips", "within all limits", "forces answering", "these end at")
+    yield table(head, rows)
+    norm = f"force and moment about the middle of the contacts / {1e3 * found.length:.4g} mm"
+    told = (
+        f"any direction: a ball of extra wrenches, {norm}; axes are those of the palm through the origin of the "
+        "object, the lesser of both ways is told. References stay as they are in the first two columns; in the third "
+        "internal forces are planned again for each wrench"
+    )
+    yield from wrapped("         ", told)
+    if not found.passive.lower > NONE_LEFT and found.passive.limit:
+        used = f"within all limits nothing is left: the plan uses all of {_end(found.passive)}"
+        yield from wrapped("         ", used)
+    if found.executed is not None:
+        yield from wrapped("         ", _executed(found.executed))
+
+
+def quality_lines(found: WrenchSpaceQuality) -> Iterator[str]:
+    """Yield the classical figures, those of the synergies beside those of any forces."""
+    yield "Classical figures, free of units: normal forces of 1 together (L1), moments divided by the same length"
+    rows = (
+        ("epsilon quality", _pair(found.epsilon), _pair(found.epsilon_synergies)),
+        ("volume", _pair(found.volume), _pair(found.volume_synergies)),
+        (
+            "smallest singular value",
+            f"{found.smallest_singular_value:.4g}",
+            f"{found.singular_values_synergies[-1]:.4g}",
+        ),
+        ("isotropy", f"{found.isotropy:.4g}", f"{found.isotropy_synergies:.4g}"),
+    )
+    yield table(("", "any contact forces", "those that synergies and loads make"), rows)
+    if found.why:
+        yield from wrapped("         ", found.why)
+
+
+def _about(found: Disturbances) -> str:
+    return f"of {found.of}" if found.of == "the start posture" else f"about {found.of}"
+
+
+def _lesser(one: WithstoodAlong, other: WithstoodAlong) -> tuple[str, ...]:
+    """Return the cells of the lesser of both ways, column by column."""
+    return _cells(one.unit, *(min(getattr(one, name), getattr(other, name), key=lambda each: each.lower)
+                              for name in ("slip", "passive", "active")))  # fmt: skip
+
+
+def _cells(unit: str, slip: Withstood, passive: Withstood, active: Withstood) -> tuple[str, ...]:
+    return (*(_size(unit, each) for each in (slip, passive, active)), _end(active))
+
+
+def _size(unit: str, found: Withstood) -> str:
+    if found.upper is None:
+        return "no end found"
+    if not found.upper > NONE_LEFT:
+        return f"0 {unit}"
+    same = found.upper - found.lower <= SAME * found.upper
+    ends = f"{found.lower:.4g}" if same else f"{found.lower:.4g} to {found.upper:.4g}"
+    return f"{ends} {unit}"
+
+
+def _end(found: Withstood) -> str:
+    """Return what ends it."""
+    where = f"{found.limit} {found.item}".strip()
+    return where if found.time_s is None or not where else f"{where}, t = {found.time_s:.2f} s"
+
+
+def _pair(ends: tuple[float, float]) -> str:
+    lower, upper = ends
+    same = upper - lower <= SAME * upper
+    return f"{upper:.4g}" if same else f"{lower:.4g} to {upper:.4g}"
+
+
+def _written(wrench: Sequence[float] | np.ndarray) -> str:
+    return " ".join(f"{value:.4g}" for value in wrench)
+
+
+def _executed(found: ExecutedWrench) -> str:
+    what = f"on the hand that moves, {found.share:.0%} of the least extra wrench at which a contact slips"
+    if found.margin is None:
+        return f"{what} does not let it reach its end ({found.why})"
+    if found.holds:
+        return f"{what} leaves a slip margin of {found.margin:.4g} N"
+    return f"{what} makes '{found.contact}' slip at t = {found.time_s:.2f} s ({found.margin:.4g} N): less is withstood"
