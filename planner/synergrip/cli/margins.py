@@ -32,6 +32,9 @@ def margins(
         list[str] | None,
         typer.Option("--only", metavar="NAME", help="A number such as heaviest_kg; may be repeated."),
     ] = None,
+    whole: Annotated[
+        bool, typer.Option("--all", help="What every change of a number is worth, not only the three worth most.")
+    ] = False,
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
     with answering(form):
@@ -47,7 +50,7 @@ def margins(
         if not isinstance(found, Margins):
             end_without_plan(form, loaded, found)
         told = margins_document(loaded.title, found, loaded.notes)
-        show(form, lambda: margins_text(loaded, found, color()), lambda: told)
+        show(form, lambda: margins_text(loaded, found, color(), whole=whole), lambda: told)
     raise typer.Exit(130 if found.interrupted else 0)
 
 

@@ -14,6 +14,8 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct import direct, wanted
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.measures import Measure, measures
+from synergrip.margin.sensitivities import NAME, sensitivities_of
+from synergrip.margin.sensitivity import Sensitivities
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
@@ -41,6 +43,8 @@ class Margins(Value):
     direct: Mapping[str, DirectNumber] = field(default_factory=dict)
     """By name; those that were found before somebody interrupted."""
     interrupted: bool = False
+    sensitivities: Sensitivities | None = None
+    """How much the largest margin, and the worst one under these references, change with each number; where asked."""
 
 
 @naming_arguments
@@ -53,7 +57,7 @@ def margins(
     Args:
         grasp: the grasp.
         task: what is asked.
-        only: names of the numbers that are wanted; all when empty.
+        only: names of the numbers that are wanted, "sensitivities" among them; all when empty.
         heard: is told of each number as it is found.
 
     Returns:
@@ -75,10 +79,10 @@ def margins(
     asked = Asked.of(made.grasp, task, made.task)
     numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:
-        if name not in numbers:
-            raise InputError.at("only", one_of(name, list(numbers)))
+        if name not in (*numbers, NAME):
+            raise InputError.at("only", one_of(name, [*numbers, NAME]))
     chosen = [each for name, each in numbers.items() if not names or name in names]
-    found: dict[str, DirectNumber] = {}
+    found, changes = dict[str, DirectNumber](), None
     if made.interrupted:
         return _found(made, {}, interrupted=True)
     interrupted = False
@@ -86,12 +90,17 @@ def margins(
         for number in direct(chosen, asked, made):
             found[number.name] = number
             heard(number)
+        if not names or NAME in names:
+            changes = sensitivities_of(made, task)
     except KeyboardInterrupt:
         interrupted = True
-    return _found(made, found, interrupted=interrupted)
+    interrupted = interrupted or (changes is not None and changes.interrupted)
+    return _found(made, found, changes, interrupted=interrupted)
 
 
-def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
+def _found(
+    made: Plan, numbers: Mapping[str, DirectNumber], changes: Sensitivities | None = None, *, interrupted: bool
+) -> Margins:  # fmt: skip
     grasp = made.grasp
     least = least_normal_force(made.task.limits)
     own = measures(grasp, made.time, made.forces, least)
@@ -99,4 +108,4 @@ def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool
     if made.executed is not None:
         promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
         linear = measures(grasp, made.time, promised.forces, least)
-    return Margins(made, own, linear, numbers, interrupted)
+    return Margins(made, own, linear, numbers, interrupted, changes)

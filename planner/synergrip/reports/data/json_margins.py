@@ -11,6 +11,7 @@ from synergrip.margin.measures import Measure
 from synergrip.planning.arrays import names_of
 from synergrip.planning.told import finite, margin_document, structure_document
 from synergrip.reports.data.json_plan import plain
+from synergrip.reports.data.json_sensitivities import sensitivities_document
 
 
 def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -27,6 +28,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        **sensitivities_document(found.sensitivities),
         "interrupted": found.interrupted,
         "notes": list(dict.fromkeys([*plan.notes, *notes])),
     })  # fmt: skip

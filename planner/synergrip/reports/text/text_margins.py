@@ -15,6 +15,7 @@ from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_sensitivities import sensitivity_lines
 
 ASKS = {
     "critical_friction_scale": ("how slippery", "times the friction"), "heaviest_kg": ("how heavy", ""),
@@ -25,8 +26,8 @@ ASKS = {
 """Name of a number -> what it answers, and the words for its unit where it has none."""
 
 
-def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
-    """Return what was asked, every margin where it is worst, and the numbers."""
+def margins_text(problem: Problem, found: Margins, color: bool = False, *, whole: bool = False) -> str:
+    """Return what was asked, every margin where it is worst, and the numbers; the `whole` of what changes are worth."""
     plan = found.plan
     slip = found.measures["slip margin"].worst
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
@@ -36,6 +37,8 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
         _measures(found), "", *_numbers(found),
     ]  # fmt: skip
+    if found.sensitivities is not None:
+        lines += [*([""] if found.direct else []), *sensitivity_lines(found.sensitivities, whole=whole)]
     notes = dict.fromkeys([*plan.notes, *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])
