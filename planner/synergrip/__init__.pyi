@@ -105,6 +105,9 @@ from synergrip.margin.margins import margins as margins
 from synergrip.margin.margins import Margins as Margins
 from synergrip.margin.measures import Measure as Measure
 from synergrip.margin.direct_number import DirectNumber as DirectNumber
+from synergrip.margin.sensitivities import sensitivities as sensitivities
+from synergrip.margin.sensitivity import Sensitivities as Sensitivities
+from synergrip.margin.sensitivity import Sensitivity as Sensitivity
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

@@ -36,7 +36,8 @@ def dials(asked: Asked, timed: TimedTask, analysis: Analysis) -> tuple[Dial[Aske
         timed: the same at its knots.
         analysis: of the grasp.
     """
-    return tuple((*limit_dials(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked)))
+    of_task, of_load = _of_task(asked, timed, analysis), _of_load(asked, timed)
+    return (*limit_dials(asked), *of_task, *of_load, *_of_friction(asked))
 
 
 def limit_dials(asked: Asked) -> Iterator[Dial[Asked]]:

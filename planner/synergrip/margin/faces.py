@@ -60,7 +60,7 @@ def faces(of: Optimum) -> Faces:
     rank = int(np.sum(values > RANK * values.max(initial=1e-300)))
     missing = left[:, :rank].T @ (pulls @ t + of.program.q)
     t = t - right[:rank].T @ (missing / values[:rank])
-    seen = np.vstack([np.zeros((0, len(of.x))), *tangents])
+    seen = np.concatenate([np.zeros((0, len(of.x))), *tangents])
     return Faces(W, blocks, t, pulls, rank, left[:, :rank], right[rank:].T, _row_space(seen))
 
 
@@ -94,9 +94,9 @@ def _active(
             kind, columns = _generators(block.kind, slack[own])
             if columns is None:
                 continue
-            ends = sparse.csc_matrix((start, columns.shape[1])), sparse.csc_matrix((m - own.stop, columns.shape[1]))
-            cone = (kind, columns.shape[1])
-            found.setdefault(cone, []).append(sparse.csc_matrix(sparse.vstack([ends[0], columns, ends[1]])))
+            cone, whole = (kind, columns.shape[1]), np.zeros((m, columns.shape[1]))
+            whole[own] = columns
+            found.setdefault(cone, []).append(sparse.csc_matrix(whole))
             tangents.append(_across(slack[own], kind) @ A[own].toarray())
     order = sorted(found, key=lambda cone: (list(Kind).index(cone[0]), cone[1]))
     blocks = tuple(

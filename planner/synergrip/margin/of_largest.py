@@ -127,13 +127,4 @@ def _judged(
 def _told(
     parameter: Parameter, of: Optimum, sides: tuple[float | None, float | None], why: str = ""
 ) -> Sensitivity:  # fmt: skip
-    """Return a sensitivity, of derivatives in the scale of a parameter; what is rounding is 0."""
-    per, step = parameter.told
-    left, right = (
-        None if each is None else 0.0 if abs(each) <= NOTHING * of.unit else each * step / parameter.scale
-        for each in sides
-    )
-    return Sensitivity(
-        LARGEST, START, parameter.name, parameter.of, parameter.direction, parameter.at, per, step, left, right,
-        differentiable=not why, why=why,
-    )  # fmt: skip
+    return parameter.sensitivity(LARGEST, START, sides, NOTHING * of.unit, why)

@@ -128,6 +128,7 @@ def _derived(parameter: Parameter, references: References) -> Sensitivity:
     same = abs(right - left) <= ALIKE * max(references.largest, abs(right), abs(left))
     return _told(parameter, references, right if same else left, right, "" if same else TIED)
 
+
 def worst(grasp: Grasp, forces: Array, close: float) -> list[tuple[int, int]]:
     """Return the instants and contacts whose slip margin is the least, or within `close` of it [N]."""
     parts = zip(grasp.contacts, grasp.rows, strict=True)
@@ -163,13 +164,5 @@ def _rate(
 def _told(
     parameter: Parameter, references: References, left: float | None, right: float | None, why: str
 ) -> Sensitivity:  # fmt: skip
-    """Return a sensitivity, of derivatives in the scale of a parameter."""
-    per, step = parameter.told
-    sides = (
-        None if each is None else 0.0 if abs(each) <= NOTHING * references.largest else each * step / parameter.scale
-        for each in (left, right)
-    )
-    return Sensitivity(
-        FIXED, HAND if references.on_hand else START, parameter.name, parameter.of, parameter.direction, parameter.at,
-        per, step, *sides, differentiable=not why, why=why,
-    )  # fmt: skip
+    model = HAND if references.on_hand else START
+    return parameter.sensitivity(FIXED, model, (left, right), NOTHING * references.largest, why)

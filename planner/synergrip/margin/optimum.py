@@ -91,7 +91,7 @@ def _left(certificate: Certificate) -> float:
 
 
 def posed_with(parameter: Parameter, change: float, of: Optimum) -> Posed | str:
-    """Return what is asked after a change of a number, in its scale, or why its program is no neighbour of the first one."""
+    """Return what is asked after a change of a number, in its scale, or why there is no program like the first."""
     known, units = of.posed.analysis, of.posed.formulation.units
     try:
         asked = parameter.turned(change * parameter.scale)
@@ -115,7 +115,7 @@ def _posed_again(asked: Asked, of: Optimum) -> Posed:
     """Return what is asked of another grasp with the same loads and limits."""
     timed, formulation = of.posed.timed, of.posed.formulation
     analysis = analyse(at_start(asked.grasp, timed.wrench[0]), NO_LOAD)
-    other = formulated(analysis, timed, redundancy=formulation.frees_gamma).in_units(formulation.units)
+    other = formulated(analysis, timed, redundancy=timed.watches_references).in_units(formulation.units)
     return Posed(analysis, timed, other)
 
 

@@ -10,7 +10,10 @@ import numpy as np
 from synergrip.changes.asked import Asked
 from synergrip.changes.turning import contact_dials, friction_dial, limit_dials, load_dial, mass_dial
 from synergrip.conic.limits.dial import Dial
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
 from synergrip.margin.moved_contacts import POINT, has_kinematics, moved, turned
+from synergrip.margin.sensitivity import Sensitivity
 from synergrip.statics.response import Response
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
@@ -52,6 +55,26 @@ class Parameter(Value):
     """Whether loads and limits stay what they are."""
     of_plan: bool = True
     """Whether the forces or cones of a plan that is there depend on it, and not only what plans there are."""
+
+    def sensitivity(
+        self, kind: str, model: str, sides: tuple[float | None, float | None], nothing: float, why: str = ""
+    ) -> Sensitivity:  # fmt: skip
+        """Return what one-sided derivatives are by it.
+
+        Args:
+            kind: of what.
+            model: in which model.
+            sides: toward less and more, in the scale of the parameter; None where it is not known.
+            nothing: [N] what is rounding and told as 0.
+            why: there are two; empty where they are one.
+        """
+        per, step = self.told
+        left, right = (
+            None if each is None else 0.0 if abs(each) <= nothing else each * step / self.scale for each in sides
+        )
+        return Sensitivity(
+            kind, model, self.name, self.of, self.direction, self.at, per, step, left, right, not why, why
+        )
 
 
 def parameters(asked: Asked, timed: TimedTask, response: Response) -> tuple[Parameter, ...]:
@@ -110,7 +133,8 @@ def _limits(asked: Asked) -> Iterator[Parameter]:
     for dial in limit_dials(asked):
         if dial.cause in LIMITS and dial.value > 0:
             name = "least normal force" if dial.cause == "force_cap" and dial.eased == "down" else LIMITS[dial.cause]
-            yield _of_dial(dial, name, "the task", of_plan=False)
+            several = dial.cause in ("drift", "limit")
+            yield _of_dial(dial, name, dial.key if several else "the task", of_plan=False)
 
 
 def _compliances(asked: Asked) -> Iterator[Parameter]:
@@ -164,5 +188,7 @@ def _places(asked: Asked, length: float) -> Iterator[Parameter]:
                 )  # fmt: skip
 
 
-def _changed(asked: Asked, change: Callable[..., object], index: int, axis: np.ndarray) -> Callable[[float], Asked]:
+def _changed(
+    asked: Asked, change: Callable[[Grasp, int, Array], Grasp], index: int, axis: Array
+) -> Callable[[float], Asked]:
     return lambda size: replace(asked, grasp=change(asked.grasp, index, size * axis))
