@@ -19,6 +19,8 @@ MADE_BY_OTHERS = {
     "Explanation", "Repair", "When",
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber", "GraspProperties",
     "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
+    "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
+    "Sensitivities", "Sensitivity",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

@@ -131,6 +131,7 @@ OTHERS = {
     "simulate", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
+    "sensitivities", "Sensitivities", "Sensitivity",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -176,6 +177,8 @@ MADE_BY = {
     "GraspProperties": "grasp_properties(", "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
     "Disturbances": "disturbances(", "WithstoodAlong": "disturbances(", "Withstood": "disturbances(",
     "WrenchSpaceQuality": "wrench_space_quality(",
+    "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
+    "Sensitivities": "sensitivities(", "Sensitivity": "sensitivities(",
 }  # fmt: skip
 
 

@@ -113,6 +113,9 @@ from synergrip.margin.disturbances import WithstoodAlong as WithstoodAlong
 from synergrip.margin.withstood import Withstood as Withstood
 from synergrip.margin.quality import wrench_space_quality as wrench_space_quality
 from synergrip.margin.quality import WrenchSpaceQuality as WrenchSpaceQuality
+from synergrip.margin.sensitivities import sensitivities as sensitivities
+from synergrip.margin.sensitivity import Sensitivities as Sensitivities
+from synergrip.margin.sensitivity import Sensitivity as Sensitivity
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

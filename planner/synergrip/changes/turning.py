@@ -36,10 +36,12 @@ def dials(asked: Asked, timed: TimedTask, analysis: Analysis) -> tuple[Dial[Aske
         timed: the same at its knots.
         analysis: of the grasp.
     """
-    return tuple((*_of_limits(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked)))
+    of_task, of_load = _of_task(asked, timed, analysis), _of_load(asked, timed)
+    return (*limit_dials(asked), *of_task, *of_load, *_of_friction(asked))
 
 
-def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:
+def limit_dials(asked: Asked) -> Iterator[Dial[Asked]]:
+    """Yield every number of the limits."""
     limits = asked.limits
     for index, limit in enumerate(limits):
         for dial in limit.dials(asked.grasp):

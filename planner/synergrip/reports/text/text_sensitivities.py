@@ -1,0 +1,51 @@
+"""Sensitivities as text: the changes worth most, and the table of all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from synergrip.margin.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
+from synergrip.reports.text.tables import table, wrapped
+
+HEADS = {
+    LARGEST: "of the largest margin, {}, by its multipliers", FIXED: "of the worst margin, {}, with these references",
+}  # fmt: skip
+MEANT = "each by 1 % of a number, 1 mm of a contact or 1 deg of its normal"
+
+
+def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[str]:
+    """Yield what changes are worth most, or all of them, one margin after the other."""
+    for kind, head in HEADS.items():
+        margin = found.margins[kind]
+        if margin is None:
+            yield from wrapped("         ", f"what changes are worth {head.format('')}: {found.left_out[kind]}")
+            continue
+        chosen: Sequence[Sensitivity] = found.of(kind) if whole else found.worth_most(kind)
+        of = head.format(f"{margin:.4g} N")
+        yield "" if kind == FIXED else f"What changes are worth most, {MEANT}" if not whole else f"Changes, {MEANT}"
+        if not chosen:
+            yield f"{of}: no such change adds to it"
+            continue
+        columns = ("change", "adds", "toward less", "toward more", "in", "") if whole else ("change", "adds", "in")
+        yield of
+        yield table(columns, [_row(each, whole=whole) for each in chosen])
+    if whole:
+        for name, why in found.left_out.items():
+            if name not in HEADS:
+                yield from wrapped("         ", f"{name}: {why}")
+
+
+def _row(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
+    sign = "+" if not each.gain or each.grows else "-"
+    where = f" {each.direction}" if each.direction else ""
+    of = "" if each.of in ("the object", "the task") else f" of {each.of}"
+    change = f"{each.name}{of}{where} {sign}{each.per}"
+    model = "linear model" if each.model == START else "hand that moves"
+    gain = f"{each.gain:.3g} N" if each.gain else "-"
+    if not whole:
+        return change, gain, model
+    return change, gain, _side(each.left), _side(each.right), model, each.why
+
+
+def _side(value: float | None) -> str:
+    return "-" if value is None else f"{value:+.3g} N"
