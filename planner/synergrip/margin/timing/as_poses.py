@@ -17,8 +17,7 @@ TURN = np.radians(5)
 MOST_LINES = 400
 
 
-
-def as_poses(path: tuple[Leg, ...], b: Array, parts: Array) -> tuple[PalmPath, Array]:
+def as_poses(path: tuple[Leg, ...], b: Array) -> tuple[PalmPath, Array]:
     """Return the path over time, and the length passed at each of its lines.
 
     Acceleration jumps in a timing, and in a spline through poses it does not. At each line it is therefore the mean
@@ -28,10 +27,9 @@ def as_poses(path: tuple[Leg, ...], b: Array, parts: Array) -> tuple[PalmPath, A
     Args:
         path: legs between stops.
         b: (n + 1,) squares of the speed at the grid points [m^2/s^2].
-        parts: (n,) lengths between these [m].
     """
     speeds, first = np.sqrt(b), 0
-    seconds = 2 * parts / (speeds[:-1] + speeds[1:])
+    seconds = 2 * np.concatenate([np.diff(leg.at) for leg in path]) / (speeds[:-1] + speeds[1:])
     count = _lines(path)
     times, poses, passed = [np.zeros(1)], [_poses(path[0], np.zeros(1))], [np.zeros(1)]
     for leg in path:

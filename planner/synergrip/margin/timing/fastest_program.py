@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import sparse
 
 from synergrip.changes.at_a_value import solved
+from synergrip.conic.certificate import DUAL_TOLERANCE
 from synergrip.conic.cones import distance_to_cones
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.synergy_rate import SynergyRate
@@ -22,6 +23,8 @@ from synergrip.values import Value
 NAME = "fastest timing"
 HELD = 1e-6
 """Violation of a row between grid points, in its unit, that is not worth a reserve."""
+ROUNDS, NEAR = 4, 3.0
+"""How often it is asked anew in units that suit what came of it; b is then as many times its unit at most, or least."""
 MORE = 1.5
 """How much larger than the violation between grid points a reserve is."""
 RESERVES = 3
@@ -32,6 +35,9 @@ STEPS, SETTLED = 12, 1e-6
 """How often a local answer is bettered at most, and the share of the time that is not worth another step."""
 SAME_TIME = 1e-6
 """Share of a time within which it is the least one of a convex program."""
+
+
+Usual = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -47,35 +53,40 @@ class Timing(Value):
     """Whether it is the best in its neighbourhood only."""
 
 
-def fastest(question: TimingQuestion, unit: float, rates: Sequence[SynergyRate]) -> Timing | str:
+def fastest(
+    pose: Callable[[Usual], TimingQuestion], usual: Usual, rates: Sequence[SynergyRate]
+) -> Timing | str:
     """Return the fastest timing, or why there is none.
 
     Args:
-        question: a path, a grasp and limits.
-        unit: square of the speed as it is about [m^2/s^2].
+        pose: returns the question of a path, a grasp and limits, in units that suit a usual timing.
+        usual: acceleration and square of the speed as they are about [m/s^2, m^2/s^2]; what comes of it is asked again
+            in the units that it takes itself.
         rates: limits on the rates of references.
     """
-    timing = TimingProgram(question, unit)
-    within = _relaxed_rates(timing, rates)
-    decision = solved(NAME, _with(timing.program, within))
-    if decision.infeasible:
-        return "no timing keeps all limits, which is proven of the linear model of the start posture"
-    if not decision.acceptable:
-        return "the program of the fastest timing did not verify"
-    _, b = timing.plan(decision.solution.x)
-    if b.max() > FASTEST * unit / 2:
-        return "no end of it was found up to 1000 times as fast: give a limit that bounds the forces"
-    timing = timing.in_unit(float(b.max()))
-    decision = solved(NAME, _with(timing.program, _relaxed_rates(timing, rates)))
-    if not decision.acceptable:
-        return "the program of the fastest timing did not verify"
+    for _ in range(ROUNDS):
+        timing = TimingProgram(pose(usual), usual[1])
+        decision = solved(NAME, _with(timing.program, _relaxed_rates(timing, rates)))
+        if decision.infeasible:
+            return "no timing keeps all limits, which is proven of the linear model of the start posture"
+        if not decision.acceptable:
+            return "the program of the fastest timing did not verify"
+        _, b = timing.plan(decision.solution.x)
+        usual = float(np.abs(np.diff(b) / (2 * timing.question.parts)).max()), float(b.max())
+        if 1 / NEAR < usual[1] / timing.unit < NEAR:
+            return _whole(timing, rates, decision)
+    return f"no end of it was found up to {FASTEST ** ((ROUNDS - 1) / 2):g} times as fast: give a limit on the forces"
+
+
+def _whole(timing: TimingProgram, rates: Sequence[SynergyRate], decision: Decision) -> Timing | str:
+    """Return the fastest timing, with the reserve that limits need between the grid points."""
     least = _least(timing, decision)
     reserve = 0.0
     for _ in range(RESERVES):
         found = _kept(timing, rates, reserve, decision)
         if isinstance(found, str):
             return found
-        missing = _missing(question, found)
+        missing = _missing(timing.question, found)
         if missing <= HELD:
             return replace(found, least=least)
         reserve += MORE * missing
@@ -83,11 +94,12 @@ def fastest(question: TimingQuestion, unit: float, rates: Sequence[SynergyRate])
 
 
 def _least(timing: TimingProgram, decision: Decision) -> float | None:
-    """Return the time below which duality proves that there is no timing [s]."""
-    if not decision.optimal:
+    """Return the time below which the multipliers prove that there is no timing [s]; None where they are none."""
+    certificate = decision.certificate
+    if not (decision.acceptable and certificate.dual_residual <= DUAL_TOLERANCE):
         return None
     value = timing.program.objective(decision.solution.x)
-    return timing.seconds * (value - decision.certificate.gap * max(1.0, abs(value)))
+    return timing.seconds * (value - certificate.gap * max(1.0, abs(value)))
 
 
 def _missing(question: TimingQuestion, found: Timing) -> float:

@@ -30,7 +30,7 @@ from synergrip.values import Value
 
 PARTS = 128
 """Into how many the path is divided."""
-SLOWER = (1.0, 1.001, 1.003, 1.01, 1.03, 1.1, 1.3, 2.0)
+SLOWER = (1.0, 1.003, 1.03, 1.1, 1.3, 2.0)
 """Factors of the time of the linear model that are tried until there is a plan of the hand that moves."""
 HALVES = 2
 """How often what lies between a factor with a plan and one without is halved."""
@@ -130,14 +130,15 @@ def fastest_timing(grasp: Grasp, task: Task) -> FastestTiming:
         return _none(end - start, "the palm stays where it is")
     speed = sum(leg.length for leg in path) / (end - start)
     try:
-        question = timing_question(grasp, task, timed, path, (4 * speed / (end - start), speed**2))
+        found = fastest(
+            lambda usual: timing_question(grasp, task, timed, path, usual), (4 * speed / (end - start), speed**2),
+            tuple(each for each in timed.limits if isinstance(each, SynergyRate)),
+        )  # fmt: skip
     except Refusal as refusal:
         return _none(end - start, str(refusal))
-    rates = tuple(each for each in timed.limits if isinstance(each, SynergyRate))
-    found = fastest(question, speed**2, rates)
     if isinstance(found, str):
         return _none(end - start, found)
-    return _attained(question.grasp, task, palm, path, found, question.parts, end - start)
+    return _attained(grasp, task, palm, path, found, end - start)
 
 
 def _none(given: float, why: str) -> FastestTiming:
@@ -145,10 +146,10 @@ def _none(given: float, why: str) -> FastestTiming:
 
 
 def _attained(
-    grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, parts: Array, given: float
+    grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, given: float
 ) -> FastestTiming:
     """Return the timing as it is planned along the hand that moves."""
-    posed, passed = as_poses(path, found.b, parts)
+    posed, passed = as_poses(path, found.b)
 
     def planned(factor: float) -> Plan | None:
         slowed = _slowed(posed, factor)

@@ -6,7 +6,7 @@ b, ``c <= sqrt(b)`` and ``d >= 1 / (c_k + c_k+1)``, both rotated cones, and the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -22,8 +22,8 @@ from synergrip.values import Value
 
 TIMING = "timing"
 """What its own rows are called."""
-FASTEST = 1e6
-"""Of b, in its unit: a timing that fast is one without an end."""
+FASTEST = 100.0
+"""Of b, in its unit: far beyond it numbers differ too much in size, and it is asked again in another unit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -123,10 +123,6 @@ class TimingProgram(Value):
         n_v, m, *_ = self.sizes
         v = x[:n_v].reshape(len(self.question.parts) + 1, -1)
         return v, np.maximum(self.unit * (self.spread @ x[n_v : n_v + m]), 0.0)
-
-    def in_unit(self, unit: float) -> TimingProgram:
-        """Return the same with b in another unit [m^2/s^2]."""
-        return replace(self, unit=unit)
 
 
 def duration(question: TimingQuestion, b: Array) -> float:
