@@ -18,6 +18,7 @@ MADE_BY_OTHERS = {
     "Problem", "Plan", "Infeasible", "Unknown", "ExactProof", "NoExactProof", "Simulation", "Contact",
     "Explanation", "Repair", "When",
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
+    "FastestTiming",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

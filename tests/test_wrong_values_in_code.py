@@ -128,6 +128,7 @@ OTHERS = {
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
+    "fastest_timing", "FastestTiming",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -171,6 +172,7 @@ MADE_BY = {
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
     "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
     "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
+    "FastestTiming": "fastest_timing(",
 }  # fmt: skip
 
 

@@ -105,6 +105,8 @@ from synergrip.margin.margins import margins as margins
 from synergrip.margin.margins import Margins as Margins
 from synergrip.margin.measures import Measure as Measure
 from synergrip.margin.direct_number import DirectNumber as DirectNumber
+from synergrip.margin.timing.fastest_timing import fastest_timing as fastest_timing
+from synergrip.margin.timing.fastest_timing import FastestTiming as FastestTiming
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

@@ -14,6 +14,8 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct import direct, wanted
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.measures import Measure, measures
+from synergrip.margin.timing.fastest_timing import TIMING, FastestTiming, fastest_timing
+from synergrip.margin.timing.timeless import timeless
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
@@ -41,19 +43,21 @@ class Margins(Value):
     direct: Mapping[str, DirectNumber] = field(default_factory=dict)
     """By name; those that were found before somebody interrupted."""
     interrupted: bool = False
+    timing: FastestTiming | None = None
+    """The fastest timing along the path of the palm, when it was asked for."""
 
 
 @naming_arguments
 def margins(
     grasp: Grasp, task: Task | TimedTask, *, only: Sequence[str] = (),
-    heard: Callable[[DirectNumber], None] = lambda number: None,
+    heard: Callable[[DirectNumber | FastestTiming], None] = lambda number: None,
 ) -> Margins | Infeasible | Unknown:  # fmt: skip
     """Return the margins of the plan of a task, and how far each of its numbers may go.
 
     Args:
         grasp: the grasp.
         task: what is asked.
-        only: names of the numbers that are wanted; all when empty.
+        only: names of the numbers that are wanted; all but "fastest_timing_s" when empty.
         heard: is told of each number as it is found.
 
     Returns:
@@ -69,29 +73,36 @@ def margins(
     judge = Arguments("")
     names = judge.several("only", only, str, '"heaviest_kg"')
     judge.finish()
+    if TIMING in names:
+        timeless(grasp, task)
     made = plan(grasp, task)
     if not isinstance(made, Plan):
         return made
     asked = Asked.of(made.grasp, task, made.task)
     numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:
-        if name not in numbers:
-            raise InputError.at("only", one_of(name, list(numbers)))
+        if name not in numbers and name != TIMING:
+            raise InputError.at("only", one_of(name, [*numbers, TIMING]))
     chosen = [each for name, each in numbers.items() if not names or name in names]
     found: dict[str, DirectNumber] = {}
     if made.interrupted:
         return _found(made, {}, interrupted=True)
-    interrupted = False
+    interrupted, timing = False, None
     try:
         for number in direct(chosen, asked, made):
             found[number.name] = number
             heard(number)
+        if TIMING in names:
+            timing = fastest_timing(grasp, task)
+            heard(timing)
     except KeyboardInterrupt:
         interrupted = True
-    return _found(made, found, interrupted=interrupted)
+    return _found(made, found, interrupted=interrupted, timing=timing)
 
 
-def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
+def _found(
+    made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool, timing: FastestTiming | None = None
+) -> Margins:
     grasp = made.grasp
     least = least_normal_force(made.task.limits)
     own = measures(grasp, made.time, made.forces, least)
@@ -99,4 +110,4 @@ def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool
     if made.executed is not None:
         promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
         linear = measures(grasp, made.time, promised.forces, least)
-    return Margins(made, own, linear, numbers, interrupted)
+    return Margins(made, own, linear, numbers, interrupted, timing)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
@@ -19,19 +20,22 @@ from synergrip.margin.timing.as_poses import as_poses
 from synergrip.margin.timing.by_length import Leg, legs
 from synergrip.margin.timing.fastest_program import Timing, fastest
 from synergrip.margin.timing.question import timing_question
-from synergrip.margin.timing.timeless import judged
+from synergrip.margin.timing.timeless import timeless
 from synergrip.planning.outcome import Plan
-from synergrip.planning.pace import BRIEF
-from synergrip.planning.planning import planned_with
+from synergrip.planning.pace import WHOLE
+from synergrip.planning.planning import plan_of_start_posture, planned_with
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
 from synergrip.values import Value
 
+TIMING = "fastest_timing_s"
+"""Its name among the margins."""
 PARTS = 128
 """Into how many the path is divided."""
-SLOWER = (1.0, 1.003, 1.03, 1.1, 1.3, 2.0)
-"""Factors of the time of the linear model that are tried until there is a plan of the hand that moves."""
+SLOWER = (1.001, 1.01, 1.03, 1.1, 1.3, 2.0)
+"""Factors of the time of the linear model that are tried until there is a plan of the hand that moves; the first one is
+room for the poses, which are the timing but for the corners of its speed."""
 HALVES = 2
 """How often what lies between a factor with a plan and one without is halved."""
 
@@ -47,6 +51,7 @@ class FastestTiming(Value):
         (0.3021, 0.2984, 0.8)
     """
 
+    name: ClassVar[str] = TIMING
     value: float | None
     """[s] attained by `plan`, a verified plan along `path`; None where none was found."""
     lower: float | None
@@ -123,7 +128,7 @@ def fastest_timing(grasp: Grasp, task: Task) -> FastestTiming:
         >>> fastest_timing(problem.grasp, problem.task).value  # doctest: +SKIP
         0.3021
     """
-    grasp, task, timed, palm = judged(grasp, task)
+    grasp, task, timed, palm = timeless(grasp, task)
     start, end = float(timed.times[0]), float(timed.times[-1])
     path = legs(palm, start, end, scale_of(grasp).length, PARTS)
     if not path:
@@ -154,7 +159,10 @@ def _attained(
     def planned(factor: float) -> Plan | None:
         slowed = _slowed(posed, factor)
         loads = tuple(slowed if load is palm else load for load in task.loads)
-        outcome = planned_with(BRIEF, grasp, task.replace(loads=loads, duration=None, knots=None))
+        along = task.replace(loads=loads, duration=None, knots=None)
+        if not isinstance(plan_of_start_posture(grasp, along), Plan):
+            return None
+        outcome = planned_with(WHOLE, grasp, along)
         if isinstance(outcome, Plan) and outcome.interrupted:
             raise KeyboardInterrupt
         return outcome if isinstance(outcome, Plan) else None
@@ -187,7 +195,7 @@ def _slowed(path: PalmPath, factor: float) -> PalmPath:
 def _claim(found: Timing, factor: float, moves: bool) -> str:
     """Return what is attained, and what is proven of what."""
     who = "the hand that moves" if moves else "the linear model of the start posture"
-    slower = f", {100 * (factor - 1):.2g} % slower than the linear model of the start posture" if factor > 1 else ""
+    slower = f", {100 * (factor - 1):.2g} % slower than the linear model of the start posture is"
     local = "; with limits on rates it is the best of those near it only" if found.local else ""
     proof = (
         "; less is proven impossible of the program of the linear model of the start posture, on a grid of the path"

@@ -17,7 +17,7 @@ from synergrip.tasks.timed_task import TimedTask
 INSTEAD = "margins tells `shortest_duration_s` where one factor on all times is asked"
 
 
-def judged(grasp: object, task: object) -> tuple[Grasp, Task, TimedTask, Palm | PalmPath]:
+def timeless(grasp: object, task: object) -> tuple[Grasp, Task, TimedTask, Palm | PalmPath]:
     """Return the arguments, the task at its knots, and what moves the palm.
 
     Raises:

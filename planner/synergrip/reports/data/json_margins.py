@@ -8,6 +8,7 @@ from typing import Any
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
+from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.planning.arrays import names_of
 from synergrip.planning.told import finite, margin_document, structure_document
 from synergrip.reports.data.json_plan import plain
@@ -27,6 +28,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        **({} if found.timing is None else {found.timing.name: _timing(found.timing)}),
         "interrupted": found.interrupted,
         "notes": list(dict.fromkeys([*plan.notes, *notes])),
     })  # fmt: skip
@@ -52,4 +54,14 @@ def _number(number: DirectNumber) -> dict[str, Any]:
     return {
         "value": number.value, "lower": number.lower, "upper": number.upper, "proven": number.proven,
         "unit": number.unit, "why": number.why, "set": number.setting,
+    }  # fmt: skip
+
+
+def _timing(found: FastestTiming) -> dict[str, Any]:
+    if found.value is None or found.path is None or found.share is None:
+        return {"value": None, "why": found.why}
+    return {
+        "value": found.value, "lower": found.lower, "upper": found.upper, "proven": found.proven, "local": found.local,
+        "unit": "s", "given_s": found.given_s, "why": found.why, "time_s": list(found.path.times),
+        "share": found.share.tolist(), "path": [list(pose) for pose in found.path.poses],
     }  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from shlex import quote
 
 import numpy as np
@@ -11,6 +12,7 @@ from synergrip.documents.quantities import SHOWN_IN
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
+from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
@@ -25,8 +27,8 @@ ASKS = {
 """Name of a number -> what it answers, and the words for its unit where it has none."""
 
 
-def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
-    """Return what was asked, every margin where it is worst, and the numbers."""
+def margins_text(problem: Problem, found: Margins, color: bool = False, written: Path | None = None) -> str:
+    """Return what was asked, every margin where it is worst, and the numbers; `written` is the path of the palm."""
     plan = found.plan
     slip = found.measures["slip margin"].worst
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
@@ -34,7 +36,7 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         *problem_lines(problem), "",
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
-        _measures(found), "", *_numbers(found),
+        _measures(found), "", *_numbers(found), *_timing(problem, found.timing, written),
     ]  # fmt: skip
     notes = dict.fromkeys([*plan.notes, *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
@@ -70,6 +72,28 @@ def _numbers(found: Margins) -> Iterator[str]:
     for each in found.direct.values():
         if each.value is None:
             yield from wrapped("         ", f"{ASKS[each.name][0]}: {each.why}")
+
+
+def _timing(problem: Problem, found: FastestTiming | None, written: Path | None) -> Iterator[str]:
+    """Yield how fast the path of the palm can be gone, and how to plan it so."""
+    if found is None:
+        return
+    if found.value is None:
+        yield from wrapped("         ", f"fastest timing: {found.why}")
+        return
+    below = "" if found.lower is None else f", not below {found.lower:.5g} s"
+    yield f"Fastest timing along the path of the palm: {found.value:.5g} s instead of {found.given_s:.5g} s{below}"
+    yield from wrapped("         ", found.why)
+    if written is None:
+        yield "         -o DIR writes it as the path of the palm"
+        return
+    task, sets = problem.task, [f'task.palm={{path="{written.resolve()}",inertia=true}}']
+    if getattr(task, "duration", None) is not None:
+        sets.append(f'task.duration="{found.value!r} s"')
+    if getattr(task, "knots", None) is not None and found.path is not None:
+        sets.append(f"task.knots={len(found.path.times)}")
+    yield f"wrote    {written}"
+    yield f"with     {' '.join(f'--set {quote(each)}' for each in sets)}"
 
 
 def _row(number: DirectNumber) -> tuple[str, ...]:
