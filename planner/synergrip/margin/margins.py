@@ -73,8 +73,7 @@ def margins(
     judge = Arguments("")
     names = judge.several("only", only, str, '"heaviest_kg"')
     judge.finish()
-    if TIMING in names:
-        timeless(grasp, task)
+    free = timeless(grasp, task)[1] if TIMING in names else None
     made = plan(grasp, task)
     if not isinstance(made, Plan):
         return made
@@ -92,8 +91,8 @@ def margins(
         for number in direct(chosen, asked, made):
             found[number.name] = number
             heard(number)
-        if TIMING in names:
-            timing = fastest_timing(grasp, task)
+        if free is not None:
+            timing = fastest_timing(grasp, free)
             heard(timing)
     except KeyboardInterrupt:
         interrupted = True

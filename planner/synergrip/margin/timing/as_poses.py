@@ -7,7 +7,6 @@ import numpy as np
 from synergrip.linalg import Array, frozen
 from synergrip.margin.timing.by_length import Leg
 from synergrip.tasks.palm_path import PalmPath
-from synergrip.values import Value
 
 LINES = 60
 """Of the whole path, and the fewest of a leg."""

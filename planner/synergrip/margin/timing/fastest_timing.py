@@ -27,12 +27,15 @@ from synergrip.planning.planning import plan_of_start_posture, planned_with
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
 
 TIMING = "fastest_timing_s"
 """Its name among the margins."""
-PARTS = 128
-"""Into how many the path is divided."""
+PARTS = (128, 256, 512)
+"""Into how many the path is divided: into more where limits need a reserve between the points."""
+SMALL = 5e-3
+"""A reserve, as a share of the load, that is not worth more points."""
 SLOWER = (1.001, 1.01, 1.03, 1.1, 1.3, 2.0)
 """Factors of the time of the linear model that are tried until there is a plan of the hand that moves; the first one is
 room for the poses, which are the timing but for the corners of its speed."""
@@ -129,21 +132,28 @@ def fastest_timing(grasp: Grasp, task: Task) -> FastestTiming:
         0.3021
     """
     grasp, task, timed, palm = timeless(grasp, task)
-    start, end = float(timed.times[0]), float(timed.times[-1])
-    path = legs(palm, start, end, scale_of(grasp).length, PARTS)
-    if not path:
-        return _none(end - start, "the palm stays where it is")
-    speed = sum(leg.length for leg in path) / (end - start)
-    try:
-        found = fastest(
-            lambda usual: timing_question(grasp, task, timed, path, usual), (4 * speed / (end - start), speed**2),
-            tuple(each for each in timed.limits if isinstance(each, SynergyRate)),
-        )  # fmt: skip
-    except Refusal as refusal:
-        return _none(end - start, str(refusal))
-    if isinstance(found, str):
-        return _none(end - start, found)
-    return _attained(grasp, task, palm, path, found, end - start)
+    given = float(timed.times[-1] - timed.times[0])
+    for parts in PARTS:
+        path = legs(palm, float(timed.times[0]), float(timed.times[-1]), scale_of(grasp).length, parts)
+        if not path:
+            return _none(given, "the palm stays where it is")
+        try:
+            found = _linear(grasp, task, timed, path)
+        except Refusal as refusal:
+            return _none(given, str(refusal))
+        if not isinstance(found, str) and found.reserve <= SMALL:
+            break
+    return _none(given, found) if isinstance(found, str) else _attained(grasp, task, palm, path, found, given)
+
+
+def _linear(grasp: Grasp, task: Task, timed: TimedTask, path: tuple[Leg, ...]) -> Timing | str:
+    """Return the fastest timing of the linear model of the start posture, or why there is none."""
+    seconds = float(timed.times[-1] - timed.times[0])
+    speed = sum(leg.length for leg in path) / seconds
+    return fastest(
+        lambda usual: timing_question(grasp, task, timed, path, usual), (4 * speed / seconds, speed**2),
+        tuple(each for each in timed.limits if isinstance(each, SynergyRate)),
+    )  # fmt: skip
 
 
 def _none(given: float, why: str) -> FastestTiming:

@@ -17,6 +17,7 @@ from synergrip.conic.relaxed import heads
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
 from synergrip.linalg import Array, Places, frozen
+from synergrip.margin.timing.matrices import Sparse, below, beside, empty, ends, eye, interleaved, scaled
 from synergrip.margin.timing.question import TimingQuestion
 from synergrip.values import Value
 
@@ -47,11 +48,9 @@ class TimingProgram(Value):
         return (n + 1) * self.question.formulation.n_v, count, count, n
 
     @cached_property
-    def spread(self) -> sparse.csr_matrix:
+    def spread(self) -> Sparse:
         """(n + 1, m) from the unknowns b, or c, to all grid points."""
-        count = len(self.moving)
-        shape = (len(self.question.parts) + 1, count)
-        return sparse.csr_matrix((np.ones(count), (self.moving, np.arange(count))), shape=shape)
+        return sparse.csr_matrix(eye(len(self.question.parts) + 1)[:, self.moving])
 
     @property
     def seconds(self) -> float:
@@ -71,52 +70,38 @@ class TimingProgram(Value):
         cost = np.zeros(n)
         cost[n - self.sizes[3] :] = 2 * self.question.parts / self.question.length
         return Program(
-            sparse.csc_matrix((n, n)), frozen(cost), sparse.csc_matrix(sparse.vstack([self._of_limits(), timing])),
+            sparse.csc_matrix((n, n)), frozen(cost), sparse.csc_matrix(below((self._of_limits(), timing))),
             frozen(np.concatenate([rest.b - reserve * heads(rest), right])), (*rest.blocks, *blocks),
             len(self.question.parts) + 1, self.question.formulation.n_v, frozen(np.full(n, LARGEST)),
         )  # fmt: skip
 
-    def _of_limits(self) -> sparse.csr_matrix:
-        """Return the rows of all limits, (m, n)."""
+    def _of_limits(self) -> Sparse:
+        """Return the rows of all limits, (m, N): v and b at the instants that they speak of, a as the slope of b."""
         rows, parts = self.question.rows, self.question.parts
-        n, n_v = len(parts), self.question.formulation.n_v
-        part, side = np.divmod(np.arange(2 * n), 2)
-        points = sparse.csr_matrix((np.ones(2 * n), (np.arange(2 * n), part + side)), shape=(2 * n, n + 1))
-        slope = sparse.csr_matrix(
-            (np.tile([-1.0, 1.0], 2 * n) / np.repeat(2 * parts[part], 2),
-             (np.repeat(np.arange(2 * n), 2), np.column_stack([part, part + 1]).ravel())), shape=(2 * n, n + 1),
-        )  # fmt: skip
-        of_v = rows.at_rest.A @ sparse.kron(points, sparse.eye_array(n_v))
-        at = sparse.csr_matrix((np.ones(len(rows.of_a)), (np.arange(len(rows.of_a)), rows.instant)),
-                               shape=(len(rows.of_a), 2 * n))  # fmt: skip
-        of_b = sparse.diags_array(rows.of_a) @ at @ slope + sparse.diags_array(rows.of_b) @ at @ points
-        rest = sparse.csr_matrix((len(rows.of_a), self.sizes[2] + n))
-        return sparse.hstack([of_v, -self.unit * of_b @ self.spread, rest], format="csr")
+        sides = ends(len(parts))
+        slope = scaled(1 / (2 * parts), sides[1] - sides[0])
+        points, slopes = interleaved(sides), interleaved((slope, slope))
+        of_v = rows.at_rest.A @ sparse.kron(points, eye(self.question.formulation.n_v))
+        of_b = scaled(rows.of_a, slopes[rows.instant]) + scaled(rows.of_b, points[rows.instant])
+        rest = empty(len(rows.of_a), self.sizes[2] + self.sizes[3])
+        return beside(sparse.csr_matrix(of_v), sparse.csr_matrix(-self.unit * of_b @ self.spread), rest)
 
-    def _own(self) -> tuple[sparse.csr_matrix, Array, tuple[Block, ...]]:
+    def _own(self) -> tuple[Sparse, Array, tuple[Block, ...]]:
         """Return the rows of the timing itself: ``c^2 <= b``, ``1 <= d (c_k + c_k+1)``, and b is not without end."""
         n_v, m, _, n = self.sizes
-        one, none = sparse.eye_array(m, format="csr"), sparse.csr_matrix((m, m))
-        ends = sparse.csr_matrix(abs(_difference(n)) @ self.spread)
-        of_time, empty = sparse.eye_array(n, format="csr"), sparse.csr_matrix((n, m))
-        away = [sparse.csr_matrix((count, n_v)) for count in (m, n)]
-        far = sparse.csr_matrix((m, n))
-        root = _interleaved([
-            sparse.hstack([away[0], -one, none, far]), sparse.hstack([away[0], none, -2 * one, far]),
-            sparse.hstack([away[0], -one, none, far]),
-        ])  # fmt: skip
-        time = _interleaved([
-            sparse.hstack([away[1], empty, -ends, -of_time]), sparse.csr_matrix((n, n_v + 2 * m + n)),
-            sparse.hstack([away[1], empty, ends, -of_time]),
-        ])  # fmt: skip
-        cap = sparse.hstack([away[0], one, none, far])
+        both = sparse.csr_matrix(sum(ends(n), empty(n, n + 1)) @ self.spread)
+        of_b = beside(empty(m, n_v), -eye(m), empty(m, m + n))
+        of_c = beside(empty(m, n_v + m), -2 * eye(m), empty(m, n))
+        more = beside(empty(n, n_v + m), -both, -eye(n))
+        less = beside(empty(n, n_v + m), both, -eye(n))
+        root, time = interleaved((of_b, of_c, of_b)), interleaved((more, empty(n, sum(self.sizes)), less))
         right = np.concatenate([np.tile([1.0, 0.0, -1.0], m), np.tile([0.0, 2.0, 0.0], n), np.full(m, FASTEST)])
         blocks = (
             Block(TIMING, Kind.SECOND_ORDER, 3, (Item("speed"),), 0, m),
             Block(TIMING, Kind.SECOND_ORDER, 3, (Item("time"),), 0, n),
             Block(TIMING, Kind.NONNEGATIVE, 1, (Item("speed", "highest"),), 0, m),
         )
-        return sparse.vstack([root, time, cap], format="csr"), right, blocks
+        return below((root, time, -of_b)), right, blocks
 
     def plan(self, x: Array) -> tuple[Array, Array]:
         """Return v (n + 1, n_v) and b (n + 1,) [m^2/s^2] of a solution."""
@@ -129,15 +114,3 @@ def duration(question: TimingQuestion, b: Array) -> float:
     """Return how long the way takes with squares of the speed b (n + 1,) at the grid points [s]."""
     speeds = np.sqrt(b)
     return float((2 * question.parts / (speeds[:-1] + speeds[1:])).sum())
-
-
-def _difference(n: int) -> sparse.csr_matrix:
-    """Return (n, n + 1), the end of each part less its start."""
-    return sparse.csr_matrix(sparse.diags_array([-np.ones(n), np.ones(n)], offsets=[0, 1], shape=(n, n + 1)))
-
-
-def _interleaved(parts: list[sparse.csr_matrix]) -> sparse.csr_matrix:
-    """Return the first rows of all parts, then the second ones, and so on."""
-    count, height = len(parts), parts[0].shape[0]
-    order = np.arange(count * height).reshape(count, height).T.ravel()
-    return sparse.csr_matrix(sparse.csr_matrix(sparse.vstack(parts))[order])
