@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
@@ -13,10 +14,10 @@ import pytest
 from command_line import run
 from jaws_that_move import jaws
 from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
 
 import synergrip as sg
 from synergrip.grasps.scale import scale_of
-from synergrip.linalg import Array
 from synergrip.margin.timing import fastest_program
 from synergrip.margin.timing.by_length import Leg, legs
 from synergrip.margin.timing.fastest_program import Timing, fastest
@@ -25,6 +26,7 @@ from synergrip.margin.timing.question import TimingQuestion, timing_question
 from synergrip.planning.planning import plan_of_start_posture
 
 G, MASS, MU, CAP, MARGIN, FAR = 9.81, 0.1, 0.5, 20.0, 0.5, 0.2
+PAGE = (Path(__file__).parents[2] / "docs" / "margins.md").read_text(encoding="utf-8")
 HELD = 2 * (MU * CAP - MARGIN) / MASS
 """[m/s^2] what two jaws hold across their normals: each carries half of it."""
 LIMITS = (sg.SlipMargin(MARGIN), sg.NormalForce(upper=CAP))
@@ -102,18 +104,12 @@ def test_speed_and_acceleration_load_the_object_as_the_motion_in_time_does() -> 
     a = np.full(len(times), leg.length * 1.4 / 0.49)
     found = load_along(grasp, task, leg, s).wrench(a, b)
     poses = leg.palm.poses(s)
-    rotations = sg_rotations(poses[:, 3:])
+    rotations = Rotation.from_quat(poses[:, 3:]).as_rotvec()
     path = sg.PalmPath(times, np.hstack([poses[:, :3], rotations]), inertia=True)
     other = task.replace(loads=[task.loads[0], path], duration=None, knots=None).timed(grasp)
     expected = np.array([np.interp(times, other.times, column) for column in np.asarray(other.wrench).T]).T
     assert np.abs(found - expected)[5:-5].max() < 2e-4 * np.abs(expected).max()
     assert np.abs(load_along(grasp, task, leg, s).wrench(0 * a, b) - expected).max() > 0.1  # what a adds is seen
-
-
-def sg_rotations(quaternions: Array) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    return np.asarray(Rotation.from_quat(quaternions).as_rotvec())
 
 
 def asked(grasp: sg.Grasp, task: sg.Task, parts: int = 64) -> Timing:
@@ -158,6 +154,10 @@ def test_the_file_is_planned_with_the_asked_margin_and_no_faster(tmp_path: Path)
     found = json.loads(done.stdout)["fastest_timing_s"]
     assert found["proven"]
     assert found["lower"] < found["value"] < 1.1 * found["lower"] < found["given_s"] / 2
+    shown = re.search(r"of the palm: (\S+) s instead of (\S+) s, not below (\S+) s", PAGE)
+    assert shown is not None
+    told = [found[name] for name in ("value", "given_s", "lower")]
+    assert [float(each) for each in shown.groups()] == pytest.approx(told, rel=1e-3)
     file = tmp_path / "palm.csv"
     overrides = [f'task.palm={{path="{file}",inertia=true}}', f'task.duration="{found["value"]!r} s"', "task.knots=61"]
     again = sg.load_problem("barrett-ball-carry", overrides)
@@ -235,3 +235,19 @@ def test_a_path_by_its_length_is_the_path() -> None:
     given = CubicSpline(np.asarray(dense.times), np.asarray(dense.poses)[:, :3])(np.linspace(0, 1, 20001))
     away = np.linalg.norm(leg.palm.poses(at)[:, None, :3][::40] - given[None], axis=2).min(axis=1)
     assert away.max() < 2e-5
+
+
+def test_neither_the_frame_of_a_path_nor_its_timing_change_the_least_time() -> None:
+    """Gravity is that of the palm at the start."""
+    grasp, _ = ball()
+    dense = winding(201)
+    frame = Rotation.from_rotvec([0.4, -2.0, 1.1])
+    poses = np.array(dense.poses)
+    turned = np.hstack([
+        frame.apply(poses[:, :3]) + np.array([3.0, -1.0, 0.5]), (frame * Rotation.from_rotvec(poses[:, 3:])).as_rotvec()
+    ])  # fmt: skip
+    other = sg.PalmPath(3.0 * (np.asarray(dense.times) + 0.2) ** 1.5 - 3.0 * 0.2**1.5, turned, inertia=True)
+    one, again = (asked(grasp, carried(path)).least for path in (dense, other))
+    assert one is not None
+    assert again == pytest.approx(one, rel=2e-5)
+    assert asked(grasp, carried(dense, limits=(*LIMITS[:1], sg.NormalForce(upper=19.0)))).least > 1.01 * one  # type: ignore[operator]
