@@ -21,6 +21,7 @@ MADE_BY_OTHERS = {
     "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
     "Sensitivities", "Sensitivity",
+    "FastestTiming",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

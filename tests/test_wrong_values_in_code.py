@@ -132,6 +132,7 @@ OTHERS = {
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     "sensitivities", "Sensitivities", "Sensitivity",
+    "fastest_timing", "FastestTiming",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -179,6 +180,7 @@ MADE_BY = {
     "WrenchSpaceQuality": "wrench_space_quality(",
     "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
     "Sensitivities": "sensitivities(", "Sensitivity": "sensitivities(",
+    "FastestTiming": "fastest_timing(",
 }  # fmt: skip
 
 

@@ -116,6 +116,8 @@ from synergrip.margin.quality import WrenchSpaceQuality as WrenchSpaceQuality
 from synergrip.margin.sensitivities import sensitivities as sensitivities
 from synergrip.margin.sensitivity import Sensitivities as Sensitivities
 from synergrip.margin.sensitivity import Sensitivity as Sensitivity
+from synergrip.margin.timing.fastest_timing import fastest_timing as fastest_timing
+from synergrip.margin.timing.fastest_timing import FastestTiming as FastestTiming
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 

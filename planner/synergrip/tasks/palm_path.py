@@ -139,6 +139,11 @@ class PalmSpline:
         origin = self._from_file(self.poses(times, 2)[:, :3], times)
         return acceleration_of(point, origin, *self.rotation_rates(times))
 
+    def velocity(self, point: Array, times: Array) -> Array:
+        """Return the velocity (T, 3) [m/s], in the palm frame, of a point (3,) [m] fixed to the palm."""
+        omega, _ = self.rotation_rates(times)
+        return self._from_file(self.poses(times, 1)[:, :3], times) + np.cross(omega, point)
+
     def _from_file(self, vectors: Array, times: Array) -> Array:
         """Return vectors (3,) or (T, 3) of the frame of the file in the palm frame (T, 3): ``R' v``."""
         from scipy.spatial.transform import Rotation

@@ -1,0 +1,185 @@
+"""What is asked of the timing along a path: the rows of all limits at both sides of every grid point, affine in it.
+
+Between grid points the acceleration a is constant, so that b = (ds/dt)^2 is linear in s, and the unknowns v of the
+plan are linear in s too: they are the same on both sides of a grid point, where the load jumps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from synergrip.conic.formulation import Formulation
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.program import Program
+from synergrip.conic.question import Question
+from synergrip.errors import InputError
+from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array, Places, frozen
+from synergrip.margin.timing.by_length import Leg
+from synergrip.margin.timing.loads import LoadAlong, load_along
+from synergrip.planning.formulated import formulated
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.restraint import NO_LOAD
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask, still
+from synergrip.tasks.timing import at_start
+from synergrip.values import Value
+
+LOOKS = (0.25, 0.5, 0.75)
+"""Where between grid points it is looked whether all limits hold there, too, as shares of the part."""
+ADDS_UP = 1e-9
+"""Share by which what limits say of a sum of loads may differ from the sum of what they say of each."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TimingQuestion(Value):
+    """A path, a grasp and limits, whose timing is free."""
+
+    grasp: Grasp
+    task: Task
+    legs: tuple[Leg, ...]
+    limits: tuple[Limit, ...]
+    """Those that speak of one instant each."""
+    formulation: Formulation
+    """At both sides of every part: its start, its end, and so on."""
+    load: LoadAlong
+    """At the same."""
+
+    @cached_property
+    def parts(self) -> Array:
+        """(n,) length of each part of the path [m]."""
+        return frozen(np.concatenate([np.diff(leg.at) for leg in self.legs]))
+
+    @property
+    def length(self) -> float:
+        """Of the whole path [m]."""
+        return float(self.parts.sum())
+
+    @cached_property
+    def stops(self) -> Places:
+        """Grid points at which the palm is at rest: both ends, and the corners."""
+        return np.concatenate([[0], np.cumsum([len(leg.at) - 1 for leg in self.legs])])
+
+    @cached_property
+    def rows(self) -> Rows:
+        """All limits as rows.
+
+        Raises:
+            InputError: a limit is not affine in the load.
+        """
+        none = np.zeros(len(self.load.at_rest))
+        one = none + 1.0
+        every = [(none, none), (one, none), (none, one), (one, one)]
+        rest, by_a, by_b, both = (self.program_at(self.load.wrench(a, b)) for a, b in every)
+        of_a, of_b = by_a.b - rest.b, by_b.b - rest.b
+        size = ADDS_UP * (np.abs(rest.b) + np.abs(of_a) + np.abs(of_b) + 1)
+        wrong = np.abs(both.b - rest.b - of_a - of_b) > size
+        for other in (by_a, by_b, both):
+            wrong |= np.asarray(abs(other.A - rest.A).sum(axis=1)).ravel() > ADDS_UP
+        for block, own in rest.slices():
+            if np.any(wrong[own]):
+                message = "is not affine in the load, which the fastest timing takes; leave it out"
+                raise InputError.at(block.limit, message)
+        return Rows(rest, frozen(of_a), frozen(of_b))
+
+    def program_at(self, wrench: Array) -> Program:
+        """Return the rows under some load (2 n, 6)."""
+        return Question(replace(self.formulation, wrench=wrench), self.limits, LeastEffort()).program()
+
+    def between(self, v: Array, b: Array) -> Program:
+        """Return the rows inside the parts, with the unknowns there as they are: those of the program's are zero.
+
+        Args:
+            v: (n + 1, n_v) unknowns of the plan at the grid points.
+            b: (n + 1,) squares of the speed there [m^2/s^2].
+        """
+        a, share = np.diff(b) / (2 * self.parts), np.array(LOOKS)
+        inner = b[:-1, None] * (1 - share) + b[1:, None] * share
+        found = None
+        for leg, first in zip(self.legs, self.stops, strict=False):
+            at = (leg.at[:-1, None] + np.diff(leg.at)[:, None] * share).ravel()
+            load = load_along(self.grasp, self.task, leg, at)
+            own = slice(int(first), int(first) + len(leg.at) - 1)
+            wrench = load.wrench(np.repeat(a[own], len(share)), inner[own].ravel())
+            found = wrench if found is None else np.concatenate([found, wrench])
+        assert found is not None
+        unknowns = (v[:-1, None] * (1 - share[:, None]) + v[1:, None] * share[:, None]).reshape(-1, v.shape[1])
+        formulation = _at(self.formulation, found)
+        program = Question(formulation, self.limits, LeastEffort()).program()
+        slack = program.b - program.A @ unknowns.ravel()
+        return replace(program, A=sparse.csc_matrix(program.A.shape), b=frozen(slack))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Rows(Value):
+    """Rows ``b + of_a a + of_b b - A v`` in their cones, at both sides of every part."""
+
+    at_rest: Program
+    of_a: Array  # (m,)
+    of_b: Array  # (m,)
+
+    @cached_property
+    def instant(self) -> Places:
+        """(m,) of which instant each row speaks."""
+        found = [
+            block.first_knot + np.repeat(np.arange(block.knots), len(block.items) * block.dim)
+            for block in self.at_rest.blocks
+        ]
+        return np.concatenate([np.zeros(0, dtype=np.int64), *found])
+
+
+def timing_question(
+    grasp: Grasp, task: Task, timed: TimedTask, path: tuple[Leg, ...], usual: tuple[float, float]
+) -> TimingQuestion:
+    """Return the question of the linear model of the start posture, which holds the load at rest when the task begins.
+
+    Args:
+        grasp: who plans.
+        task: what is asked; its loads are not bound to time.
+        timed: the same at its knots.
+        path: of the palm, legs between its stops.
+        usual: acceleration and square of the speed along the path as they are about [m/s^2, m^2/s^2], for the units.
+
+    Raises:
+        Refusal: the load needs what the contacts leave free.
+        InputError: inertia without a mass.
+    """
+    load = None
+    for leg in path:
+        ends = np.column_stack([leg.at[:-1], leg.at[1:]]).ravel()
+        own = load_along(grasp, task, leg, ends)
+        load = own if load is None else load.and_then(own)
+    assert load is not None
+    limits = tuple(each for each in timed.all_limits if not each.couples_knots)
+    begun = at_start(grasp, load.at_rest[0])
+    analysis = analyse(begun, NO_LOAD)
+    size = np.ones(len(load.at_rest))
+    formulation = _formulation(analysis, timed, load.wrench(usual[0] * size, usual[1] * size))
+    return TimingQuestion(begun, task, path, limits, formulation, load)
+
+
+def _formulation(analysis: Analysis, timed: TimedTask, wrench: Array) -> Formulation:
+    """Return what the unknowns mean at some instants, in units that suit a load (T, 6) there."""
+    times = frozen(np.arange(float(len(wrench))))
+    posed = replace(
+        timed, times=times, wrench=wrench, target=still(times), course=None, between=None, control=None,
+        limits=tuple(each for each in timed.limits if not each.couples_knots),
+    )  # fmt: skip
+    return formulated(analysis, posed, redundancy=timed.watches_references)
+
+
+def _at(formulation: Formulation, wrench: Array) -> Formulation:
+    """Return the same at other instants, which differ in nothing but the load (T, 6)."""
+    count = len(wrench)
+    parts = {
+        name: replace(part, constant=frozen(np.tile(part.constant[:1], (count, 1))))
+        for name in ("alpha", "beta", "gamma")
+        for part in (getattr(formulation, name),)
+    }
+    target = frozen(np.tile(formulation.target[:1], (count, 1)))
+    return replace(formulation, times=frozen(np.arange(float(count))), wrench=frozen(wrench), target=target, **parts)
