@@ -49,7 +49,8 @@ class Case(Value):
             return formulation
         change = self.extra.at(formulation.times)
         if formulation.along_path:
-            return replace(formulation, departure=under_load(formulation.map_of, change, self.force))
+            known = None if self.force is None else self.force[: formulation.knots]
+            return replace(formulation, departure=under_load(formulation.map_of, change, known))
         between = formulation.intersample
         return replace(
             formulation, wrench=frozen(formulation.wrench + change),
@@ -67,6 +68,8 @@ class Allowed(Value):
     """The load that the task states is the first."""
     gaps: Array
     """(n_c,) [m] how far each contact may be off along its normal."""
+    rounds: int = 0
+    """How often what loads add was looked up along a path."""
 
     def narrowed(self, formulation: Formulation) -> Formulation:
         """Return a formulation with the least friction."""

@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from synergrip.conic.affine import Affine, times
+from synergrip.conic.affine import Affine
 from synergrip.conic.beside_knots import fields_of
 from synergrip.conic.each_knot import Statics
 from synergrip.conic.formulation import Formulation
@@ -86,10 +86,8 @@ class AlongPath(Formulation):
     def torque(self) -> Affine:
         """Joint torques tau (n_q), which change with the forces and as these act at other places [N m]."""
         there = self.map_of(lambda at: (forces_at_start(at.response)[..., None, :] @ at.response.grasp.J)[..., 0, :])
-        whole = self._whole.after(self._but_for_gamma(lambda at: at.response.dtau_dzr)).plus(there)
-        if self.departure is None:
-            return whole
-        return whole.plus(times(self.map_of(lambda at: at.response.grasp.J.mT), self.departure.force))
+        moved = self._whole.after(self._but_for_gamma(lambda at: at.response.dtau_dzr))
+        return self.departed("torque", moved.plus(there))
 
     def _but_for_gamma(self, of: Callable[[Statics], Array]) -> Array:
         """Return a map of references as one of (alpha, beta, gamma), without what gamma adds to it.

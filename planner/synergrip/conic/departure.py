@@ -27,6 +27,7 @@ class Departure(Value):
     """What is added at every knot, the same at all (1, ...) or (T, ...) with one for each."""
 
     force: Array  # (T, n_l) contact forces [N, N m]
+    torque: Array  # (T, n_q) of the joints [N m], or forces of slides [N]
     joint: Array  # (T, n_q) joint displacement [rad or m]
     displacement: Array  # (T, 6) of the object [m, rad]
 
@@ -41,7 +42,8 @@ def under_load(map_of: Map, change: Array, force: Array | None = None) -> Depart
     """
     known = times(map_of(lambda at: at.response.dlambda_dw), change) if force is None else force
     joint, moved = (times(map_of(of), change) for of in (lambda at: at.response.dq_dw, lambda at: at.response.du_dw))
-    return Departure(frozen(known), frozen(joint), frozen(moved))
+    torque = times(map_of(lambda at: at.response.grasp.J.mT), known)
+    return Departure(frozen(known), frozen(torque), frozen(joint), frozen(moved))
 
 
 def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
@@ -71,6 +73,6 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
             force = answer[..., :n_l]
             torque = (force[..., None, :] @ J)[..., 0, :]
             joint = -(torque[..., None, :] @ of_joints.mT)[..., 0, :]
-            parts = (force, joint, answer[..., n_l:] / EVEN)
+            parts = (force, torque, joint, answer[..., n_l:] / EVEN)
             found.append(Departure(*(frozen(np.atleast_2d(part)) for part in parts)))
     return found

@@ -15,11 +15,12 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
 from synergrip.planning.claims import Claims, compared
 from synergrip.planning.formulated import formulated
+from synergrip.planning.in_cases import case_checks, in_cases
 from synergrip.planning.outcome import Check
 from synergrip.planning.references import References
 from synergrip.planning.sizes import sizes_of
 from synergrip.planning.stated import stated
-from synergrip.planning.verified import between_checks, identities, limit_checks, limit_usages
+from synergrip.planning.verified import LIMIT, between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.statics.restraint import NO_LOAD
@@ -124,7 +125,7 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     tracking = _tracking(task, times, reached[1], formulation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
     found = between(there, analysis, formulation, motion)
-    checks += between_checks(there, found)
+    checks += (*between_checks(there, found), *case_checks(in_cases(there, analysis, formulation, motion.dz_r), LIMIT))
     return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
 
 
