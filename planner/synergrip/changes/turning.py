@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.changes.allowance_dials import allowance_dials
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
@@ -36,7 +37,8 @@ def dials(asked: Asked, timed: TimedTask, analysis: Analysis) -> tuple[Dial[Aske
         timed: the same at its knots.
         analysis: of the grasp.
     """
-    return tuple((*_of_limits(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked)))
+    own = (*_of_limits(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked))
+    return (*own, *allowance_dials(asked))
 
 
 def _of_limits(asked: Asked) -> Iterator[Dial[Asked]]:

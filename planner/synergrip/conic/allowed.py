@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Protocol
 
 import numpy as np
 
-from synergrip.conic.departure import off_place, under_load
+from synergrip.conic.departure import off_place, together, under_load
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.reserve import lost
@@ -24,6 +25,9 @@ from synergrip.conic.rows import Kind, Rows
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
+
+MOST_CORNERS = 256
+"""Cases with contacts off to either side that are looked at together, at most."""
 
 
 class Extra(Protocol):
@@ -70,6 +74,28 @@ class Allowed(Value):
     """(n_c,) [m] how far each contact may be off along its normal."""
     rounds: int = 0
     """How often what loads add was looked up along a path."""
+    cornered: bool = False
+    """Whether contacts that are off are cases of their own, to either side, in place of a reserve that asks for more
+    than is needed."""
+
+    @property
+    def reserves(self) -> bool:
+        """Whether more is asked for than is needed: without an answer nothing is proven."""
+        return bool(np.any(self.gaps > 0)) and not self.cornered
+
+    @property
+    def signs(self) -> tuple[tuple[int, ...], ...]:
+        """To which sides the contacts that may be off are: all together, or one after the other where that is much."""
+        count = int(np.count_nonzero(self.gaps > 0))
+        if self.all_signs:
+            return tuple(product((1, -1), repeat=count))
+        return tuple(tuple(side * (i == j) for j in range(count)) for i in range(count) for side in (1, -1))
+
+    @property
+    def all_signs(self) -> bool:
+        """Whether all sides of all contacts that may be off are few enough to look at them together."""
+        corners = len(self.cases) * 2 ** int(np.count_nonzero(self.gaps > 0))
+        return bool(corners <= MOST_CORNERS)
 
     def narrowed(self, formulation: Formulation) -> Formulation:
         """Return a formulation with the least friction."""
@@ -82,7 +108,11 @@ class Allowed(Value):
         """Return a formulation in all cases, and with one contact after the other off, under the load stated."""
         narrow = self.narrowed(formulation)
         offs = off_place(narrow.map_of, narrow.response.grasp, self.gaps)
-        return [case.of(narrow) for case in self.cases], [replace(narrow, departure=off) for off in offs]
+        cases = [case.of(narrow) for case in self.cases]
+        if not self.cornered or not offs:
+            return cases, [replace(narrow, departure=off) for off in offs]
+        corners = [together(signs, offs) for signs in self.signs]
+        return [replace(each, departure=off.beside(each.departure)) for each in cases for off in corners], []
 
 
 def in_all_cases(cases: Sequence[Sequence[Rows]], offs: Sequence[Sequence[Rows]]) -> list[Rows]:

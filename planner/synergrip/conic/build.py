@@ -85,7 +85,8 @@ def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list
     stated, rows = _Instants.of(formulation), list[Rows]()
     cases, offs = ([], []) if formulation.allowed is None else formulation.allowed.formulations(formulation)
     in_cases, in_offs = ([_Instants.of(each) for each in parts] for parts in (cases, offs))
-    for part in (*limits, goal):
+    parts: tuple[Limit | Goal, ...] = (*limits, goal)
+    for part in parts:
         alone = isinstance(part, Limit) and part.of_references_alone
         if alone or not in_cases:
             rows += stated.rows(part)

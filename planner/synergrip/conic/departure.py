@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +30,17 @@ class Departure(Value):
     torque: Array  # (T, n_q) of the joints [N m], or forces of slides [N]
     joint: Array  # (T, n_q) joint displacement [rad or m]
     displacement: Array  # (T, 6) of the object [m, rad]
+
+    def beside(self, other: Departure | None) -> Departure:
+        """Return this and another one."""
+        return self if other is None else together((1, 1), (self, other))
+
+
+def together(signs: Sequence[int], parts: Sequence[Departure]) -> Departure:
+    """Return the sum of some departures, each with its sign."""
+    names = [each.name for each in fields(Departure)]
+    sums = (sum(sign * getattr(part, name) for sign, part in zip(signs, parts, strict=True)) for name in names)
+    return Departure(*(frozen(np.asarray(each)) for each in sums))
 
 
 def under_load(map_of: Map, change: Array, force: Array | None = None) -> Departure:

@@ -141,6 +141,7 @@ def _linear(
 
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
+    from synergrip.planning.executed_cases import executed_cases
     from synergrip.planning.executing import Executor
     from synergrip.planning.figures import figures
     from synergrip.planning.reach import off
@@ -158,8 +159,10 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
     margins = frozen(found.usages[0].value)
+    cases = executed_cases(walk, walker, formulation)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between,
+        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks, *cases.checks),
+        found.between,
         walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench),
     )  # fmt: skip
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.in_order import InOrder
 from synergrip.documents.naming import made_by
 from synergrip.values import Value
+
+ALIKE = 1e-6
+"""Share of the smallest margin by which another one is as small."""
 
 
 @made_by("plan(grasp, task).cases")
@@ -34,3 +38,9 @@ class InCase(Value):
     def margin(self) -> float:
         """The smallest slip margin [N]."""
         return float(self.usages[0].value.min())
+
+
+def worst_case(cases: Sequence[InCase]) -> InCase:
+    """Return the case with the smallest slip margin; the first of those that differ by rounding."""
+    least = min(case.margin for case in cases)
+    return next(case for case in cases if case.margin <= least + ALIKE * abs(least))

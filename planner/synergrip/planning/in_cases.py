@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import product
-
-import numpy as np
 
 from synergrip.conic.allowed import Allowed
-from synergrip.conic.departure import Departure, off_place
+from synergrip.conic.departure import Departure, off_place, together
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.conic.well_formed import usage_of
@@ -23,8 +20,6 @@ from synergrip.tasks.timed_task import TimedTask
 
 ALL_CASES = "what is allowed"
 """How the names of checks begin that are about all cases."""
-MOST_OFF = 512
-"""Cases times signs of contacts that are off, up to which all are looked at; beyond, one contact after the other."""
 
 
 def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r: Array) -> tuple[InCase, ...]:
@@ -74,32 +69,18 @@ def with_contacts_off(
         yield "", motion
         return
     own = [name for name, gap in zip(names, allowed.gaps, strict=True) if gap > 0]
-    for signs in _signs(len(offs), len(allowed.cases)):
+    for signs in allowed.signs:
         early, late = ([name for name, sign in zip(own, signs, strict=True) if sign == side] for side in (1, -1))
         words = [f"{' and '.join(each)} {side}" for each, side in ((early, "early"), (late, "late")) if each]
-        yield ", ".join(words), _moved(motion, S, signs, offs)
+        yield ", ".join(words), _moved(motion, S, together(signs, offs))
 
 
-def _signs(count: int, cases: int) -> Iterator[Sequence[int]]:
-    """Yield to which sides contacts are off."""
-    if cases * 2**count <= MOST_OFF:
-        yield from product((1, -1), repeat=count)
-        return
-    for i in range(count):
-        for side in (1, -1):
-            yield [side * (i == j) for j in range(count)]
-
-
-def _moved(motion: Motion, S: Array, signs: Sequence[int], offs: Sequence[Departure]) -> Motion:
+def _moved(motion: Motion, S: Array, off: Departure) -> Motion:
     """Return a motion with what contacts that are off add to it."""
-    force, torque, joint, displacement = (
-        sum((sign * getattr(off, name) for sign, off in zip(signs, offs, strict=True)), np.zeros((1, 1)))
-        for name in ("force", "torque", "joint", "displacement")
-    )
     return replace(
-        motion, forces=frozen(motion.forces + force), torques=frozen(motion.torques + torque),
-        efforts=frozen(motion.efforts + torque @ S), dq=frozen(motion.dq + joint),
-        du=frozen(motion.du + displacement),
+        motion, forces=frozen(motion.forces + off.force), torques=frozen(motion.torques + off.torque),
+        efforts=frozen(motion.efforts + off.torque @ S), dq=frozen(motion.dq + off.joint),
+        du=frozen(motion.du + off.displacement),
     )  # fmt: skip
 
 

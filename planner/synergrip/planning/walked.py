@@ -161,9 +161,7 @@ def _goal_notes(walk: Walk) -> tuple[str, ...]:
     return () if walk.stage is None else walk.stage.notes
 
 
-def _with(
-    plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: ExecutedCases, told: Sequence[str]
-) -> Plan:
+def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: ExecutedCases, told: Sequence[str]) -> Plan:
     """Return a plan with the figures of a walk."""
     alpha, beta, gamma = walker.start.coordinates.coordinates(walk.references)
     fixed = walker.executor.with_fixed_contacts(walk.executed, walker.task.wrench)

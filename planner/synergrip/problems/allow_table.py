@@ -65,7 +65,7 @@ def _load(value: object) -> tuple[float, ...]:
     if axis not in ("x", "y", "z"):
         raise InputError.at("", f"expected 6 numbers (N, N m), or a force such as {ALONG}; got {shown(value)}")
     force = sign * quantity(size, "force")
-    return tuple(force * (axis == name) for name in "xyz") + (0.0, 0.0, 0.0)
+    return (*(force * (axis == name) for name in "xyz"), 0.0, 0.0, 0.0)
 
 
 def _box(value: object) -> tuple[float, ...]:
@@ -91,19 +91,21 @@ class AllowTable(Table):
         Interval | dict[str, Interval] | None,
         Written(_friction, _or_by_name(array_of({"type": "number", "exclusiveMinimum": 0}, 2))),
     ] = Field(default=None, description="[least, largest] coefficient of friction, of all contacts or of those named")
-    friction_share: Annotated[
-        float, Written(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})
-    ] = Field(default=0.0, description="share by which all friction may be less or more, spin friction too")
+    friction_share: Annotated[float, Written(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})] = Field(
+        default=0.0, description="share by which all friction may be less or more, spin friction too"
+    )
     mass: Annotated[Interval | None, Written(_masses, array_of(unit_schema("mass"), 2))] = Field(
         default=None, description="[least, largest] mass of the object; gravity and inertia go with it"
     )
     load: Annotated[
         tuple[tuple[float, ...], ...],
         Written(
-            lambda value: listed(_load, value, of="loads"), array_of({"anyOf": [{"type": "string"}, array_of(COMPONENT, 6)]})
+            lambda value: listed(_load, value, of="loads"),
+            array_of({"anyOf": [{"type": "string"}, array_of(COMPONENT, 6)]}),
         ),
     ] = Field(
-        default=(), description='loads that may act as well: 6 numbers about B, or "0.5 N along x"; each of them or none'
+        default=(),
+        description='loads that may act as well: 6 numbers about B, or "0.5 N along x"; each of them or none',
     )
     load_box: Annotated[tuple[float, ...], Written(_box, array_of(COMPONENT, 6))] = Field(
         default=(0.0,) * 6, description="how large each component of a further load may be, either way: 6 numbers"

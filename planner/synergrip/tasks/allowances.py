@@ -93,7 +93,14 @@ class Allowances(ByContent):
     def asked(self) -> bool:
         """Whether anything is allowed for."""
         gaps = self.contact_gap.values() if isinstance(self.contact_gap, Mapping) else (self.contact_gap,)
-        some = (self.friction, self.friction_share, self.mass, np.any(self.load), np.any(self.load_box), any(gaps))
+        some = (
+            self.friction,
+            self.friction_share,
+            self.mass,
+            np.any(np.asarray(self.load)),
+            np.any(self.load_box),
+            any(gaps),
+        )
         return any(each is not None and bool(each) for each in some)
 
 

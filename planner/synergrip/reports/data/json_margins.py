@@ -9,7 +9,7 @@ from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
 from synergrip.planning.arrays import names_of
-from synergrip.planning.told import finite, margin_document, structure_document
+from synergrip.planning.told import cases_document, finite, margin_document, structure_document
 from synergrip.reports.data.json_plan import plain
 
 
@@ -27,6 +27,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        "allowances": cases_document(plan.cases),
         "interrupted": found.interrupted,
         "notes": list(dict.fromkeys([*plan.notes, *notes])),
     })  # fmt: skip
