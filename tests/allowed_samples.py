@@ -69,7 +69,8 @@ def elastic_forces(grasp: Grasp, dz_r: Array, wrench: Array, gaps: Array) -> Arr
     off[[rows.start for rows in grasp.rows]] = gaps
     still = np.concatenate([np.zeros(n_l), -grasp.w_0])
     start = grasp.lambda_0 if grasp.lambda_0 is not None else np.linalg.solve(system, still)[:n_l]
-    right = np.hstack([stiffness * (dz_r @ (J @ S).T + off), -(wrench - grasp.w_0)]).T
+    change = np.broadcast_to(wrench - grasp.w_0, (len(dz_r), 6))
+    right = np.hstack([stiffness * (dz_r @ (J @ S).T + off), -change]).T
     return np.asarray(start + np.linalg.solve(system, right)[:n_l].T)
 
 
@@ -77,5 +78,3 @@ def with_mass(task_wrench: Array, weight: Array, mass: float | None, own: float 
     """Return the wrench (T, 6) with another mass and a load beside it."""
     share = 0.0 if mass is None or not own else mass / own - 1.0
     return frozen(task_wrench + share * weight + load)
-
-

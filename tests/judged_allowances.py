@@ -26,6 +26,7 @@ from random_tasks import random_task_on_grasp
 from second_execution import executed
 
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
@@ -93,16 +94,16 @@ def _told(counted: Counter[str], name: str, margins: Array, forces: Array, asked
 
 
 def _hand(rng: np.random.Generator, name: str, counted: Counter[str]) -> None:
-    problem = load_problem(name)
+    problem = load_problem(name, "task.knots=7")
     body = problem.held.body if problem.held else None
     assert body is not None
     weight = 9.81 * body.mass if body.mass else 2.0
     allow = Allowances(
-        friction_share=float(rng.uniform(0.03, 0.15)),
-        mass=(0.8 * body.mass, float(rng.uniform(1.05, 1.3)) * body.mass) if body.mass else None,
-        load=[np.concatenate([0.15 * weight * rng.normal(size=3), np.zeros(3)]) for _ in "ab"],
+        friction_share=float(rng.uniform(0.03, 0.1)),
+        mass=(0.8 * body.mass, float(rng.uniform(1.05, 1.2)) * body.mass) if body.mass else None,
+        load=[np.concatenate([0.1 * weight * rng.normal(size=3), np.zeros(3)]) for _ in "ab"],
     )
-    limits = [each for each in problem.task.limits if "normal" not in each.key]
+    limits = [each for each in problem.task.limits if isinstance(each, SlipMargin | JointRange)]
     task = problem.task.replace(limits=limits)
     bare, held = plan(problem.grasp, task), plan(problem.grasp, task.replace(allow=allow))
     counted[f"planned: {held.verdict}"] += 1

@@ -17,7 +17,7 @@ MADE_BY_OTHERS = {
     "Hand", "Grasp", "Analysis", "GraspStack", "Analyses", "Execution", "Program", "Certificate", "TimedTask",
     "Problem", "Plan", "Infeasible", "Unknown", "ExactProof", "NoExactProof", "Simulation", "Contact",
     "Explanation", "Repair", "When",
-    "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
+    "MissingSynergies", "SynergiesNeeded", "InCase", "Margins", "Measure", "DirectNumber",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

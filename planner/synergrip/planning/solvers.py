@@ -37,9 +37,6 @@ def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution
     """Answer by the second formulation; it writes down the start posture, and leaves what is around a path."""
     if question.formulation.along_path:
         return SOLVERS["clarabel"](question, program, settings)
-    if question.formulation.allowed is not None:
-        message = "the second formulation writes down what a task states, and nothing that it allows for beside that"
-        raise InputError.at("solver", f"{message}; leave the solver out, or Task.allow")
     from synergrip.referee import judge as referee
 
     return referee.solve(question, program, settings)

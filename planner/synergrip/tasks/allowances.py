@@ -82,7 +82,8 @@ class Allowances(ByContent):
 
     def _loads(self, judge: TaskArguments) -> Array:
         given: Any = self.load
-        if not isinstance(given, list | tuple | np.ndarray):
+        rows = given.ndim == 2 if isinstance(given, np.ndarray) else isinstance(given, list | tuple)
+        if not rows:
             judge.refuse("load", "expected a list of wrenches of 6 numbers each")
             return frozen(np.zeros((0, 6)))
         return frozen(
@@ -106,10 +107,9 @@ class Allowances(ByContent):
 
 def _interval(judge: TaskArguments, name: str, value: Any, unit: str = "") -> Interval:
     """Return a least and a largest value greater than 0, after noting that they are none."""
-    if not isinstance(value, list | tuple | np.ndarray) or len(value) != 2:
-        judge.refuse(name, "expected two numbers, the least and the largest value")
-        return (np.nan, np.nan)
-    low, high = (judge.real(f"{name}[{i}]", each, above=0, unit=unit) for i, each in enumerate(value))
-    if low > high:
-        judge.refuse(name, f"the least value {low:g} exceeds the largest, {high:g}; swap them")
+    before = len(judge.issues)
+    low, high = judge.vector(name, value, 2, f"the least and the largest value{f' in {unit}' if unit else ''}")
+    if len(judge.issues) == before and not 0 < low <= high:
+        wrong = f"the least value {low:g} exceeds the largest, {high:g}; swap them" if low > 0 else ""
+        judge.refuse(name, wrong or f"expected numbers greater than 0, got {low:g}")
     return (low, high)
