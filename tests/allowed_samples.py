@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -31,16 +32,17 @@ def sample(rng: np.random.Generator, allow: Allowances, grasp: Grasp) -> Sample:
     share = inside(1 - allow.friction_share, 1 + allow.friction_share)
     friction = []
     for contact in grasp.contacts:
-        given = allow.friction.get(contact.name) if isinstance(allow.friction, dict) else allow.friction
+        given: Any = allow.friction.get(contact.name) if isinstance(allow.friction, dict) else allow.friction
         low, high = given or (contact.friction, contact.friction)
         friction.append(share * inside(low, high) if given is None else inside(low, high))
     own = None if grasp.held is None else grasp.held.body.mass
     mass = own if allow.mass is None or own is None else inside(min(allow.mass[0], own), max(allow.mass[1], own))
     load = np.array([inside(-each, each) for each in np.asarray(allow.load_box).tolist()])
     if len(allow.load):
-        weights = rng.dirichlet(np.ones(len(allow.load) + 1)) if rng.random() < 0.5 else np.eye(len(allow.load) + 1)[0]
+        corner = np.eye(len(allow.load) + 1)[rng.integers(len(allow.load) + 1)]
+        weights = rng.dirichlet(np.ones(len(allow.load) + 1)) if rng.random() < 0.5 else corner
         load = load + weights[:-1] @ np.asarray(allow.load)
-    gap = allow.contact_gap
+    gap: Any = allow.contact_gap
     gaps = [gap.get(c.name, 0.0) if isinstance(gap, dict) else gap for c in grasp.contacts]
     return Sample(np.array(friction), share, mass, load, np.array([inside(-each, each) for each in gaps]))
 

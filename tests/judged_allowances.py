@@ -3,9 +3,9 @@
     python tests/judged_allowances.py [GRASPS [HANDS [SAMPLES [FIRST SEED]]]]
 
 GRASPS (50) random grasps given as matrices, with friction, loads and contact gaps that are allowed for; HANDS (6)
-variations of bundled problems on hands, with friction, mass and loads. Of each plan SAMPLES (1000) values inside what is
-allowed, and at its ends, are looked at: the forces of matrices by one elastic system written down anew, those of hands
-by the second execution of `second_execution.py` (20 samples each, which take longer). Prints how many samples of plans
+variations of bundled problems on hands, with friction, mass and loads. Of each plan SAMPLES (1000) values inside
+what is allowed, and at its ends, are looked at: the forces of matrices by one elastic system written down anew, those
+of hands by the second execution of `second_execution.py` (10 samples each, which take longer). Prints how many samples of plans
 with and without allowances miss the asked margin, and how many slip.
 """
 
@@ -41,7 +41,7 @@ from synergrip.tasks.wrenches import Wrench
 REPOSITORY = Path(__file__).parent.parent
 SAME, SHARE = 1e-3, 1e-3
 """How far below the asked margin a true state counts as kept [N], and as a share of the largest force."""
-EXECUTED = 20
+EXECUTED = 10
 ON_HANDS = ("barrett-ball-hold", "gripper-box", "dlr-ball-move", "table2-soft-motors", "brown-asada-ball",
             "barrett-ball-lift-joints")  # fmt: skip
 
@@ -115,6 +115,7 @@ def _hand(rng: np.random.Generator, name: str, counted: Counter[str]) -> None:
         counted["samples"] += 1
         for said, made in (("with", held), ("without", bare)):
             _executed(problem.grasp, made, said, drawn, body.mass, counted)
+    print(name, dict(sorted(counted.items())), flush=True)
 
 
 def _executed(grasp: Grasp, made: Plan, said: str, drawn: Sample, own: float, counted: Counter[str]) -> None:
@@ -135,7 +136,7 @@ def _weight(made: Plan) -> Array:
 
     course: Any = made.task.course
     parts = weight_of(course)
-    return course.factor * sum((part.at(made.time) for part in parts), np.zeros((len(made.time), 6)))
+    return np.asarray(course.factor * sum((part.at(made.time) for part in parts), np.zeros((len(made.time), 6))))
 
 
 if __name__ == "__main__":

@@ -129,7 +129,8 @@ OTHERS = {
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
-    "missing_synergies", "MissingSynergies", "SynergiesNeeded", "InCase", "margins", "Margins", "Measure", "DirectNumber",
+    "missing_synergies", "MissingSynergies", "SynergiesNeeded", "InCase",
+    "margins", "Margins", "Measure", "DirectNumber",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
