@@ -5,8 +5,8 @@
 GRASPS (50) random grasps given as matrices, with friction, loads and contact gaps that are allowed for; HANDS (6)
 variations of bundled problems on hands, with friction, mass and loads. Of each plan SAMPLES (1000) values inside
 what is allowed, and at its ends, are looked at: the forces of matrices by one elastic system written down anew, those
-of hands by the second execution of `second_execution.py` (10 samples each, which take longer). Prints how many samples of plans
-with and without allowances miss the asked margin, and how many slip.
+of hands by the second execution of `second_execution.py` (10 samples each, which take longer). Prints how many samples
+of plans with and without allowances miss the asked margin, and how many slip.
 """
 
 from __future__ import annotations
