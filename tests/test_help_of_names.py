@@ -22,6 +22,7 @@ MADE_BY_OTHERS = {
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
     "Sensitivities", "Sensitivity",
     "FastestTiming",
+    "MissingSynergies", "SynergiesNeeded", "InCase", "Margins", "Measure", "DirectNumber",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

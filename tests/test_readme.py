@@ -25,9 +25,9 @@ VOLATILE = re.compile(rf"{NUMBER} ms(?:, attempt \d+)?|\d+(?:\.\d+)?e[-+]\d+|\d+
 """Residuals, iterations, attempts, times and versions: the machine's, not the answer's."""
 
 
-EXPLAIN, MARGINS, QUALITY = (
+EXPLAIN, MARGINS, QUALITY, ALLOWANCES = (
     BLOCK.findall((ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8"))
-    for name in ("explain", "margins", "quality")
+    for name in ("explain", "margins", "quality", "allowances")
 )
 
 
@@ -54,8 +54,8 @@ def last_digit(number: str) -> float:
 
 @pytest.mark.parametrize(
     ("code", "shown"),
-    [*following("bash"), *following("bash", EXPLAIN), *following("bash", MARGINS), *following("bash", QUALITY)],
-    ids=["plan", "no", "analyse", "trajectory", "table", "explain", "margins", "quality"],
+    [pair for page in (BLOCKS, EXPLAIN, MARGINS, QUALITY, ALLOWANCES) for pair in following("bash", page)],
+    ids=["plan", "no", "analyse", "trajectory", "table", "explain", "margins", "quality", "allowances"],
 )
 def test_commands_print_what_is_shown(code: str, shown: str, tmp_path: Path) -> None:
     arguments = shlex.split(code.split("synergrip ", 1)[-1])

@@ -111,7 +111,9 @@ RIGHT: dict[str, dict[str, Any]] = {
     "PalmPath": {"times": [0, 1], "poses": still},
     "Task": {"duration": 1.0, "knots": 3, "target": sg.Hold(), "loads": [], "limits": [], "goals": [sg.LeastEffort()],
              "tracking": "rigid", "tolerance": 0.0, "axes": ("x",), "drift": 0.1, "between": "report",
-             "load_factor": 1.0, "motion_factor": 1.0, "control": None},
+             "load_factor": 1.0, "motion_factor": 1.0, "control": None, "allow": None},
+    "Allowances": {"friction": (0.4, 0.8), "friction_share": 0.1, "mass": (0.1, 0.2), "load": [np.zeros(6)],
+                   "load_box": np.ones(6), "contact_gap": 1e-4},
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
@@ -133,6 +135,8 @@ OTHERS = {
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     "sensitivities", "Sensitivities", "Sensitivity",
     "fastest_timing", "FastestTiming",
+    "missing_synergies", "MissingSynergies", "SynergiesNeeded", "InCase",
+    "margins", "Margins", "Measure", "DirectNumber",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""

@@ -85,12 +85,14 @@ from synergrip.tasks.pushes import Push as Push
 from synergrip.tasks.palm_motion import Palm as Palm
 from synergrip.tasks.palm_path import PalmPath as PalmPath
 from synergrip.tasks.control import Control as Control
+from synergrip.tasks.allowances import Allowances as Allowances
 from synergrip.tasks.task import Task as Task
 from synergrip.tasks.timed_task import TimedTask as TimedTask
 from synergrip.problems.problem import load_problem as load_problem
 from synergrip.problems.problem import Problem as Problem
 from synergrip.planning.planning import plan as plan
 from synergrip.planning.outcome import Plan as Plan
+from synergrip.planning.in_case import InCase as InCase
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
 from synergrip.explain.explanation import Explanation as Explanation

@@ -84,8 +84,9 @@ class Asked(Value):
         Args:
             known: an analysis of a grasp with the same matrices, not to be made again.
             units: of its unknowns; those that suit the task when None.
-            every: whether what is held between the knots is asked at every instant that is looked at, and not by a
-                reserve: a reserve asks for more than is needed, so that without an answer nothing is proven.
+            every: whether what is held between the knots is asked at every instant that is looked at, and what is
+                allowed for in every case, and not by reserves: these ask for more than is needed, so that without an
+                answer nothing is proven.
         """
         try:
             timed = self.timed
@@ -96,6 +97,8 @@ class Asked(Value):
             return None
         held = intersample_of(timed, analysis) if timed.between == "hold" else None
         formulation = replace(formulation, intersample=held.every() if held is not None and every else held)
+        if every and formulation.allowed is not None:
+            formulation = replace(formulation, allowed=replace(formulation.allowed, cornered=True))
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)
 
@@ -111,7 +114,8 @@ class Posed(Value):
     @property
     def strict(self) -> bool:
         """Whether the program asks for no more than the task: without an answer it proves that there is no plan."""
-        return self.formulation.intersample is None or self.formulation.intersample.exact
+        between, allowed = self.formulation.intersample, self.formulation.allowed
+        return (between is None or between.exact) and not (allowed is not None and allowed.reserves)
 
     @property
     def at_knots(self) -> Posed:

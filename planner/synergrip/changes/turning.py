@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.changes.allowance_dials import allowance_dials
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
@@ -36,8 +37,8 @@ def dials(asked: Asked, timed: TimedTask, analysis: Analysis) -> tuple[Dial[Aske
         timed: the same at its knots.
         analysis: of the grasp.
     """
-    of_task, of_load = _of_task(asked, timed, analysis), _of_load(asked, timed)
-    return (*limit_dials(asked), *of_task, *of_load, *_of_friction(asked))
+    own = (*limit_dials(asked), *_of_task(asked, timed, analysis), *_of_load(asked, timed), *_of_friction(asked))
+    return (*own, *allowance_dials(asked))
 
 
 def limit_dials(asked: Asked) -> Iterator[Dial[Asked]]:

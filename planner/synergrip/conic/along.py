@@ -79,13 +79,15 @@ class AlongPath(Formulation):
     def force(self) -> Affine:
         """Contact forces lambda (n_l) [N, N m]."""
         there = self.map_of(lambda at: forces_at_start(at.response))
-        return self._whole.after(self._but_for_gamma(lambda at: at.response.dlambda_dzr)).plus(there)
+        moved = self._whole.after(self._but_for_gamma(lambda at: at.response.dlambda_dzr))
+        return self.departed("force", moved.plus(there))
 
     @cached_property
     def torque(self) -> Affine:
         """Joint torques tau (n_q), which change with the forces and as these act at other places [N m]."""
         there = self.map_of(lambda at: (forces_at_start(at.response)[..., None, :] @ at.response.grasp.J)[..., 0, :])
-        return self._whole.after(self._but_for_gamma(lambda at: at.response.dtau_dzr)).plus(there)
+        moved = self._whole.after(self._but_for_gamma(lambda at: at.response.dtau_dzr))
+        return self.departed("torque", moved.plus(there))
 
     def _but_for_gamma(self, of: Callable[[Statics], Array]) -> Array:
         """Return a map of references as one of (alpha, beta, gamma), without what gamma adds to it.
@@ -105,7 +107,8 @@ class AlongPath(Formulation):
     @cached_property
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
-        return self.change.after(self.map_of(lambda at: at.response.dq_dzr)).plus(self.known.joint)
+        moved = self.change.after(self.map_of(lambda at: at.response.dq_dzr))
+        return self.departed("joint", moved.plus(self.known.joint))
 
     @cached_property
     def joint_span(self) -> tuple[Array, Array]:
@@ -116,7 +119,8 @@ class AlongPath(Formulation):
     @cached_property
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
-        return self.change.after(self.map_of(lambda at: at.response.du_dzr)).plus(self.known.displacement)
+        moved = self.change.after(self.map_of(lambda at: at.response.du_dzr))
+        return self.departed("displacement", moved.plus(self.known.displacement))
 
     @cached_property
     def rigid(self) -> Affine:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
 
+from synergrip.conic.allowed import in_all_cases
 from synergrip.conic.assembly import Band, stacked, without_rounding
 from synergrip.conic.basis import in_basis, inverse
 from synergrip.conic.formulation import Formulation
@@ -76,15 +78,40 @@ def _block(rows: Rows, knots: int) -> Block:
 
 
 def _rows(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> list[Rows]:
-    """Return the rows of limits and goal, first those at the knots, then those between them when that is asked for."""
-    if formulation.intersample is None:
-        return [part for limit in limits for part in limit.rows(formulation)] + list(goal.rows(formulation))
-    reserve = Reserve.of(formulation, formulation.intersample)
-    rows: list[Rows] = []
-    for limit in limits:
-        rows += limit.rows(formulation) if limit.couples_knots else reserve.kept(limit.rows, formulation)
-    rows += reserve.kept(goal.rows, formulation)
+    """Return the rows of limits and goal, first those at the knots, then those between them when that is asked for.
+
+    What is asked for in other cases than the one stated is not asked of references, which are the same in all.
+    """
+    stated, rows = _Instants.of(formulation), list[Rows]()
+    cases, offs = ([], []) if formulation.allowed is None else formulation.allowed.formulations(formulation)
+    in_cases, in_offs = ([_Instants.of(each) for each in parts] for parts in (cases, offs))
+    parts: tuple[Limit | Goal, ...] = (*limits, goal)
+    for part in parts:
+        alone = isinstance(part, Limit) and part.of_references_alone
+        if alone or not in_cases:
+            rows += stated.rows(part)
+        else:
+            rows += in_all_cases([each.rows(part) for each in in_cases], [each.rows(part) for each in in_offs])
     return sorted(rows, key=lambda part: part.inside is not None)
+
+
+@dataclass(frozen=True)
+class _Instants:
+    """A formulation at its knots, and between them where that is asked for."""
+
+    formulation: Formulation
+    reserve: Reserve | None
+
+    @classmethod
+    def of(cls, formulation: Formulation) -> _Instants:
+        between = formulation.intersample
+        return cls(formulation, None if between is None else Reserve.of(formulation, between))
+
+    def rows(self, part: Limit | Goal) -> Sequence[Rows]:
+        """Return the rows of a limit or goal; what couples knots is asked for at these alone."""
+        if self.reserve is None or (isinstance(part, Limit) and part.couples_knots):
+            return part.rows(self.formulation)
+        return self.reserve.kept(part.rows, self.formulation)
 
 
 def _quadratic(

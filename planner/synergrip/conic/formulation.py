@@ -30,6 +30,9 @@ from synergrip.values import Value
 if TYPE_CHECKING:
     from scipy import sparse
 
+    from synergrip.conic.allowed import Allowed
+    from synergrip.conic.departure import Departure
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Formulation(Value):
@@ -59,6 +62,10 @@ class Formulation(Value):
     """(T) the statics at every knot, where those above tell names and lengths only; None when they tell all."""
     unreduced: Formulation | None = None
     """What it was before goals determined a part of the plan; None when none has."""
+    departure: Departure | None = None
+    """What forces and motions are beside what references and load make them."""
+    allowed: Allowed | None = None
+    """What else the plan is to hold for."""
 
     along_path: ClassVar[bool] = False
     """Whether it is around a path that is known (`conic/along.py`): promises are kept to less digits there."""
@@ -134,7 +141,7 @@ class Formulation(Value):
         """Contact forces lambda (n_l) [N, N m]."""
         of_load = self.map_of(lambda at: at.response.right_inverse)
         known = self.map_of(lambda at: forces_at_start(at.response)) - product(of_load, self.load_change)
-        return self.alpha.after(self.map_of(lambda at: at.spaces.E_s)).plus(known)
+        return self.departed("force", self.alpha.after(self.map_of(lambda at: at.spaces.E_s)).plus(known))
 
     @cached_property
     def torque(self) -> Affine:
@@ -156,7 +163,8 @@ class Formulation(Value):
     def joint(self) -> Affine:
         """Joint displacements dq (n_q) from the start [rad or m]."""
         of_load = self.map_of(lambda at: at.response.dq_dw)
-        return self.reference.after(self.map_of(lambda at: at.response.dq_dzr)).plus(product(of_load, self.load_change))
+        moved = self.reference.after(self.map_of(lambda at: at.response.dq_dzr))
+        return self.departed("joint", moved.plus(product(of_load, self.load_change)))
 
     @cached_property
     def joint_span(self) -> tuple[Array, Array]:
@@ -168,7 +176,12 @@ class Formulation(Value):
     def displacement(self) -> Affine:
         """Object displacement du (6) from the start, sag under load included [m, rad]."""
         sag, rigid = product(self.map_of(lambda at: at.response.du_dw), self.load_change), self.rigid
-        return Affine(frozen(self.elastic.matrix + rigid.matrix), frozen(self.elastic.constant + rigid.constant + sag))
+        whole = Affine(frozen(self.elastic.matrix + rigid.matrix), frozen(self.elastic.constant + rigid.constant + sag))
+        return self.departed("displacement", whole)
+
+    def departed(self, name: str, value: Affine) -> Affine:
+        """Return a quantity with what it is beside what references and load make it."""
+        return value if self.departure is None else value.plus(getattr(self.departure, name) + 0.0 * value.constant)
 
     @cached_property
     def rigid(self) -> Affine:

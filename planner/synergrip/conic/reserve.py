@@ -52,7 +52,7 @@ class Reserve:
             if at.kind is Kind.ZERO:
                 result.append(at)
                 continue
-            needed = _heads(at, self.intersample.needed(_lost(at, after.constant - before.constant)))
+            needed = _heads(at, self.intersample.needed(lost(at, after.constant - before.constant)))
             result.append(replace(at, constant=frozen(at.constant - needed[~self.intersample.corner])))
             if len(self.corners.times):
                 constant = frozen(inside.constant - needed[self.intersample.corner])
@@ -60,7 +60,7 @@ class Reserve:
         return result
 
 
-def _lost(rows: Rows, departure: Array) -> Array:
+def lost(rows: Rows, departure: Array) -> Array:
     """Return what the head of every cone (J, items) loses, and the rest of it gains, by a departure (J, rows)."""
     cones = departure.reshape(len(departure), len(rows.items), rows.dim)
     return np.asarray(np.maximum(-cones[:, :, 0], 0.0) + np.linalg.norm(cones[:, :, 1:], axis=2))

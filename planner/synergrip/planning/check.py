@@ -15,11 +15,12 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
 from synergrip.planning.claims import Claims, compared
 from synergrip.planning.formulated import formulated
+from synergrip.planning.in_cases import case_checks, in_cases
 from synergrip.planning.outcome import Check
 from synergrip.planning.references import References
 from synergrip.planning.sizes import sizes_of
 from synergrip.planning.stated import stated
-from synergrip.planning.verified import between_checks, identities, limit_checks, limit_usages
+from synergrip.planning.verified import LIMIT, between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.statics.restraint import NO_LOAD
@@ -124,7 +125,7 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     tracking = _tracking(task, times, reached[1], formulation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
     found = between(there, analysis, formulation, motion)
-    checks += between_checks(there, found)
+    checks += (*between_checks(there, found), *case_checks(in_cases(there, analysis, formulation, motion.dz_r), LIMIT))
     return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
 
 
@@ -140,6 +141,7 @@ def _linear(
 
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
+    from synergrip.planning.executed_cases import executed_cases
     from synergrip.planning.executing import Executor
     from synergrip.planning.figures import figures
     from synergrip.planning.reach import off
@@ -157,8 +159,10 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
     margins = frozen(found.usages[0].value)
+    cases = executed_cases(walk, walker, formulation)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks), found.between,
+        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks, *cases.checks),
+        found.between,
         walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench),
     )  # fmt: skip
 

@@ -57,13 +57,13 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Betwee
         linear: what load and wish do between the knots; None when no more is known.
     """
     task, executed, way = walker.task, walk.executed, walk.way
-    motion, there = _moved(executed, Looks(task.times, task.wrench, walker.wanted), walker, formulation, way)
+    motion, there = moved(executed, Looks(task.times, task.wrench, walker.wanted), walker, formulation, way)
     usages = limit_usages(task, there, motion)
-    rooms = _rooms(walk, walker, task.all_limits, usages)
+    rooms = rooms_of(walk, walker, task.all_limits, usages)
     elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
     checks = (Check("equilibrium", executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
     between, inside, there_missed = _between(walk, walker, formulation, linear)
-    missed = (*_missed(usages, rooms), *there_missed)
+    missed = (*missed_in(usages, rooms), *there_missed)
     of_instants = [not limit.couples_knots for limit in task.all_limits]
     at_knots = Between(0, 0.0, 0.0, 0.0, tuple(compress(usages, of_instants)), (), tuple(compress(rooms, of_instants)))
     return Figures(replace(motion, du=executed.du), usages, elastic, at_knots, between, (*checks, *inside), missed)
@@ -83,16 +83,16 @@ def _between(
     if not executed.whole:
         why = f"{BETWEEN}: {executed.why}"
         return None, (Check(why, np.inf, 0.0),), (why,)
-    motion, there = _moved(executed, looks, walker, formulation)
+    motion, there = moved(executed, looks, walker, formulation)
     limits = [limit for limit in task.all_limits if not limit.couples_knots]
     usages = tuple(limit.usage(there, motion) for limit in limits)
-    rooms = _rooms(walk, walker, limits, usages)
+    rooms = rooms_of(walk, walker, limits, usages)
     known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)
     found = replace(known, samples=walker.samples, usages=usages, rooms=rooms)
     where = f"{BETWEEN}: "
     if task.between == "report":
         return found, (stable(executed, where),), ()
-    return found, (stable(executed, where), *kept(usages, rooms, where)), tuple(_missed(usages, rooms, where))
+    return found, (stable(executed, where), *kept(usages, rooms, where)), tuple(missed_in(usages, rooms, where))
 
 
 def stable(executed: Execution, where: str = "") -> Check:
@@ -122,7 +122,7 @@ def _check(usage: Usage, room: Array, where: str) -> Check:
     return Check(f"{where}{usage.title}", float(excess[worst]), float(room[worst]))
 
 
-def _missed(usages: Sequence[Usage], rooms: Sequence[Array], where: str = "") -> Iterator[str]:
+def missed_in(usages: Sequence[Usage], rooms: Sequence[Array], where: str = "") -> Iterator[str]:
     """Yield what is beyond its limit: the worst of each, where, when, and the limit."""
     for usage, room in zip(usages, rooms, strict=True):
         if np.any(usage.excess > room):
@@ -131,7 +131,7 @@ def _missed(usages: Sequence[Usage], rooms: Sequence[Array], where: str = "") ->
             yield (f"{where}{usage.title} {shown} ({usage.items[i]}, t = {usage.times[k]:.3g} s; {end} {limit} asked)")
 
 
-def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence[Usage]) -> tuple[Array, ...]:
+def rooms_of(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence[Usage]) -> tuple[Array, ...]:
     """Return for each item (m,) of each limit how far beyond it counts as kept, in its own unit."""
     force = walk.kept_to
     known = {"N": force, "N m": force * walker.start.response.scale.length, "m": LENGTH, "rad": ANGLE}
@@ -143,7 +143,7 @@ def _rooms(walk: Walk, walker: Walker, limits: Sequence[Limit], usages: Sequence
     return tuple(room(limit, usage) for limit, usage in zip(limits, usages, strict=True))
 
 
-def _moved(
+def moved(
     executed: Execution, looks: Looks, walker: Walker, formulation: Formulation, way: Steps | None = None
 ) -> tuple[Motion, AtStates]:
     """Return executed references as a motion, with the formulation in which its limits are looked at."""

@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
+from synergrip.conic.allowed import Allowed
 from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Formulation
+from synergrip.errors import InputError
+from synergrip.linalg import RANK_TOLERANCE, Array
 from synergrip.planning.free import refuse_use_of_free
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import refuse_control
@@ -30,8 +37,27 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
         refuse_control(analysis, task.control)
     follow = followed(analysis, task)
     sizes = expected_units(analysis, task, follow.beta, follow.target)
-    return formulate(
+    if task.allowed is not None:
+        refuse_unheld(analysis, task.allowed, task.times)
+    found = formulate(
         analysis.response, analysis.spaces, analysis.coordinates,
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, target=follow.target,
         units=sizes, redundancy=redundancy, stated=units_of(analysis, task),
     )  # fmt: skip
+    return replace(found, allowed=task.allowed)
+
+
+def refuse_unheld(analysis: Analysis, allowed: Allowed, times: Array) -> None:
+    """Refuse allowed loads that work on a motion of the object that no contact resists.
+
+    Raises:
+        InputError: with the load.
+    """
+    response = analysis.response
+    for case in allowed.cases if not response.restrained else ():
+        if case.extra is not None:
+            load = response.scale.wrench(case.extra.at(times))
+            along = float(np.linalg.norm(load @ response.free, axis=1).max())
+            if along > RANK_TOLERANCE * float(np.linalg.norm(load, axis=1).max()):
+                message = f"{case.title} works on a motion of the object that these contacts leave free"
+                raise InputError.at("Task.allow", message)

@@ -7,25 +7,45 @@ from dataclasses import replace
 
 from synergrip.conic.formulation import Formulation
 from synergrip.planning.instants import intersample_of
-from synergrip.planning.outcome import Infeasible, Outcome, Unknown
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
 
+Answer = Callable[[Formulation], Outcome]
+"""Plans in a formulation."""
 
-def held(
-    task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Callable[[Formulation], Outcome]
-) -> Outcome:
-    """Return the answer to a task, whose limits are also kept between the knots when it says so.
 
-    At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at
-    both ends of a piece keeps them in between; it asks for more than is needed, so that "infeasible" with it proves
-    nothing. Then the limits are asked for without it, at every instant looked at: what is infeasible there, is.
+def held(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Answer) -> Outcome:
+    """Return the answer to a task, also in the cases that it allows for, and between the knots when it says so.
+
+    Contacts that may be off are allowed for by a reserve in every cone, which asks for a little more than is needed:
+    "infeasible" with it proves nothing. Then every case with contacts off to either side is asked for by itself.
 
     Args:
         task: with what is to happen between its knots.
         analysis: of the grasp.
         formulation: at the knots.
         answer: plans in a formulation.
+    """
+    outcome, allowed = _between(task, analysis, formulation, answer), formulation.allowed
+    if allowed is None or not allowed.reserves or not isinstance(outcome, Infeasible):
+        return outcome
+    without = _between(task, analysis, replace(formulation, allowed=replace(allowed, cornered=True)), answer)
+    if allowed.all_signs or not isinstance(without, Plan):
+        return without
+    why = (
+        "no plan keeps the limits with the reserve that allow.contact_gap takes, and without it, with one contact off "
+        "at a time, there is one: whether one keeps them with all contacts off at once is not known"
+    )
+    return Unknown(task, analysis, why, (*outcome.decisions, *without.decisions))
+
+
+def _between(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Answer) -> Outcome:
+    """Return the answer to a task, whose limits are also kept between the knots when it says so.
+
+    At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at
+    both ends of a piece keeps them in between; it asks for more than is needed, so that "infeasible" with it proves
+    nothing. Then the limits are asked for without it, at every instant looked at: what is infeasible there, is.
     """
     intersample = intersample_of(task, analysis) if task.between == "hold" else None
     outcome = answer(replace(formulation, intersample=intersample))

@@ -22,6 +22,7 @@ from synergrip.linalg import Array
 from synergrip.planning.answer import LONG, Reasoned, Tabled
 from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
+from synergrip.planning.in_case import InCase
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.task import Task
@@ -88,6 +89,8 @@ class Plan(Tabled):
     """How often the grasp was linearised anew along the motion."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
+    cases: tuple[InCase, ...] = ()
+    """What the plan uses of its limits in every case of what the task allows for; none where it allows for nothing."""
 
     def __post_init__(self) -> None:
         """Let limits and checks be found by their names, too."""

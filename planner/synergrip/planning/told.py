@@ -11,6 +11,7 @@ from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.between import Between
+from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Check
 from synergrip.planning.verified import LIMIT
 from synergrip.statics.analysis import Analysis
@@ -51,6 +52,15 @@ def margin_document(margins: Usage) -> dict[str, Any]:
     return {
         "worst_N": float(margins.value.min()), "contact": margins.items[i], "time_s": float(margins.times[k]),
     }  # fmt: skip
+
+
+def cases_document(cases: Sequence[InCase]) -> dict[str, Any] | None:
+    """Return the worst slip margin over all that a task allows for, and that of every case; None without any."""
+    if not cases:
+        return None
+    least = worst_case(cases)
+    every = [{"case": case.title, "worst_N": case.margin} for case in cases]
+    return margin_document(least.usages[0]) | {"case": least.title, "cases": every}
 
 
 def usage_document(usage: Usage) -> dict[str, Any]:

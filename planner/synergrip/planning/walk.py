@@ -125,7 +125,7 @@ class Walker:
         """
         limits, wait = self._limits(best, pace), self._wait(best)
         entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
-        near = near_rows(limits, self.task.goals, entries)
+        near = limits if self.task.allowed else near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
         known = answered.decision.infeasible and (best.hindered is not None or best.lost)  # told of all limits, once
         unsure = not known if stage is None else left_out(near, stage)
@@ -229,4 +229,4 @@ class Walker:
             beta_basis=way.basis, target=self.wanted, units=sizes, redundancy=True, stated=units_of(start, task),
             each=way.each,
         )  # fmt: skip
-        return AlongPath.around_path(formulation, path)
+        return AlongPath.around_path(replace(formulation, allowed=task.allowed), path)

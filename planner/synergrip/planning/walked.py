@@ -11,6 +11,7 @@ from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.beginning import walk_from_plan
+from synergrip.planning.executed_cases import ExecutedCases, executed_cases, kept_in_cases
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
@@ -55,14 +56,15 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
-    if said:
+    cases = executed_cases(walk, walker, plan.formulation)
+    if said := said or cases.said:
         return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
     worth = (
         f"planned at the start posture, which promises a smallest slip margin of {promised:.4g} N; the hand that moves "
         f"keeps {kept:.4g} N"
     )
-    return _with(plan, walk, walker, found, (worth, *plan.notes))
+    return _with(plan, walk, walker, found, cases, (worth, *plan.notes))
 
 
 ALONG = 'task.linearise = "along" plans for the hand that moves'
@@ -96,11 +98,15 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
+    cases = executed_cases(walk, walker, linear.formulation)
+    if cases.said:
+        kept = kept_in_cases(walk, walker, cases)
+        return _unknown(walker, linear, cases.said, walk, found) if kept is None else answer_of(*kept, linear)
     told = (
         *accuracy_notes(walker.start.response), *undone_notes(walker.start, walker.task), *_goal_notes(walk),
         *passed_over(found.between), *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
-    return _with(_decided(linear, walk), walk, walker, found, told)
+    return _with(_decided(linear, walk), walk, walker, found, cases, told)
 
 
 def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
@@ -129,11 +135,12 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
-    if missed := _missed(found):
+    cases = executed_cases(walk, walker, linear.formulation)
+    if missed := _missed(found) or cases.said:
         raise KeyboardInterrupt(come + missed)
     note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
-    return _with(plan, walk, walker, found, (*_goal_notes(walk), note))
+    return _with(plan, walk, walker, found, cases, (*_goal_notes(walk), note))
 
 
 def _until(walk: Walk, walker: Walker) -> str:
@@ -154,15 +161,16 @@ def _goal_notes(walk: Walk) -> tuple[str, ...]:
     return () if walk.stage is None else walk.stage.notes
 
 
-def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, told: Sequence[str]) -> Plan:
+def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: ExecutedCases, told: Sequence[str]) -> Plan:
     """Return a plan with the figures of a walk."""
     alpha, beta, gamma = walker.start.coordinates.coordinates(walk.references)
     fixed = walker.executor.with_fixed_contacts(walk.executed, walker.task.wrench)
     largest = None if plan.largest_margin is None else float(found.usages[0].value.min())
     return replace(
         plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
-        margins=frozen(found.usages[0].value), usages=found.usages, checks=found.checks, between=found.between,
+        margins=frozen(found.usages[0].value), usages=found.usages, between=found.between,
         executed=walk.executed, fixed=fixed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
+        checks=(*found.checks, *cases.checks), cases=cases.cases,
     )  # fmt: skip
 
 

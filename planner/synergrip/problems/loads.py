@@ -39,7 +39,7 @@ def task_of(table: TaskTable, folder: Path) -> tuple[Task, Keys]:
     Raises:
         InputError: broken CSV files, or a path of the palm that does not say how it moves.
     """
-    issues, loads, keys = list[Issue](), list[Load](), {"Task": "task"}
+    issues, loads, keys = list[Issue](), list[Load](), {"Task": "task", "Task.allow": "allow", "Allowances": "allow"}
     for key, make in _loads(table, folder):
         load = _gathered(issues, key, make)
         if load is not None:

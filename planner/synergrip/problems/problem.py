@@ -143,7 +143,8 @@ def _problem(name: str, path: Path, file: ProblemFile, document: Document) -> Pr
         raise InputError([document.locate(issue) for issue in issues])
     task, keys = asked
     try:
-        task = task.replace(limits=limits_of(file, touching.grasp), goals=file.goal.goals)
+        allow = None if file.allow is None else file.allow.value()
+        task = task.replace(limits=limits_of(file, touching.grasp), goals=file.goal.goals, allow=allow)
         timed = task.timed(touching.grasp)
     except InputError as error:
         raise stated_at(error, keys).located(document.locate) from None

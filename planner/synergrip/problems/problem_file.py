@@ -13,6 +13,7 @@ from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.matrices import MOST_CONTACTS
+from synergrip.problems.allow_table import AllowTable
 from synergrip.problems.contact_list import contact_list
 from synergrip.problems.contact_tables import ContactEntry, ContactsTable
 from synergrip.problems.hand_table import GraspTable, HandTable
@@ -40,6 +41,9 @@ class ProblemFile(Table):
     )
     task: TaskTable = Field(default_factory=TaskTable, description="what is to happen")
     limits: LimitsTable = Field(default_factory=LimitsTable, description="what the plan must keep")
+    allow: AllowTable | None = Field(
+        default=None, description="values for all of which the plan is to hold, beside those stated"
+    )
     goal: GoalTable = Field(
         default_factory=GoalTable,
         description="which plan is chosen; least effort when absent",

@@ -14,6 +14,7 @@ from synergrip.documents.judging import described, is_list, is_whole, unfinished
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, repeated
 from synergrip.grasps.grasp import Grasp
+from synergrip.tasks.allowances import Allowances
 from synergrip.tasks.arguments import TaskArguments, keep
 from synergrip.tasks.control import Control
 from synergrip.tasks.gravity import Gravity
@@ -56,6 +57,8 @@ class Task(ByContent):
             is refused where the synergies do not.
         load_factor: by which the whole load is multiplied.
         motion_factor: by which the wanted motion is multiplied.
+        allow: what the plan is to hold for beside what is stated: less friction, other masses and loads, contacts that
+            are off; None for nothing.
         linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
             the hand does; or "once", at the start posture, as the paper does.
 
@@ -83,6 +86,7 @@ class Task(ByContent):
     load_factor: float = 1.0
     motion_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
+    allow: Allowances | None = None
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
@@ -108,6 +112,8 @@ class Task(ByContent):
         ]  # fmt: skip
         if self.control is not None:
             judge.one("control", self.control, Control, 'Control(forces=1, motions=("z",))')
+        if self.allow is not None:
+            judge.one("allow", self.allow, Allowances, "Allowances(friction=(0.4, 0.8))")
         if not judge.issues:
             judge.issues += _together(loads, self.target, duration, knots)
         keep(self, judge, duration=duration, knots=knots, loads=loads, limits=limits, goals=goals, axes=axes,

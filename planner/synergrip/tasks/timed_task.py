@@ -25,6 +25,7 @@ from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues,
 from synergrip.values import Value
 
 if TYPE_CHECKING:
+    from synergrip.conic.allowed import Allowed
     from synergrip.grasps.grasp import Grasp
 
 BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
@@ -97,6 +98,8 @@ class TimedTask(Value):
     """What is to be controlled independently."""
     linearise: Literal["once", "along"] = "along"
     """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
+    allowed: Allowed | None = None
+    """What the plan is to hold for beside what is stated, on the grasp that the task is for."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a problem file; a wrench of 6 numbers is the same at all knots.

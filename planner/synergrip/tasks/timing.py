@@ -12,6 +12,9 @@ from synergrip.errors import InputError, Issue, kind_of, raise_issues
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
+from synergrip.tasks.corners import allowed_on
+from synergrip.tasks.gravity import Weight
+from synergrip.tasks.inertia import Inertia
 from synergrip.tasks.knots import knots, span
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.palm_motion import Palm
@@ -47,8 +50,13 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
         times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
         margin=0.0, limits=tuple(task.limits), goals=tuple(task.goals), tolerance=task.tolerance,
         tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
-        linearise=task.linearise, control=task.control,
+        linearise=task.linearise, control=task.control, allowed=allowed_on(task, grasp, _weight(profiles)),
     ).on(grasp)  # fmt: skip
+
+
+def _weight(profiles: Profiles) -> tuple[Profile, ...]:
+    """Return what goes by the mass of the object: its weight, and its inertia in a palm that moves."""
+    return tuple(part for part in profiles.load if isinstance(part, Weight | Inertia))
 
 
 def happening(task: Task, body: Object | None) -> tuple[Array, Profiles]:

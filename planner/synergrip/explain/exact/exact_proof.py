@@ -118,10 +118,11 @@ def exact_proof(no: Infeasible) -> ExactProof | NoExactProof:
 
 def _proven(posed: Posed) -> ExactProof | NoExactProof:
     limits = posed.timed.all_limits
-    at_knots = replace(posed.formulation, intersample=None)
+    at_knots = replace(posed.formulation, intersample=None, allowed=None)
     found = ask(Question(at_knots, limits, LeastEffort()), SOLVERS["clarabel"], grips(at_knots))
     if not found.decision.infeasible or found.decision.certificate.y is None:
-        return NoExactProof("no exact proof: of the knots alone, at the start posture, nothing is proven")
+        aside = "" if posed.formulation.allowed is None else "without what is allowed for, "
+        return NoExactProof(f"no exact proof: {aside}of the knots alone, at the start posture, nothing is proven")
     formulation, program, y = found.question.formulation, found.decision.program, found.decision.certificate.y
     try:
         cones = stated(limits, formulation)

@@ -92,6 +92,8 @@ class Looking(Value):
         analysis = analyse(grasp, task.wrench)
         try:
             formulation = formulated(analysis, task, redundancy=task.watches_references)
+            if formulation.allowed is not None:  # a reserve for contacts that are off would prove nothing
+                formulation = replace(formulation, allowed=replace(formulation.allowed, cornered=True))
             refuse_doubtful_response(analysis.response)
         except Refusal as refusal:
             far = refusal.size if isinstance(refusal, MotionDirectionError) else 0.0

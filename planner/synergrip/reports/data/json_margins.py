@@ -11,6 +11,7 @@ from synergrip.margin.measures import Measure
 from synergrip.planning.arrays import names_of
 from synergrip.planning.told import finite, margin_document, notes_together, structure_document
 from synergrip.reports.data.json_disturbances import disturbance_document, quality_document
+from synergrip.planning.told import cases_document, finite, margin_document, structure_document
 from synergrip.reports.data.json_plan import plain
 
 
@@ -30,6 +31,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "direct": {name: _number(each) for name, each in found.direct.items()},
         "disturbance": None if found.disturbance is None else disturbance_document(found.disturbance),
         "quality": None if found.quality is None else quality_document(found.quality),
+        "allowances": cases_document(plan.cases),
         "interrupted": found.interrupted,
         "notes": notes_together(plan.notes, notes),
     })  # fmt: skip

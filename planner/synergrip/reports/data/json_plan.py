@@ -19,6 +19,7 @@ from synergrip.planning.provenance import KEY as PROVENANCE
 from synergrip.planning.provenance import provenance_document
 from synergrip.planning.told import (
     between_document,
+    cases_document,
     check_document,
     finite,
     margin_document,
@@ -94,6 +95,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         | {"solver": last.solution.solver, "scope": "path" if plan.passes else "start"},
         "checks": [check_document(check) for check in plan.checks],
         "between": between_document(plan.between),
+        "allowances": cases_document(plan.cases),
     }  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
+from synergrip.reports.text.text_cases import case_table
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 
@@ -37,6 +38,7 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
         _measures(found),
+        _measures(found), *_cases(found), "", *_numbers(found),
     ]  # fmt: skip
     lines += ["", *_numbers(found)] if found.direct else []
     lines += [] if found.disturbance is None else ["", *disturbance_lines(found.disturbance)]
@@ -54,6 +56,14 @@ def _measures(found: Margins) -> str:
         rows.append((name, _value(each), f"{worst.name}, t = {worst.time_s:.2f} s", *linear, each.formula))
     linear = () if found.linear is None else ("linear model",)
     return table(("", "worst", "at", *linear, "formula"), rows)
+
+
+def _cases(found: Margins) -> Iterator[str]:
+    """Yield in which cases of what the task allows for the slip margin is smallest; nothing where there are none."""
+    if cases := found.plan.cases:
+        yield ""
+        yield f"What is allowed for: the smallest slip margins of {len(cases)} cases"
+        yield table(("slip margin", "at", "case"), case_table(cases))
 
 
 def _value(measure: Measure) -> str:

@@ -17,12 +17,14 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
 from synergrip.linalg import Array
+from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
 from synergrip.planning.told import notes_together
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
+from synergrip.reports.text.text_cases import case_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
@@ -60,7 +62,8 @@ def verdict_lines(
     word = verdict_word(outcome.verdict, color)
     lines = [*problem_lines(problem), *_solved(outcome.decisions)]
     if isinstance(outcome, Plan):
-        lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), "", *_feasible(outcome, word)]
+        lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), *case_lines(outcome), ""]
+        lines += _feasible(outcome, word)
     elif isinstance(outcome, Infeasible):
         lines += [*_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
     else:
@@ -93,8 +96,10 @@ def _checked(plan: Plan) -> str:
     verified = f"not of {', '.join(missing)}" if missing else "✓"  # then a note says what that means
     parts = [f"certificate {verified} (cones {cones:.0e}, gap {gap:.0e})"]
     there = [check for check in plan.checks if plan.executed is not None and check.name.startswith(BETWEEN)]
-    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks if check not in there]
-    parts += [f"{BETWEEN} {many(len(there), 'check')} ✓"] if there else []
+    cases = [check for check in plan.checks if check.name.startswith(ALL_CASES)]
+    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks if check not in (*there, *cases)]
+    named = ((BETWEEN, there), (ALL_CASES, cases))
+    parts += [f"{name} {many(len(each), 'check')} ✓" for name, each in named if each]
     return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
 
 
@@ -152,6 +157,7 @@ def _largest_of(plan: Plan) -> str:
     if plan.executed is not None:
         return "found along the motion" if plan.passes else "of the start posture, executed"
     held = plan.task.between == "hold" and plan.between is not None and not plan.between.exact
+    held = held or (plan.task.allowed is not None and plan.task.allowed.reserves)
     return "there is with the reserve" if held else "there is"  # the program asks for more where a load is curved
 
 

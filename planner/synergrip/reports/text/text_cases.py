@@ -1,0 +1,42 @@
+"""The lines about what a task allows for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from synergrip.planning.in_case import InCase, worst_case
+from synergrip.planning.outcome import Plan
+from synergrip.reports.text.tables import wrapped
+from synergrip.reports.text.text_problem import many
+
+OTHERS = 3
+"""Cases that are named."""
+
+
+def case_lines(plan: Plan) -> Iterator[str]:
+    """Yield the lines of ``allow``: in how many cases limits hold, and where the slip margin is smallest."""
+    if plan.cases:
+        who = "of the linear model" if plan.executed is None else "executed on the hand that moves"
+        told = f"all limits hold in {many(len(plan.cases), 'case')} {who}; {_least(plan.cases)}"
+        gaps = plan.task.allowed is not None and plan.task.allowed.gaps.any()
+        off = "; contacts that are off by the maps of each knot" if gaps and plan.executed is not None else ""
+        yield from wrapped("allow    ", told + off)
+
+
+def _least(cases: Sequence[InCase]) -> str:
+    least = worst_case(cases)
+    slip = least.usages[0]
+    k, i = slip.worst()
+    return (
+        f"the smallest slip margin is {least.margin:.4g} N ({slip.items[i]}, t = {slip.times[k]:.2f} s), {least.title}"
+    )
+
+
+def case_table(cases: Sequence[InCase]) -> list[tuple[str, ...]]:
+    """Return rows of the cases with the smallest slip margins: case, margin, where."""
+    rows: list[tuple[str, ...]] = []
+    for case in sorted(cases, key=lambda each: each.margin)[:OTHERS]:
+        slip = case.usages[0]
+        k, i = slip.worst()
+        rows.append((f"{case.margin:.4g} N", f"{slip.items[i]}, t = {slip.times[k]:.2f} s", case.title))
+    return rows
