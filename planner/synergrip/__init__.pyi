@@ -49,6 +49,8 @@ from synergrip.conic.limits.friction_reserve import FrictionReserve as FrictionR
 from synergrip.conic.limits.normal_force import NormalForce as NormalForce
 from synergrip.conic.limits.joint_torque import JointTorque as JointTorque
 from synergrip.conic.limits.actuator_effort import ActuatorEffort as ActuatorEffort
+from synergrip.conic.limits.sustained_torque import SustainedTorque as SustainedTorque
+from synergrip.conic.limits.sustained_effort import SustainedEffort as SustainedEffort
 from synergrip.conic.limits.joint_range import JointRange as JointRange
 from synergrip.conic.limits.synergy_reference import SynergyReference as SynergyReference
 from synergrip.conic.limits.synergy_rate import SynergyRate as SynergyRate

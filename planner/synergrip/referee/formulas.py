@@ -28,6 +28,8 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce, bound_unit
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.limits.sustained_effort import SustainedEffort
+from synergrip.conic.limits.sustained_torque import SustainedTorque
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -36,6 +38,7 @@ from synergrip.linalg import Array
 from synergrip.referee.friction import NotWrittenError, contact_cones
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
+from synergrip.referee.sustained import over_time
 from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
 
 
@@ -166,6 +169,8 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     NormalForce: _normal_force,
     JointTorque: lambda model, limit: _symmetric(limit, model.response.grasp.joints, model.torque),
     ActuatorEffort: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.effort),
+    SustainedTorque: lambda model, limit: over_time(model, limit, model.response.grasp.joints, model.torque),
+    SustainedEffort: lambda model, limit: over_time(model, limit, model.response.grasp.synergies, model.effort),
     SynergyReference: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.dz_r),
     SynergyRate: _synergy_rate,
     SynergyAcceleration: synergy_acceleration,

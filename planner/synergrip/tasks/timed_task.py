@@ -27,7 +27,10 @@ from synergrip.values import Value
 if TYPE_CHECKING:
     from synergrip.grasps.grasp import Grasp
 
-BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
+BOUNDING = (
+    "normal_force", "joint_torque", "actuator_effort", "sustained_torque", "sustained_effort", "synergy_reference",
+    "joint_range",
+)  # fmt: skip
 """Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
 MAXIMISED = "goal.maximise"
 """The key under which the largest margin is asked for, unless it is one of several goals."""
