@@ -27,10 +27,10 @@ GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 
 @dataclass(frozen=True, eq=False)
 class Sustained(Symmetric):
-    """``sqrt(integral of value^2 dt / duration) <= limit``; of an object that is only held ``|value| <= limit`` at the end.
+    """``sqrt(integral of value^2 dt / duration) <= limit``; where the object is only held, ``|value| <= limit`` at the end.
 
-    A hold goes on after the task: in the long run the mean is what its last knot takes. The load counts on straight
-    lines between the knots.
+    A hold goes on after the task: in the long run the mean is what its last knot takes. Between the knots values are on
+    straight lines.
     """
 
     couples_knots = True
@@ -40,29 +40,32 @@ class Sustained(Symmetric):
         """Return what is bounded."""
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
-        """Return one second-order cone of each joint or synergy; of a hold, two bounds at the last knot."""
+        """Return one second-order cone of each joint or synergy, and of a hold two bounds at the last knot."""
         grasp = formulation.response.grasp
         names, limit, value = self.names(grasp), self.on(grasp).limit, self.value(formulation)
-        keep = np.flatnonzero(np.isfinite(limit))
+        keep, rows = np.flatnonzero(np.isfinite(limit)), []
         if is_hold(formulation):
             unit = np.where(np.isfinite(limit), limit, 1.0)
             parts = within(self.key, names, value, -limit, limit, unit)
-            return [replace(part, constant=frozen(part.constant[-1:])) for part in parts]
-        if not len(keep):
-            return []
+            rows = [replace(part, constant=frozen(part.constant[-1:])) for part in parts]
+        if not len(keep) or len(formulation.times) < 2:
+            return rows
         instants, weights = gauss_instants(formulation.times)
         shares = knots_in(instants, formulation.times).multiply(weights[:, None]).tocsr()
         constant = shares @ (value.constant[:, keep] / limit[keep])
         matrix = frozen(value.matrix[..., keep, :] / limit[keep, None])
         items = items_of((names[i] for i in keep), "norm")
         none = frozen(np.zeros(len(keep)))
-        return [Rows(self.key, Kind.SECOND_ORDER, 1, items, matrix, frozen(constant), none, (), shares, over_time=1.0)]
+        mean = Rows(self.key, Kind.SECOND_ORDER, 1, items, matrix, frozen(constant), none, (), shares, over_time=1.0)
+        return [*rows, mean]
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the root of what has come together of the mean square by each time; of a hold, what the last takes."""
+        """Return the root of what has come together of the mean square by each time; at the end of a hold the last value
+        where that is more.
+        """
         grasp = formulation.response.grasp
         limit = self.on(grasp).limit
-        found = so_far(motion.times, self.reached(motion), last=is_hold(formulation))
+        found = so_far(motion.times, self.reached(motion), goes_on=is_hold(formulation))
         upper = np.where(np.isfinite(limit), limit, np.inf)
         scale = np.where(np.isfinite(limit), limit, 1.0)
         lower = frozen(np.full(len(limit), -np.inf))
@@ -84,16 +87,15 @@ def gauss_instants(times: Array) -> tuple[Array, Array]:
     return instants, np.sqrt(np.repeat(steps, 2) / (2 * (times[-1] - times[0])))
 
 
-def so_far(times: Array, values: Array, *, last: bool) -> Array:
+def so_far(times: Array, values: Array, *, goes_on: bool) -> Array:
     """Return the root of the integral of values^2 from the start to each time, over the whole time (T, m).
 
-    With `last`, the size of the last value at the end, and 0 before it.
+    Where it `goes_on` with the last value, the size of this is there at the end where it is more.
     """
-    if last or len(times) < 2:
-        found = np.zeros_like(values)
-        found[-1] = np.abs(values[-1])
-        return frozen(found)
     first, second = values[:-1], values[1:]
     squares = np.diff(times)[:, None] * (first**2 + first * second + second**2) / 3
     total = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(squares, axis=0)])
-    return frozen(np.sqrt(total / (times[-1] - times[0])))
+    found = np.sqrt(total / ((times[-1] - times[0]) or 1.0))
+    if goes_on:
+        found[-1] = np.maximum(found[-1], np.abs(values[-1]))
+    return frozen(found)

@@ -17,7 +17,8 @@ from synergrip.statics.motion import Motion
 class SustainedEffort(Sustained):
     """``sqrt(integral of sigma^2 dt / duration) <= limit`` for each synergy, beside what `ActuatorEffort` allows.
 
-    sigma = S' tau is straight between the knots. An object that is only held counts the last effort: a hold goes on.
+    sigma = S' tau is straight between the knots. Where the object is only held, |sigma| at the end counts as well: a hold
+    goes on.
 
     Args:
         limit: effort for all synergies, or one for each; infinity for none.
@@ -45,6 +46,7 @@ class SustainedEffort(Sustained):
 
 IN_FILE = FileKey(
     "sustained_effort", SustainedEffort, OwnEfforts,
-    "root of the mean square over time of a synergy's effort, one or one per synergy; of a hold, its last one",
+    "root of the mean square over time of a synergy's effort, one or one per synergy; of what is "
+    "only held, the last one, too",
     efforts_of="synergy",
 )  # fmt: skip

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 class SustainedTorque(Sustained):
     """``sqrt(integral of tau^2 dt / duration) <= limit`` for each joint, beside what `JointTorque` allows for a moment.
 
-    tau is straight between the knots. An object that is only held counts the last torque: a hold goes on.
+    tau is straight between the knots. Where the object is only held, |tau| at the end counts as well: a hold goes on.
 
     Args:
         limit: torque [N m] (of a slide force [N]) for all joints, or one for each; infinity for none.
@@ -55,6 +55,6 @@ class SustainedTorque(Sustained):
 
 IN_FILE = FileKey(
     "sustained_torque", SustainedTorque, OwnEfforts,
-    "root of the mean square over time of a joint's torque in N m, of a slide's force in N, one or one per joint; of a "
-    "hold, its last one", efforts_of="joint",
+    "root of the mean square over time of a joint's torque in N m, of a slide's force in N, one or one per joint; of "
+    "what is only held, the last one, too", efforts_of="joint",
 )  # fmt: skip
