@@ -110,7 +110,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "PalmPath": {"times": [0, 1], "poses": still},
     "Task": {"duration": 1.0, "knots": 3, "target": sg.Hold(), "loads": [], "limits": [], "goals": [sg.LeastEffort()],
              "tracking": "rigid", "tolerance": 0.0, "axes": ("x",), "drift": 0.1, "between": "report",
-             "load_factor": 1.0, "motion_factor": 1.0, "control": None},
+             "load_factor": 1.0, "motion_factor": 1.0, "time_factor": 1.0, "control": None},
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},

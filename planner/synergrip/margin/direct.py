@@ -62,7 +62,7 @@ def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
         Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
         Wanted(
             "shortest_duration_s", "s", duration_dial(asked, timed),
-            "nothing depends on how long the task takes, or a part of it has times of its own",
+            "nothing depends on how long the task takes, or a load has times of its own",
         ),
         Wanted("largest_amplitude", "", motion, "no motion is wanted", motion.value if motion else 1.0),
     )  # fmt: skip

@@ -1,8 +1,8 @@
 """What a motor may carry for long: the root of the mean over time of the squares, of each joint or synergy.
 
-Motors burn out by the heat of their windings, which goes by the square of what they carry. What is straight from knot to
-knot has squares that are parabolas there, of which two instants of each step (those of Gauss) tell the integral exactly.
-So the bound is one second-order cone over all the knots.
+Motors burn out by the heat of their windings, which goes by the square of what they carry. What is straight from knot
+to knot has squares that are parabolas there, of which two instants of each step (those of Gauss) tell the integral
+exactly. So the bound is one second-order cone over all the knots.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy import sparse
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.intersample import knots_in
@@ -27,10 +28,10 @@ GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 
 @dataclass(frozen=True, eq=False)
 class Sustained(Symmetric):
-    """``sqrt(integral of value^2 dt / duration) <= limit``; where the object is only held, ``|value| <= limit`` at the end.
+    """``sqrt(integral of value^2 dt / duration) <= limit``, and ``|value| <= limit`` at the end of a hold.
 
-    A hold goes on after the task: in the long run the mean is what its last knot takes. Between the knots values are on
-    straight lines.
+    Where the object is only held it is so after the task, too: in the long run the mean is what the last knot takes.
+    Between the knots values are on straight lines.
     """
 
     couples_knots = True
@@ -51,7 +52,7 @@ class Sustained(Symmetric):
         if not len(keep) or len(formulation.times) < 2:
             return rows
         instants, weights = gauss_instants(formulation.times)
-        shares = knots_in(instants, formulation.times).multiply(weights[:, None]).tocsr()
+        shares = sparse.csr_matrix(sparse.diags_array(weights) @ knots_in(instants, formulation.times))
         constant = shares @ (value.constant[:, keep] / limit[keep])
         matrix = frozen(value.matrix[..., keep, :] / limit[keep, None])
         items = items_of((names[i] for i in keep), "norm")
@@ -60,9 +61,7 @@ class Sustained(Symmetric):
         return [*rows, mean]
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
-        """Return the root of what has come together of the mean square by each time; at the end of a hold the last value
-        where that is more.
-        """
+        """Return the root of what has come together of the mean square by each time; of a hold the last value, too."""
         grasp = formulation.response.grasp
         limit = self.on(grasp).limit
         found = so_far(motion.times, self.reached(motion), goes_on=is_hold(formulation))

@@ -17,8 +17,8 @@ from synergrip.statics.motion import Motion
 class SustainedEffort(Sustained):
     """``sqrt(integral of sigma^2 dt / duration) <= limit`` for each synergy, beside what `ActuatorEffort` allows.
 
-    sigma = S' tau is straight between the knots. Where the object is only held, |sigma| at the end counts as well: a hold
-    goes on.
+    sigma = S' tau is straight between the knots. Where the object is only held, |sigma| at the end counts as well: a
+    hold goes on.
 
     Args:
         limit: effort for all synergies, or one for each; infinity for none.
