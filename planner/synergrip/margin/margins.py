@@ -13,6 +13,7 @@ from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct import direct, wanted
 from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.headroom import headrooms
 from synergrip.margin.measures import Measure, measures
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
@@ -94,9 +95,9 @@ def margins(
 def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
     grasp = made.grasp
     least = least_normal_force(made.task.limits)
-    own = measures(grasp, made.time, made.forces, least)
+    own = measures(grasp, made.time, made.forces, least) | headrooms(grasp, made.task.limits, made.motion)
     linear = None
     if made.executed is not None:
         promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
-        linear = measures(grasp, made.time, promised.forces, least)
+        linear = measures(grasp, made.time, promised.forces, least) | headrooms(grasp, made.task.limits, promised)
     return Margins(made, own, linear, numbers, interrupted)

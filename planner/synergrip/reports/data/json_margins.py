@@ -37,13 +37,14 @@ def _measure(measure: Measure, linear: Measure | None) -> dict[str, Any]:
     return {
         "unit": measure.unit, "formula": measure.formula, "worst": _worst(measure),
         "linear_worst": None if linear is None else _worst(linear),
-        "per_contact": [[finite(value) for value in row] for row in measure.value.tolist()],
+        "items": list(measure.items),
+        f"per_{measure.of}": [[finite(value) for value in row] for row in measure.value.tolist()],
     }  # fmt: skip
 
 
 def _worst(measure: Measure) -> dict[str, Any]:
     worst = measure.worst
-    return {"value": finite(worst.value), "contact": worst.name, "time_s": worst.time_s}
+    return {"value": finite(worst.value), measure.of: worst.name, "time_s": worst.time_s}
 
 
 def _number(number: DirectNumber) -> dict[str, Any]:

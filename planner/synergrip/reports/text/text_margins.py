@@ -33,7 +33,7 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
     lines = [
         *problem_lines(problem), "",
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
-        f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
+        f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all knots, of {who}",
         _measures(found), "", *_numbers(found),
     ]  # fmt: skip
     notes = dict.fromkeys([*plan.notes, *problem.notes])
