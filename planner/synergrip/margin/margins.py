@@ -15,6 +15,7 @@ from synergrip.margin.direct import direct, wanted
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.headroom import headrooms
 from synergrip.margin.measures import Measure, measures
+from synergrip.margin.on_request import ON_REQUEST
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
@@ -41,6 +42,8 @@ class Margins(Value):
     """The same references in the linear model of the start posture, on a hand."""
     direct: Mapping[str, DirectNumber] = field(default_factory=dict)
     """By name; those that were found before somebody interrupted."""
+    on_request: Mapping[str, Mapping[str, DirectNumber]] = field(default_factory=dict)
+    """By name, then by contact or rigid motion: `critical_friction_per_contact`, `largest_amplitude_per_mode`."""
     interrupted: bool = False
 
 
@@ -54,7 +57,8 @@ def margins(
     Args:
         grasp: the grasp.
         task: what is asked.
-        only: names of the numbers that are wanted; all when empty.
+        only: names of the numbers that are wanted; when empty all of one number each, which leaves out those of every
+            contact and rigid motion: "critical_friction_per_contact", "largest_amplitude_per_mode".
         heard: is told of each number as it is found.
 
     Returns:
@@ -76,23 +80,31 @@ def margins(
     asked = Asked.of(made.grasp, task, made.task)
     numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:
-        if name not in numbers:
-            raise InputError.at("only", one_of(name, list(numbers)))
+        if name not in (known := [*numbers, *ON_REQUEST]):
+            raise InputError.at("only", one_of(name, known))
     chosen = [each for name, each in numbers.items() if not names or name in names]
-    found: dict[str, DirectNumber] = {}
+    found, several = dict[str, DirectNumber](), dict[str, dict[str, DirectNumber]]()
     if made.interrupted:
-        return _found(made, {}, interrupted=True)
+        return _found(made, found, several, interrupted=True)
     interrupted = False
     try:
         for number in direct(chosen, asked, made):
             found[number.name] = number
             heard(number)
+        for name in (name for name in ON_REQUEST if name in names):
+            several[name] = {}
+            for of, number in ON_REQUEST[name](asked, made):
+                several[name][of] = number
+                heard(number)
     except KeyboardInterrupt:
         interrupted = True
-    return _found(made, found, interrupted=interrupted)
+    return _found(made, found, several, interrupted=interrupted)
 
 
-def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool) -> Margins:
+def _found(
+    made: Plan, numbers: Mapping[str, DirectNumber], several: Mapping[str, Mapping[str, DirectNumber]], *,
+    interrupted: bool,
+) -> Margins:  # fmt: skip
     grasp = made.grasp
     least = least_normal_force(made.task.limits)
     own = measures(grasp, made.time, made.forces, least) | headrooms(grasp, made.task.limits, made.motion)
@@ -100,4 +112,4 @@ def _found(made: Plan, numbers: Mapping[str, DirectNumber], *, interrupted: bool
     if made.executed is not None:
         promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
         linear = measures(grasp, made.time, promised.forces, least) | headrooms(grasp, made.task.limits, promised)
-    return Margins(made, own, linear, numbers, interrupted)
+    return Margins(made, own, linear, numbers, several, interrupted)

@@ -27,6 +27,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        **{name: {of: _number(each) for of, each in several.items()} for name, several in found.on_request.items()},
         "interrupted": found.interrupted,
         "notes": list(dict.fromkeys([*plan.notes, *notes])),
     })  # fmt: skip
@@ -50,7 +51,8 @@ def _worst(measure: Measure) -> dict[str, Any]:
 def _number(number: DirectNumber) -> dict[str, Any]:
     if number.value is None:
         return {"value": None, "why": number.why}
+    moved = {} if number.displacement is None else {"displacement": list(number.displacement)}
     return {
         "value": number.value, "lower": number.lower, "upper": number.upper, "proven": number.proven,
-        "unit": number.unit, "why": number.why, "set": number.setting,
+        "unit": number.unit, "why": number.why, "set": number.setting, **moved,
     }  # fmt: skip

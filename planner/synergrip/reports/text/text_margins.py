@@ -13,6 +13,7 @@ from synergrip.margin.margins import Margins
 from synergrip.margin.measures import Measure
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_on_request import several_lines
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 
@@ -36,6 +37,8 @@ def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
         f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all knots, of {who}",
         _measures(found), "", *_numbers(found),
     ]  # fmt: skip
+    for name, several in found.on_request.items():
+        lines += several_lines(name, several)
     notes = dict.fromkeys([*plan.notes, *problem.notes])
     lines += [line for note in notes for line in wrapped("note     ", note)]
     return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])
