@@ -13,6 +13,7 @@ from small_grasps import pinch
 import synergrip as sg
 from synergrip.linalg import frozen
 from synergrip.margin.margins import Margins, margins
+from synergrip.reports.data.json_margins import margins_document
 from synergrip.tasks.timed_task import TimedTask, still
 
 MU, LOAD, CAP = 0.4, 3.0, 6.0
@@ -81,12 +82,13 @@ def test_rigid_motions_go_as_far_as_an_independent_program_finds() -> None:
         assert isinstance(made, sg.Plan)
 
 
-def test_a_hand_says_how_far_each_motion_goes_and_it_can_be_typed_in() -> None:
-    overrides = ["task.knots=4", "task.move=[]"]
-    setting = [word for each in overrides for word in ("--set", each)]
-    document = json.loads(run("margins", "gripper-box", "--only", MODES, "--format", "json", *setting).stdout)
+def test_a_hand_says_how_far_a_motion_goes_and_it_can_be_typed_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("synergrip.margin.on_request.SIGNS", {"back": -1.0})
+    problem = sg.load_problem("gripper-box", ["task.knots=4", "task.move=[]"])
+    document = margins_document("", found(problem.grasp, problem.task, MODES))
+    json.dumps(document, allow_nan=False)
     assert document["direct"] == {}
-    assert list(document[MODES]) == ["mode 1 forward", "mode 1 back"]
+    assert list(document[MODES]) == ["mode 1 back"]
     for number in document[MODES].values():
         again = sg.load_problem("gripper-box", ["task.knots=4", number["set"]])
         assert sg.plan(again.grasp, again.task).verdict == "feasible"
