@@ -92,6 +92,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "JointRange": {"start": 0.0, "lower": -1.0, "upper": 1.0},
     "ObjectError": {"limit": 0.1, "axes": ("x",), "part": "whole", "key": "k", "title": "t"},
     "Objective": {"squares": (), "epigraph": 1.0},
+    "LeastHolding": {"of": "torque"},
     "SteadyForces": {"exact": False, "stiffest": 1e6},
     "LeastMotion": {"of": "references", "exact": False, "stiffest": 1e6},
     "CentredJoints": {"start": 0.0, "lower": -1.0, "upper": 1.0},

@@ -66,6 +66,7 @@ from synergrip.conic.rows import below_scalar as below_scalar
 from synergrip.conic.goals.largest_margin import LargestMargin as LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
 from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding as LeastHolding
 from synergrip.conic.goals.steady_forces import SteadyForces as SteadyForces
 from synergrip.conic.goals.least_motion import LeastMotion as LeastMotion
 from synergrip.conic.goals.centred_joints import CentredJoints as CentredJoints

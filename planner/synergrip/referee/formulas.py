@@ -13,6 +13,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
@@ -39,7 +40,7 @@ from synergrip.referee.friction import NotWrittenError, contact_cones
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
 from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
-from synergrip.referee.sustained import over_time
+from synergrip.referee.sustained import least_holding, over_time
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
@@ -185,6 +186,7 @@ GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LeastPeak: _least_peak,
     LeastReconfiguration: least_reconfiguration,
     LeastMotion: least_motion,
+    LeastHolding: least_holding,
     SteadyForces: steady_forces,
     CentredJoints: centred_joints,
     WeightedSum: _weighted_sum,
