@@ -3,8 +3,9 @@
     python tests/judged_margins.py 500 [first seed]
 
 Random grasps given as matrices, with a plan and limits that leave some room around it. Of friction, load, peak force
-and amplitude the second model (`least_changes.py`, in cvxpy) must have a plan at the value that is attained, and none
-at the end that is proven. Counts the numbers, those with a proof, and what is wrong.
+and amplitude, and of the friction of every contact by itself, the second model (`least_changes.py`, in cvxpy) must have
+a plan at the value that is attained, and none at the end that is proven. Counts the numbers, those with a proof, and
+what is wrong.
 """
 
 from __future__ import annotations
@@ -20,14 +21,17 @@ sys.path.insert(0, str(Path(__file__).parent))
 from least_changes import LeastChanges
 from too_much import with_plan
 
+from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.margins import Margins, margins
+from synergrip.tasks.timed_task import TimedTask
 
 NUMBERS = {
     "critical_friction_scale": "friction", "load_factor": "load", "least_peak_N": "force_cap",
     "largest_amplitude": "amplitude",
 }  # fmt: skip
 """Number -> what the second model calls it."""
+EACH = "critical_friction_per_contact"
 ROOM = 1e-6
 """Share by which rows may be too narrow in the second model at a value that is attained."""
 
@@ -51,12 +55,28 @@ def wrong(number: DirectNumber, model: LeastChanges, stated: float) -> str:
     return ""
 
 
+def wrong_alone(number: DirectNumber, contact: str, grasp: Grasp, task: TimedTask) -> str:
+    """Return what the second model has against the least friction of one contact, if anything."""
+    (own,) = (each for each in grasp.contacts if each.name == contact)
+
+    def short(friction: float) -> float:
+        kind = own.kind.slippery(friction / own.friction)
+        return LeastChanges(grasp.replace(contact={contact: kind}), task).shortfall()
+
+    assert number.value is not None
+    if (widening := short(number.value)) > ROOM:
+        return f"friction of {contact}: at {number.value:.6g} rows must be wider by {widening:.1e}"
+    if number.proven and number.lower is not None and short(number.lower) <= 0:
+        return f"friction of {contact}: there is a plan at {number.lower:.6g}, which is said to be proven to have none"
+    return ""
+
+
 def main(count: int, first: int) -> None:
     """Print what came of many grasps."""
     counted: Counter[str] = Counter()
     for seed in range(first, first + count):
         question = with_plan(np.random.default_rng([29, seed]), "force_cap")
-        answer = None if question is None else margins(*question, only=list(NUMBERS))
+        answer = None if question is None else margins(*question, only=[*NUMBERS, EACH])
         if question is None or not isinstance(answer, Margins):
             continue
         model, cap = LeastChanges(*question), max(getattr(limit, "upper", 0.0) for limit in question[1].limits[:1])
@@ -67,6 +87,12 @@ def main(count: int, first: int) -> None:
             counted["numbers"] += 1
             counted["proven"] += number.proven
             if told := wrong(number, model, cap if number.name == "least_peak_N" else 1.0):
+                counted["wrong"] += 1
+                print(f"seed {seed}: {told}", flush=True)
+        for contact, number in answer.on_request[EACH].items():
+            counted["numbers"] += number.value is not None
+            counted["proven"] += number.proven
+            if number.value is not None and (told := wrong_alone(number, contact, *question)):
                 counted["wrong"] += 1
                 print(f"seed {seed}: {told}", flush=True)
     print(", ".join(f"{name} {counted[name]}" for name in ("grasps", "numbers", "proven", "wrong")))

@@ -51,6 +51,8 @@ from synergrip.conic.limits.friction_reserve import FrictionReserve as FrictionR
 from synergrip.conic.limits.normal_force import NormalForce as NormalForce
 from synergrip.conic.limits.joint_torque import JointTorque as JointTorque
 from synergrip.conic.limits.actuator_effort import ActuatorEffort as ActuatorEffort
+from synergrip.conic.limits.sustained_torque import SustainedTorque as SustainedTorque
+from synergrip.conic.limits.sustained_effort import SustainedEffort as SustainedEffort
 from synergrip.conic.limits.joint_range import JointRange as JointRange
 from synergrip.conic.limits.synergy_reference import SynergyReference as SynergyReference
 from synergrip.conic.limits.synergy_rate import SynergyRate as SynergyRate
@@ -66,6 +68,7 @@ from synergrip.conic.rows import below_scalar as below_scalar
 from synergrip.conic.goals.largest_margin import LargestMargin as LargestMargin
 from synergrip.conic.goals.least_peak import LeastPeak as LeastPeak
 from synergrip.conic.goals.least_effort import LeastEffort as LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding as LeastHolding
 from synergrip.conic.goals.steady_forces import SteadyForces as SteadyForces
 from synergrip.conic.goals.least_motion import LeastMotion as LeastMotion
 from synergrip.conic.goals.centred_joints import CentredJoints as CentredJoints

@@ -44,7 +44,10 @@ def _room(rows: Sequence[Rows]) -> float:
     total = 0.0
     for part in rows:
         assert part.kind is not Kind.ZERO
-        cones = part.constant.reshape(-1, part.dim)
+        if part.over_time is not None:  # one cone of each item over all instants
+            cones = np.vstack([np.full(len(part.items), part.over_time), part.constant]).T
+        else:
+            cones = part.constant.reshape(-1, part.dim)
         sizes = np.linalg.norm(part.matrix.reshape(-1, part.matrix.shape[-1]), axis=1).max()
         total += float((cones[:, 0] - np.linalg.norm(cones[:, 1:], axis=1)).sum()) / max(float(sizes), 1e-300)
     return total
@@ -52,7 +55,8 @@ def _room(rows: Sequence[Rows]) -> float:
 
 VALUES = {
     "margin": '"0.4 N"', "margin_angle": '"3 deg"', "safety_factor": "1.3", "normal_force": '["0.5 N", "18 N"]',
-    "joint_torque": "[1.2, 1.1, 1.0, 1.2, 1.1, 1.0, 1.2, 1.1]", "actuator_effort": "2.5", "synergy_reference": "0.4",
+    "joint_torque": "[1.2, 1.1, 1.0, 1.2, 1.1, 1.0, 1.2, 1.1]", "actuator_effort": "2.5",
+    "sustained_torque": "0.9", "sustained_effort": "[1.5, 1.6, 1.7, 1.8]", "synergy_reference": "0.4",
     "synergy_rate": "2.0", "synergy_acceleration": "[9.0, 8.0, 7.0, 6.0]", "joint_range": '"hand"',
     "elastic_motion": '"1 mm"', "drift": '"2 mm"',
 }  # fmt: skip

@@ -19,6 +19,7 @@ from synergrip.conic.goals.centred_joints import CentredJoints
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
@@ -59,6 +60,7 @@ GOALS = {
     "travel": lambda g: LeastMotion("rates"),
     "smooth": lambda g: LeastMotion("accelerations"),
     "steady": lambda g: SteadyForces(),
+    "holding": lambda g: LeastHolding("torque"),
     "centred": centred,
     "reconfiguration": lambda g: LeastReconfiguration(),
     "weighted": lambda g: WeightedSum(((LeastEffort(), 2.0), (LeastMotion("rates", exact=True), 0.1))),

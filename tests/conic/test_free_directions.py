@@ -13,6 +13,7 @@ from synergrip.conic.build import build
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
@@ -22,7 +23,7 @@ from synergrip.conic.program import Program
 
 GOALS: tuple[Goal, ...] = (
     LargestMargin(), LeastPeak(), LeastEffort(), LeastEffort("torque"), LeastMotion(), LeastMotion("rates"),
-    LeastMotion("accelerations"), SteadyForces(), LeastReconfiguration(),
+    LeastMotion("accelerations"), SteadyForces(), LeastHolding(), LeastReconfiguration(),
     WeightedSum(((LeastEffort(), 2.0), (LeastMotion("accelerations", exact=True), 0.1))),
 )  # fmt: skip
 

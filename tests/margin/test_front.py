@@ -15,6 +15,7 @@ from synergrip.conic.along import AlongPath
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.solution import Settings, Solution
+from synergrip.margin.friction_front import friction_front, least_peak
 from synergrip.margin.front import ROOM, front, largest
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan, plan_of_start_posture
@@ -95,3 +96,32 @@ def test_an_interrupt_ends_the_front_and_keeps_whole_points_only(goal: str, monk
     assert document["interrupted"] is True
     assert document["front"] == whole[:2]
     assert asked[-1] == goal
+
+
+def test_a_pinch_pays_for_slippery_fingers_by_one_over_their_friction() -> None:
+    """Its peak is (margin + load / 2) / mu, up to the cap of 20 N, spin friction as much less."""
+    problem = load_problem("pinch-soft", ["limits.margin=0 N"])
+    best = least_peak(problem.grasp, problem.task)
+    assert isinstance(best, Plan)
+    points = list(friction_front(best, problem.task, 4))
+    scales, peaks = (np.array([getattr(point, name) for point in points]) for name in ("scale", "peak"))
+    assert scales[-1] == 1.0
+    np.testing.assert_allclose(np.diff(np.log(scales)), -np.log(scales[0]) / 3, rtol=1e-3)
+    np.testing.assert_allclose(peaks * scales, peaks[-1], rtol=1e-5)
+    assert peaks[-1] == pytest.approx(np.hypot(1.0, 0.2) / 0.5, rel=1e-5)  # half the weight, and its spin as a force
+    assert peaks[0] == pytest.approx(20.0, rel=2e-3)
+
+
+def test_what_is_slippery_is_printed_with_its_setting_and_is_the_least_peak_there() -> None:
+    arguments = ["front", "gripper-box", "-n", "3", "--against", "friction", "--set", "task.knots=5"]
+    document = json.loads(CliRunner().invoke(app, [*arguments, "--format", "json"]).stdout)
+    assert [sorted(point) for point in document["front"]] == [["dz_r", "friction_scale", "peak_normal_N", "set"]] * 3
+    peaks = [point["peak_normal_N"] for point in document["front"]]
+    assert peaks == sorted(peaks, reverse=True)
+    middle = document["front"][1]
+    for share, verdict in ((1.002, "feasible"), (0.99, "infeasible")):
+        capped = f"limits.normal_force={share * middle['peak_normal_N']} N"
+        again = load_problem("gripper-box", ["task.knots=5", middle["set"], capped])
+        assert (plan(again.grasp, again.task).verdict == "feasible") is (verdict == "feasible")
+    told = CliRunner().invoke(app, arguments).stdout.splitlines()
+    assert [line.split("--set ")[1].strip("'") for line in told[-3:]] == [point["set"] for point in document["front"]]

@@ -12,7 +12,9 @@ from small_grasps import pinch, tripod
 import synergrip as sg
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
+from synergrip.margin.headroom import headrooms
 from synergrip.margin.measures import measures
+from synergrip.statics.motion import Motion, forward
 
 TIMES = frozen([0.0, 0.5, 1.0])
 
@@ -115,3 +117,39 @@ def test_without_shear_no_friction_is_needed() -> None:
     found = measures(tripod(), TIMES, own)
     assert np.all(np.isinf(found["friction safety factor"].value))
     assert np.all(found["required friction"].value == 0)
+
+
+def test_headroom_is_what_is_left_of_the_limits_that_are_set_or_that_the_hand_has() -> None:
+    problem = sg.load_problem("gripper-box", ["limits.joint_torque=[1, 2, 4, 8]", "task.knots=5"])
+    found = sg.margins(problem.grasp, problem.task, only=["heaviest_kg"])
+    assert isinstance(found, sg.Margins)
+    assert found.linear is not None
+    most, torques = np.array([1.0, 2.0, 4.0, 8.0]), found.plan.motion.torques
+    room = found.measures["torque headroom"]
+    assert np.allclose(room.value, 1 - np.abs(torques) / most)
+    k, j = np.unravel_index(np.argmax(np.abs(torques) / most), torques.shape)
+    assert (room.worst.name, room.worst.time_s) == (problem.grasp.joints[j], found.plan.time[k])
+    assert room.worst.value == pytest.approx(1 - abs(torques[k, j]) / most[j])
+    assert not np.allclose(found.linear["torque headroom"].value, room.value, atol=1e-4)
+    assert "effort headroom" not in found.measures  # this hand states none
+
+
+def test_headroom_without_limits_of_the_task_is_that_of_the_hand_and_there_may_be_none() -> None:
+    problem = sg.load_problem("gripper-box", ["task.knots=5"])
+    grasp = problem.grasp
+    motion = forward(sg.analyse(grasp).response, TIMES, np.zeros((3, grasp.n_z)), np.tile(grasp.w_0 + 0.1, (3, 1)))
+    stated = np.array([joint.torque_limit for joint in grasp.held.hand.joints])  # type: ignore[union-attr]
+    bare, some = (
+        headrooms(grasp, (), motion),
+        headrooms(grasp, (sg.JointTorque([np.inf, 0.5, np.inf, np.inf]),), motion),
+    )
+    assert np.allclose(bare["torque headroom"].value, 1 - np.abs(motion.torques) / stated)
+    assert np.allclose(some["torque headroom"].value, 1 - np.abs(motion.torques) / [stated[0], 0.5, *stated[2:]])
+    one = headrooms(tripod(), (sg.ActuatorEffort([np.inf, 3.0, np.inf]), sg.ActuatorEffort(30.0)), pulling(tripod()))
+    assert list(one) == ["effort headroom"]
+    assert np.allclose(one["effort headroom"].value, 1 - np.abs(pulling(tripod()).efforts) / [30, 3, 30])
+    assert headrooms(tripod(), (), pulling(tripod())) == {}
+
+
+def pulling(grasp: Grasp) -> Motion:
+    return forward(sg.analyse(grasp).response, TIMES, 1e-3 * np.eye(3)[:, : grasp.n_z], np.zeros((3, 6)))

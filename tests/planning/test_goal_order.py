@@ -36,6 +36,8 @@ ORDERS = [
     ("steady", "references"),
     ("margin", "steady", "smooth"),
     ("smooth", "steady", "torque"),
+    ("margin", "holding"),
+    ("holding", "references"),
 ]
 WEIGHTS = {"effort": 1.0, "torque": 0.3, "smooth": 1e-3}
 
@@ -72,6 +74,9 @@ def values(outcome: Plan) -> dict[str, float]:
         "effort": effort,
         "torque": torque,
         "actuator": squares(motion.efforts / scale.length),
+        "holding": squares(motion.efforts[1:] * np.sqrt(h / 3))
+        + squares(motion.efforts[:-1] * np.sqrt(h / 3))
+        + float((h / 3 * motion.efforts[1:] * motion.efforts[:-1]).sum()),
         "references": squares(motion.dz_r),
         "travel": squares(rates * np.sqrt(h)),
         "smooth": smooth,

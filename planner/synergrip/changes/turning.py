@@ -12,11 +12,14 @@ from synergrip.changes.allowance_dials import allowance_dials
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.sustained import Sustained
+from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
+from synergrip.tasks.stated import Stated
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import wish_size
@@ -74,15 +77,38 @@ def _of_task(asked: Asked, timed: TimedTask, analysis: Analysis) -> Iterator[Dia
 
 
 def duration_dial(asked: Asked, timed: TimedTask) -> Dial[Asked] | None:
-    """Return how long a task takes; None where it does not matter, or where parts have times of their own."""
+    """Return how long a task takes; None where it does not matter, or where a load has times of its own.
+
+    It is turned by `task.duration` where nothing else tells times, else by one factor on the times of all motions.
+    """
     task = asked.task
-    if not (isinstance(task, Task) and _stretches(task) and _feels_time(task, timed) and len(timed.times) > 1):
+    if not (isinstance(task, Task) and _feels_time(task, timed) and len(timed.times) > 1):
         return None
-    seconds = float(timed.times[-1] - timed.times[0])
+    seconds, factor = float(timed.times[-1] - timed.times[0]), task.time_factor
+    if _stretches(task):
+        key, per = "task.duration", factor
+    elif all(_goes_along(part) for part in task.parts.values()):
+        key, per = "task.time_factor", seconds / factor
+    else:
+        return None
+    unit = "s" if key == "task.duration" else ""
+
+    def turned(value: float) -> Asked:
+        return asked.with_task(**{key.removeprefix("task."): value / per})
+
     return Dial(
-        "duration", "task.duration", seconds, "s", lambda v: asked.with_task(duration=v), end=LONGEST * seconds,
-        smooth=False, nested=not _has_inertia(task),
+        "duration", key, seconds, "s", turned, end=LONGEST * seconds, smooth=False, nested=not _has_inertia(task),
+        written=lambda value: quantity(value / per, unit),
     )  # fmt: skip
+
+
+def _goes_along(part: Stated) -> bool:
+    """Return whether a load or target goes with the time of the task."""
+    try:
+        part.stretched(1.0)
+    except InputError:
+        return False
+    return True
 
 
 def amplitude_dial(asked: Asked, timed: TimedTask) -> Dial[Asked]:
@@ -110,12 +136,13 @@ def _stretches(task: Task) -> bool:
 
 def _feels_time(task: Task, timed: TimedTask) -> bool:
     """Return whether it matters how long a task takes: for changes from knot to knot, or for inertia."""
-    return _has_inertia(task) or any(limit.couples_knots for limit in timed.limits)
+    changes = any(limit.couples_knots and not isinstance(limit, Sustained) for limit in timed.limits)
+    return _has_inertia(task) or changes
 
 
 def _has_inertia(task: Task) -> bool:
     """Return whether the palm's motion loads the object: then a task that takes longer may have no plan either."""
-    return any(isinstance(load, Palm) and load.inertia for load in task.loads)
+    return any(isinstance(load, Palm | PalmPath) and load.inertia for load in task.loads)
 
 
 def _of_load(asked: Asked, timed: TimedTask) -> Iterator[Dial[Asked]]:

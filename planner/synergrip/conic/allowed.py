@@ -124,13 +124,21 @@ def in_all_cases(cases: Sequence[Sequence[Rows]], offs: Sequence[Sequence[Rows]]
     """
     result = []
     for place, stated in enumerate(cases[0]):
-        needed = np.zeros_like(stated.constant)
-        for each in offs if stated.kind is not Kind.ZERO else ():
-            change = each[place].constant - stated.constant
-            needed[:, :: stated.dim] += np.maximum(lost(stated, change), lost(stated, -change))
+        changes = [each[place].constant - stated.constant for each in offs if stated.kind is not Kind.ZERO]
         parts = _together([each[place] for each in cases])
-        result += [replace(part, constant=frozen(part.constant - needed)) for part in parts]
+        result += [_reserved(part, changes) for part in parts]
     return result
+
+
+def _reserved(part: Rows, changes: Sequence[Array]) -> Rows:
+    """Return rows that keep what changes of either sign of their constants take, all of them together."""
+    if part.over_time is not None:  # the norm over time grows by that of a change at most
+        taken = sum(float(np.linalg.norm(change, axis=0).max()) for change in changes)
+        return replace(part, over_time=part.over_time - taken)
+    needed = np.zeros_like(part.constant)
+    for change in changes:
+        needed[:, :: part.dim] += np.maximum(lost(part, change), lost(part, -change))
+    return replace(part, constant=frozen(part.constant - needed))
 
 
 def _together(parts: Sequence[Rows]) -> list[Rows]:

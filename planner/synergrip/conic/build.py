@@ -36,7 +36,7 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     A = in_basis(_matrix(rows, T, n_v, extra), basis, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
-    b = np.concatenate([np.zeros(0), *(part.constant.ravel() for part in rows)])
+    b = np.concatenate([np.zeros(0), *(_constants(part) for part in rows)])
     bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
@@ -67,11 +67,29 @@ def _between(rows: Rows, shares: sparse.csr_matrix, extra: int) -> sparse.csc_ma
         of_knots = sparse.block_diag([sparse.csr_matrix(each) for each in matrix], format="csr")
         body = sparse.kron(shares, sparse.eye_array(matrix.shape[1], format="csr"), format="csr") @ of_knots
     scalar = sparse.csr_matrix(np.tile(rows.epigraph, len(rows.constant))[:, None])
-    return sparse.csc_matrix(sparse.hstack([body, scalar]) if extra else body)
+    whole = sparse.hstack([body, scalar]) if extra else body
+    return sparse.csc_matrix(whole) if rows.over_time is None else _over_time(sparse.csr_matrix(whole), len(rows.items))
+
+
+def _over_time(body: sparse.csr_matrix, items: int) -> sparse.csc_matrix:
+    """Return rows (instants, items) as one cone of each item, whose head has no unknowns."""
+    by_item = np.arange(body.shape[0]).reshape(-1, items).T
+    head = sparse.csr_matrix((1, body.shape[1]))
+    return sparse.csc_matrix(sparse.vstack([part for order in by_item for part in (head, body[order])]))
+
+
+def _constants(rows: Rows) -> Array:
+    """Return the constants of rows in the order of their block."""
+    if rows.over_time is None:
+        return rows.constant.ravel()
+    heads = np.full((1, len(rows.items)), rows.over_time)
+    return np.concatenate([heads, rows.constant]).T.ravel()
 
 
 def _block(rows: Rows, knots: int) -> Block:
     count = len(rows.constant)
+    if rows.over_time is not None:
+        return Block(rows.limit, rows.kind, 1 + count, rows.items, knots - 1, 1)
     if rows.inside is not None:
         return Block(rows.limit, rows.kind, rows.dim, rows.items, 0, count, between=True, friction=rows.friction)
     return Block(rows.limit, rows.kind, rows.dim, rows.items, knots - count, count, friction=rows.friction)

@@ -82,6 +82,9 @@ class Rows(Value):
     """(K, T) what each knot has of each instant, for rows at instants between the knots; None for rows at the knots.
     The value is then ``matrix (inside v)_k + ...``, or, with one matrix for each knot, the knots' ``matrix v`` in their
     shares."""
+    over_time: float | None = None
+    """Where it is given, the rows (dim 1) of an item at all instants of `inside` make one cone: their norm over time is
+    no more than this. None where there is a cone at each instant."""
     friction: bool = False
     """Whether the cones are friction cones: those alone have pyramids, and what they clash with says that it slips."""
 
@@ -180,6 +183,8 @@ def with_room(rows: Rows, room: float) -> Rows:
     """Return rows whose cones are all kept but for `room`; equations stay."""
     if rows.kind is Kind.ZERO:
         return rows
+    if rows.over_time is not None:
+        return replace(rows, over_time=rows.over_time + room)
     heads = np.zeros(rows.constant.shape[1])
     heads[:: rows.dim] = room
     return replace(rows, constant=frozen(rows.constant + heads))

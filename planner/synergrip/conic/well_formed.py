@@ -96,8 +96,10 @@ def _judge_shapes(key: str, given: Rows | Squares, count: int, formulation: Form
     if matrix[-2:] != (count, formulation.n_v):
         wanted = f"a matrix with a row for each item and a column for each unknown, {(count, formulation.n_v)}"
         raise InputError.at(key, f"expected {wanted}, got shape {matrix}")
-    if len(constant) != 2 or constant[1] != count or constant[0] > formulation.knots:
-        wanted = f"constants at {formulation.knots} knots for {count} rows, {(formulation.knots, count)}"
+    inside = getattr(given, "inside", None)
+    most = formulation.knots if inside is None else inside.shape[0]
+    if len(constant) != 2 or constant[1] != count or constant[0] > most:
+        wanted = f"constants at {most} knots for {count} rows, {(most, count)}"
         raise InputError.at(key, f"expected {wanted}, got shape {constant}")
     if not (np.all(np.isfinite(given.matrix)) and np.all(np.isfinite(given.constant))):
         raise InputError.at(key, "expected finite numbers in matrix and constant, got nan or infinity")

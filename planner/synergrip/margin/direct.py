@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import first_plan, outcome_at, posed_at, with_room
+from synergrip.changes.at_a_value import between, first_plan, outcome_at, posed_at, with_room
 from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -30,7 +30,7 @@ MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES = 1
-"""How often what lies between a value with a plan and one where none was found is halved."""
+"""How often it is halved, if nothing else is said."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,6 +45,8 @@ class Wanted(Value):
     """Why there is none."""
     per: float = 1.0
     """What the values of the dial are divided by."""
+    halves: int = HALVES
+    """How often what lies between a value with a plan and one where none was found is halved, on a hand that moves."""
 
 
 def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
@@ -62,7 +64,7 @@ def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
         Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
         Wanted(
             "shortest_duration_s", "s", duration_dial(asked, timed),
-            "nothing depends on how long the task takes, or a part of it has times of its own",
+            "nothing depends on how long the task takes, or a load has times of its own",
         ),
         Wanted("largest_amplitude", "", motion, "no motion is wanted", motion.value if motion else 1.0),
     )  # fmt: skip
@@ -106,10 +108,18 @@ def direct(numbers: Iterable[Wanted], asked: Asked, plan: Plan) -> Iterator[Dire
         if each.dial is None or posed is None:
             yield DirectNumber.none(each.name, each.unit, each.absent)
             continue
-        yield _number(each, each.dial, posed, plan)
+        yield number_of(each, each.dial, posed, plan)
 
 
-def _number(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
+def number_of(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
+    """Return how far one number may go.
+
+    Args:
+        of: what is asked for.
+        dial: of it, what is turned.
+        posed: what is asked, as a program of the start posture.
+        plan: of it.
+    """
     own = posed_at(dial, dial.value, posed) if dial.cause in OF_PLAN else posed
     own = posed if own is None else own
     found = extreme(dial, own, own.program())
@@ -175,9 +185,9 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
             search = search.tried(share)
             if search.bad is not None:
                 break
-    for _ in range(HALVES):
+    for _ in range(of.halves):
         search = search.halved()
-    if search.best is plan:
+    if search.best is plan and dial.cause in OF_PLAN:
         return _near(of, found, plan)
     return _ends(of, found, search.good, search.best, search.bad)
 
@@ -201,8 +211,8 @@ class _Search(Value):
         return self._with(value) if value > 0 else self
 
     def halved(self) -> _Search:
-        """Return it with the value between those with and without a plan."""
-        return self if self.bad is None else self._with((self.good + self.bad) / 2)
+        """Return it with the value between those with and without a plan, as many times the one as the other of it."""
+        return self if self.bad is None else self._with(between(self.good, self.bad))
 
     def _with(self, value: float) -> _Search:
         value = self.dial.rounded(value)

@@ -36,6 +36,8 @@ class DirectNumber(Value):
     """The argument of ``--set`` that asks for the value."""
     plan: Plan | None = None
     """The plan that attains it."""
+    displacement: tuple[float, ...] | None = None
+    """(6,) of the object at the value about B [m, rad], of an amplitude along a rigid motion."""
 
     @classmethod
     def none(cls, name: str, unit: str, why: str) -> DirectNumber:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -31,7 +32,7 @@ ALIKE = 1e-6
 @made_by("margins(grasp, task).measures")
 @dataclass(frozen=True, eq=False, repr=False)
 class Measure(Value):
-    """One measure of all contacts over time.
+    """One measure of all contacts, joints or actuators over time.
 
     Example:
         >>> slip = margins(grasp, task).measures["slip margin"]  # doctest: +SKIP
@@ -42,10 +43,12 @@ class Measure(Value):
     name: str
     unit: str
     formula: str
-    value: Array  # (T, n_c)
-    contacts: tuple[str, ...]
+    value: Array  # (T, m)
+    items: tuple[str, ...]
+    """(m) names of what it is of: all contacts, or the joints or actuators that have a limit."""
     times: Array  # (T,) [s]
     most_is_worst: bool = False
+    of: Literal["contact", "joint", "actuator"] = "contact"
 
     @property
     def worst(self) -> Worst:
@@ -54,12 +57,12 @@ class Measure(Value):
         worst = float(goodness.min())
         alike = ALIKE * abs(worst) if np.isfinite(worst) else 0.0
         k, i = (int(place[0]) for place in np.nonzero(goodness <= worst + alike))
-        return Worst(float(self.value[k, i]), self.contacts[i], float(self.times[k]))
+        return Worst(float(self.value[k, i]), self.items[i], float(self.times[k]))
 
 
 @dataclass(frozen=True)
 class Worst:
-    """A value, the contact that has it, and when."""
+    """A value, the contact, joint or actuator that has it, and when."""
 
     value: float
     name: str

@@ -56,6 +56,7 @@ def task_of(table: TaskTable, folder: Path) -> tuple[Task, Keys]:
         tolerance=table.tolerance or 0.0, axes=table.axes, drift=table.drift, between=table.between,
         linearise=table.linearise, control=None if table.control is None else table.control.value(),
         load_factor=table.load_factor, motion_factor=table.motion_factor,
+        time_factor=table.time_factor,
     )  # fmt: skip
     return task, keys
 

@@ -11,6 +11,7 @@ from synergrip.conic.limits.object_error import AXES, AxisName
 from synergrip.documents.fields import (
     NUMBER,
     NotNegative,
+    Positive,
     Size,
     Table,
     Text,
@@ -87,6 +88,9 @@ class TaskTable(Table):
         default=None, description="wanted motion in coordinates of Gamma_ucs: CSV file with t_s,beta_1,..."
     )
     motion_factor: NotNegative = Field(default=1.0, description="by which the wanted motion is multiplied")
+    time_factor: Positive = Field(
+        default=1.0, description="by which the time of the task, of its motion and of the palm's is multiplied"
+    )
     tracking: Literal["rigid", "compliant"] = Field(
         default="rigid",
         description="what follows the wanted motion: the rigid part, or the object with its elastic part",

@@ -13,6 +13,7 @@ from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.kept_scalar import KeptScalar
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
@@ -28,6 +29,8 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce, bound_unit
 from synergrip.conic.limits.object_error import ObjectError
 from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.limits.sustained_effort import SustainedEffort
+from synergrip.conic.limits.sustained_torque import SustainedTorque
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
@@ -37,6 +40,7 @@ from synergrip.referee.friction import NotWrittenError, contact_cones
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
 from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
+from synergrip.referee.sustained import least_holding, over_time
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:
@@ -166,6 +170,8 @@ LIMITS: dict[type, Callable[[Model, Any], tuple[Cone, ...]]] = {
     NormalForce: _normal_force,
     JointTorque: lambda model, limit: _symmetric(limit, model.response.grasp.joints, model.torque),
     ActuatorEffort: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.effort),
+    SustainedTorque: lambda model, limit: over_time(model, limit, model.response.grasp.joints, model.torque),
+    SustainedEffort: lambda model, limit: over_time(model, limit, model.response.grasp.synergies, model.effort),
     SynergyReference: lambda model, limit: _symmetric(limit, model.response.grasp.synergies, model.dz_r),
     SynergyRate: _synergy_rate,
     SynergyAcceleration: synergy_acceleration,
@@ -180,6 +186,7 @@ GOALS: dict[type, Callable[[Model, Any], Written]] = {
     LeastPeak: _least_peak,
     LeastReconfiguration: least_reconfiguration,
     LeastMotion: least_motion,
+    LeastHolding: least_holding,
     SteadyForces: steady_forces,
     CentredJoints: centred_joints,
     WeightedSum: _weighted_sum,

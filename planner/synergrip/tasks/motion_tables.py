@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Literal, Self
 
 import numpy as np
 
@@ -13,9 +13,18 @@ from synergrip.tasks.stated import Motion
 from synergrip.tasks.time_tables import TimeTable
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class _WantedTable(TimeTable, Motion):
+    """A table of where the object is wanted."""
+
+    def stretched(self, factor: float) -> Self:
+        """Return the same places at times that are multiplied."""
+        return replace(self, times=factor * np.asarray(self.times))
+
+
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
-class MotionTable(TimeTable, Motion):
+class MotionTable(_WantedTable):
     """Where the object is wanted at instants which cover the task, in straight lines between them.
 
     A CSV file of it has the header ``t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad``.
@@ -39,7 +48,7 @@ class MotionTable(TimeTable, Motion):
 
 @naming_arguments
 @dataclass(frozen=True, eq=False, repr=False)
-class ModesTable(TimeTable, Motion):
+class ModesTable(_WantedTable):
     """The rigid motion in coordinates of Gamma_ucs, all of them, at instants which cover the task.
 
     A CSV file of it has the header ``t_s,beta_1,beta_2,...``.

@@ -70,6 +70,10 @@ class Palm(Load):
         """True with inertia, which is curved over the time of the task."""
         return self.inertia
 
+    def stretched(self, factor: float) -> Palm:
+        """Return the same: it takes the whole time of the task, however long."""
+        return self
+
     def motion(self, start: float, end: float) -> PalmMotion:
         """Return the motion in a task from `start` to `end` [s]."""
         axis = (0.0, 0.0, 1.0) if self.axis is None else self.axis

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -92,6 +92,10 @@ class PalmPath(Load):
     def curved(self) -> bool:
         """True: it is a spline between its poses."""
         return True
+
+    def stretched(self, factor: float) -> PalmPath:
+        """Return the same way at times that are multiplied: accelerations are divided by the square of the factor."""
+        return replace(self, times=factor * np.asarray(self.times))
 
     def motion(self, start: float, end: float) -> PalmSpline:
         """Return the motion in a task from `start` to `end` [s]."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 
@@ -16,6 +16,10 @@ from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.profiles import Profile
 from synergrip.values import ByContent
 
+NOT_STRETCHED = (
+    "has times of its own, which 'time_factor' does not change: it is for the time of motions; leave out time_factor "
+    "and write the times as they are to be, or leave out this"
+)
 Corner = tuple[str, str, float]
 """An argument, what happens then in words, and when [s]."""
 
@@ -103,6 +107,16 @@ class Stated(ByContent):
             hint = "; or give at(times, object=Object(mass=...))" if object is None and "mass" in str(error) else ""
             raise whose.located(lambda issue: replace(issue, message=issue.message + hint)) from None
         return np.zeros((len(instants), 6)) if profile is None else frozen(profile.at(instants))
+
+    def stretched(self, factor: float) -> Self:
+        """Return the same in a task whose time is multiplied by a factor: what moves comes at other times with it.
+
+        Raises:
+            InputError: it has times that are not those of a motion.
+        """
+        if self.lines is not None or self.timed or self.last is not None:
+            raise InputError.at("", NOT_STRETCHED)
+        return self
 
     def corners(self, setting: Setting) -> Iterable[Corner]:
         """Return the instants that must be on a knot when the number of knots is given."""

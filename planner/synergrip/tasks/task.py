@@ -59,6 +59,9 @@ class Task(ByContent):
         motion_factor: by which the wanted motion is multiplied.
         allow: what the plan is to hold for beside what is stated: less friction, other masses and loads, contacts that
             are off; None for nothing.
+        time_factor: by which the time of the whole task is multiplied: its duration, and the times of waypoints, of
+            tables of the wanted motion and of the path of the palm. Velocities are divided by it, accelerations, and
+            with them the load by inertia, by its square. A load with times of its own is refused with another than 1.
         linearise: on a hand: "along" the motion, again and again at the true equilibria, until what is promised is what
             the hand does; or "once", at the start posture, as the paper does.
 
@@ -85,6 +88,7 @@ class Task(ByContent):
     control: Control | None = None
     load_factor: float = 1.0
     motion_factor: float = 1.0
+    time_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
     allow: Allowances | None = None
 
@@ -103,6 +107,7 @@ class Task(ByContent):
         goals = _listed(judge, "goals", self.goals, object, "goals such as LeastEffort()")
         axes = _listed(judge, "axes", self.axes, str, f"names of axes, of {', '.join(AXES)}")
         factors = {name: judge.real(name, getattr(self, name), at_least=0) for name in ("load_factor", "motion_factor")}
+        factors["time_factor"] = judge.real("time_factor", self.time_factor, above=0)
         compliant = isinstance(self.tracking, str) and self.tracking == "compliant"
         judge.issues += [
             *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),

@@ -28,7 +28,10 @@ if TYPE_CHECKING:
     from synergrip.conic.allowed import Allowed
     from synergrip.grasps.grasp import Grasp
 
-BOUNDING = ("normal_force", "joint_torque", "actuator_effort", "synergy_reference", "joint_range")
+BOUNDING = (
+    "normal_force", "joint_torque", "actuator_effort", "sustained_torque", "sustained_effort", "synergy_reference",
+    "joint_range",
+)  # fmt: skip
 """Limits each of which alone bounds the largest margin, also where squeezing harder always helps."""
 MAXIMISED = "goal.maximise"
 """The key under which the largest margin is asked for, unless it is one of several goals."""

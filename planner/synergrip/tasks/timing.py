@@ -15,7 +15,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.tasks.corners import allowed_on
 from synergrip.tasks.gravity import Weight
 from synergrip.tasks.inertia import Inertia
-from synergrip.tasks.knots import knots, span
+from synergrip.tasks.knots import USUAL, knots, span
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
@@ -69,6 +69,7 @@ def happening(task: Task, body: Object | None) -> tuple[Array, Profiles]:
     Raises:
         InputError: see `timed`.
     """
+    task = stretched(task)
     parts = task.parts
     start, end = span(parts, task.duration, task.knots)
     setting = Setting(start, end, body, _palm(task, start, end))
@@ -76,6 +77,29 @@ def happening(task: Task, body: Object | None) -> tuple[Array, Profiles]:
     times = knots(parts, task.knots, setting)
     target = over.pop("target", None) or Constant(np.zeros(0))
     return frozen(times), Profiles(tuple(over.values()), target, task.load_factor, task.motion_factor)
+
+
+def stretched(task: Task) -> Task:
+    """Return a task whose `time_factor` is in its times.
+
+    Raises:
+        InputError: a load has times of its own, or what comes of the factor is no task; with its argument.
+    """
+    factor = task.time_factor
+    if factor == 1:
+        return task
+    found, issues = dict[str, Stated](), list[Issue]()
+    for key, part in task.parts.items():
+        try:
+            found[key] = part.stretched(factor)
+        except InputError as error:
+            own = error if not any(issue.key for issue in error.issues) else error.under(type(part).__name__)
+            issues += own.located(lambda issue, key=key: replace(issue, key=f"Task.{key}")).issues  # type: ignore[misc]
+    raise_issues(issues)
+    tells = task.duration is None and any(part.last is not None for part in found.values())
+    duration = None if tells else factor * (USUAL if task.duration is None else task.duration)
+    target = found.pop("target")
+    return task.replace(duration=duration, loads=list(found.values()), target=target, time_factor=1.0)
 
 
 def at_start(grasp: Grasp, wrench: Array) -> Grasp:

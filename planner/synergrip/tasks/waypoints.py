@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -93,6 +93,10 @@ class Waypoints(Motion):
     def timed(self) -> bool:
         """True: things happen at the waypoints."""
         return True
+
+    def stretched(self, factor: float) -> Waypoints:
+        """Return the same places at times that are multiplied."""
+        return replace(self, times=factor * np.asarray(self.times))
 
     def over(self, setting: Setting) -> Passing:
         """Return the motion (T, m) at any time, from rest at 0 s."""

@@ -12,6 +12,7 @@ FILES = (
     "largest_margin",
     "least_peak",
     "least_effort",
+    "least_holding",
     "steady_forces",
     "least_motion",
     "centred_joints",

@@ -85,6 +85,11 @@ Efforts = Annotated[
     Written(_one_each(_effort, "hand"), _one_each_schema([POSITIVE, unit_schema("torque", "force")], "hand")),
 ]
 """Efforts of joints or synergies: one, one for each, or those that the hand states."""
+OwnEfforts = Annotated[
+    float | tuple[float, ...],
+    Written(_one_each(_effort), _one_each_schema([POSITIVE, unit_schema("torque", "force")])),
+]
+"""Efforts of joints or synergies that no hand states: one, or one for each."""
 References = Annotated[float | tuple[float, ...], Written(_one_each(_positive), _one_each_schema([POSITIVE]))]
 """Sizes of synergies, in their own units: one, or one for each."""
 

@@ -13,6 +13,8 @@ FILES = (
     "normal_force",
     "joint_torque",
     "actuator_effort",
+    "sustained_torque",
+    "sustained_effort",
     "synergy_reference",
     "synergy_rate",
     "synergy_acceleration",

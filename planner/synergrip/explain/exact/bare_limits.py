@@ -197,7 +197,7 @@ def values_of(rows: Rows, v: Array) -> Array:
 
 def is_of_quantities(rows: Sequence[Rows], bare: Sequence[Rows], known: Affine) -> bool:
     """Return whether the rows of a limit are those of the bare formulation: whether it looks at quantities alone."""
-    if len(rows) != len(bare):
+    if len(rows) != len(bare) or any(part.inside is not None for part in rows):
         return False
     T, n_v = len(known.constant), known.matrix.shape[1]
     v = np.random.default_rng(0).normal(size=(T, n_v))

@@ -1,0 +1,50 @@
+"""Numbers of each contact and of each rigid motion, as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from shlex import quote
+
+import numpy as np
+
+from synergrip.margin.direct_number import DirectNumber
+from synergrip.reports.text.tables import table, wrapped
+
+TITLES = {
+    "critical_friction_per_contact": "How slippery each contact may be, the others as they are",
+    "largest_amplitude_per_mode": "How far each rigid motion may go, in the place of the hold",
+}
+"""Name -> what stands above its table."""
+
+
+def several_lines(name: str, numbers: Mapping[str, DirectNumber]) -> Iterator[str]:
+    """Yield the table of some numbers, where their other ends come from, and why there are no others."""
+    there = {of: each for of, each in numbers.items() if each.value is not None}
+    moves = any(each.displacement is not None for each in there.values())
+    yield TITLES[name] if numbers else f"{TITLES[name]}: there is none"
+    if there:
+        moved = ("moved by",) if moves else ()
+        yield table(("", "attained", "end", *moved, "with"), [_row(of, each) for of, each in there.items()])
+    for why in dict.fromkeys(each.why for each in numbers.values()):
+        yield from wrapped("         ", f"{', '.join(of for of, each in numbers.items() if each.why == why)}: {why}")
+
+
+def _row(of: str, number: DirectNumber) -> tuple[str, ...]:
+    assert number.value is not None
+    grows = number.value == number.lower
+    end = number.upper if grows else number.lower
+    told = "-" if end is None else f"{'below' if grows else 'above'} {_told(number, end)}"
+    moved = () if number.displacement is None else (_moved(number.displacement),)
+    return of, _told(number, number.value), told, *moved, f"--set {quote(number.setting)}"
+
+
+def _told(number: DirectNumber, value: float) -> str:
+    return f"{1e3 * value:.5g} mm" if number.unit == "m" else f"{value:.5g}"
+
+
+def _moved(displacement: tuple[float, ...]) -> str:
+    """Return translation and rotation of the object."""
+    size = max(map(abs, displacement))
+    shift, turn = (np.where(np.abs(part) < 1e-9 * size, 0.0, part) for part in np.reshape(displacement, (2, 3)))
+    told = (", ".join(f"{value:.4g}" for value in part) for part in (1e3 * shift, np.degrees(turn)))
+    return "({}) mm, ({}) deg".format(*told)
