@@ -23,7 +23,8 @@ from too_much import with_plan
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.margins import Margins, margins
+from synergrip.margin.found import Margins
+from synergrip.margin.margins import margins
 from synergrip.tasks.timed_task import TimedTask
 
 NUMBERS = {

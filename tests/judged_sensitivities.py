@@ -26,8 +26,8 @@ from too_much import with_plan
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.margin.sensitivity import LARGEST, Sensitivities, Sensitivity
 from synergrip.margin.sensitivities import sensitivities_of
+from synergrip.margin.sensitivity import LARGEST, Sensitivities, Sensitivity
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward

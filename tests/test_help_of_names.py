@@ -19,10 +19,7 @@ MADE_BY_OTHERS = {
     "Explanation", "Repair", "When",
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber", "GraspProperties",
     "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
-    "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber",
-    "Sensitivities", "Sensitivity",
-    "FastestTiming",
-    "MissingSynergies", "SynergiesNeeded", "InCase", "Margins", "Measure", "DirectNumber",
+    "Sensitivities", "Sensitivity", "FastestTiming", "InCase",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

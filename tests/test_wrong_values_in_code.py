@@ -112,10 +112,10 @@ RIGHT: dict[str, dict[str, Any]] = {
     "PalmPath": {"times": [0, 1], "poses": still},
     "Task": {"duration": 1.0, "knots": 3, "target": sg.Hold(), "loads": [], "limits": [], "goals": [sg.LeastEffort()],
              "tracking": "rigid", "tolerance": 0.0, "axes": ("x",), "drift": 0.1, "between": "report",
-             "load_factor": 1.0, "motion_factor": 1.0, "control": None, "allow": None},
+             "load_factor": 1.0, "motion_factor": 1.0, "time_factor": 1.0, "control": None,
+             "allow": None},
     "Allowances": {"friction": (0.4, 0.8), "friction_share": 0.1, "mass": (0.1, 0.2), "load": [np.zeros(6)],
                    "load_box": np.ones(6), "contact_gap": 1e-4},
-             "load_factor": 1.0, "motion_factor": 1.0, "time_factor": 1.0, "control": None},
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
@@ -135,10 +135,7 @@ OTHERS = {
     "simulate", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
-    "sensitivities", "Sensitivities", "Sensitivity",
-    "fastest_timing", "FastestTiming",
-    "missing_synergies", "MissingSynergies", "SynergiesNeeded", "InCase",
-    "margins", "Margins", "Measure", "DirectNumber",
+    "sensitivities", "Sensitivities", "Sensitivity", "fastest_timing", "FastestTiming", "InCase",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
@@ -184,7 +181,6 @@ MADE_BY = {
     "GraspProperties": "grasp_properties(", "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
     "Disturbances": "disturbances(", "WithstoodAlong": "disturbances(", "Withstood": "disturbances(",
     "WrenchSpaceQuality": "wrench_space_quality(",
-    "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",
     "Sensitivities": "sensitivities(", "Sensitivity": "sensitivities(",
     "FastestTiming": "fastest_timing(",
 }  # fmt: skip

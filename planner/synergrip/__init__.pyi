@@ -109,7 +109,7 @@ from synergrip.explain.synergies.missing_synergies import MissingSynergies as Mi
 from synergrip.explain.synergies.synergies_needed import synergies_needed as synergies_needed
 from synergrip.explain.synergies.synergies_needed import SynergiesNeeded as SynergiesNeeded
 from synergrip.margin.margins import margins as margins
-from synergrip.margin.margins import Margins as Margins
+from synergrip.margin.found import Margins as Margins
 from synergrip.margin.measures import Measure as Measure
 from synergrip.margin.direct_number import DirectNumber as DirectNumber
 from synergrip.margin.disturbances import disturbances as disturbances

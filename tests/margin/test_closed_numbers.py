@@ -17,7 +17,8 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import frozen
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.margins import Margins, margins
+from synergrip.margin.found import Margins
+from synergrip.margin.margins import margins
 from synergrip.problems.problem import load_problem
 from synergrip.tasks.timed_task import TimedTask, still
 

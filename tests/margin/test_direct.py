@@ -16,7 +16,8 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.linalg import frozen
 from synergrip.margin.direct import wanted
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.margins import Margins, margins
+from synergrip.margin.found import Margins
+from synergrip.margin.margins import margins
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 from synergrip.tasks.timed_task import TimedTask, still

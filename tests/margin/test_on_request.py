@@ -12,7 +12,8 @@ from small_grasps import pinch
 
 import synergrip as sg
 from synergrip.linalg import frozen
-from synergrip.margin.margins import Margins, margins
+from synergrip.margin.found import Margins
+from synergrip.margin.margins import margins
 from synergrip.reports.data.json_margins import margins_document
 from synergrip.tasks.timed_task import TimedTask, still
 

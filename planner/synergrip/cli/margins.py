@@ -20,6 +20,7 @@ from synergrip.cli.running import (
     heard,
     picture_place,
     placed,
+    possible,
     show,
     shown_anyway,
     writing,
@@ -27,7 +28,11 @@ from synergrip.cli.running import (
 
 if TYPE_CHECKING:
     from synergrip.margin.direct_number import DirectNumber
-    from synergrip.margin.margins import Margins
+    from synergrip.margin.found import Margins
+    from synergrip.margin.timing.fastest_timing import FastestTiming
+
+TIMED = "palm.csv"
+"""The file of the fastest timing, in the folder that is asked for."""
 
 
 def margins(
@@ -37,7 +42,7 @@ def margins(
     only: Annotated[
         list[str] | None,
         typer.Option(
-            "--only", metavar="NAME", help="A number such as heaviest_kg, disturbance or quality; may be repeated."
+            "--only", metavar="NAME", help="heaviest_kg, disturbance, fastest_timing_s, ...; may be repeated."
         ),
     ] = None,
     direction: Annotated[
@@ -48,9 +53,16 @@ def margins(
             help="An extra wrench along which to say how much is withstood; may be repeated.",
         ),
     ] = None,
+    whole: Annotated[
+        bool, typer.Option("--all", help="What every change of a number is worth, not only the three worth most.")
+    ] = False,
     box: Annotated[
         str | None,
         typer.Option("--box", metavar="'FX FY FZ MX MY MZ'", help="Half-widths [N, N m] of a box of extra wrenches."),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help=f"Where {TIMED} of --only fastest_timing_s goes."),
     ] = None,
     picture: Annotated[
         Path | None,
@@ -59,7 +71,8 @@ def margins(
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
     with answering(form):
-        from synergrip.margin.margins import Margins
+        from synergrip.files import refuse_unwritable
+        from synergrip.margin.found import Margins
         from synergrip.margin.margins import margins as found_by
         from synergrip.problems.problem import load_problem
         from synergrip.reports.data.json_margins import margins_document
@@ -67,6 +80,9 @@ def margins(
 
         loaded = load_problem(problem, overrides or [])
         picture_place(picture)
+        place = None if output is None else output / TIMED
+        if place is not None:
+            possible("--output", place, refuse_unwritable)
         with placed(loaded), heard():
             found = found_by(
                 loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell,
@@ -75,16 +91,20 @@ def margins(
             )  # fmt: skip
         if not isinstance(found, Margins):
             end_without_plan(form, loaded, found)
-        told, drawn = margins_document(loaded.title, found, loaded.notes), list[str]()
+        told, timed, drawn = margins_document(loaded.title, found, loaded.notes), list[Path](), list[Path]()
 
         def text() -> str:
-            return "\n".join([margins_text(loaded, found, color()), *(f"\nwrote {name}" for name in drawn)])
+            said = margins_text(loaded, found, color(), whole=whole, written=next(iter(timed), None))
+            return "\n".join([said, *(f"\nwrote {picture}" for picture in drawn)])
 
         with shown_anyway(form, text, lambda: told):
-            if picture:
+            if place is not None and found.timing is not None and found.timing.path is not None:
+                timed.append(found.timing.write(place))
+                ending.keep(place)
+            if picture is not None:
                 _draw(found, loaded.title, picture)
-                drawn.append(str(picture))
-        show(form, text, lambda: told | ({"picture": str(picture)} if picture else {}))
+                drawn.append(picture)
+        show(form, text, lambda: told | ({"picture": str(picture)} if drawn else {}))
     raise typer.Exit(130 if found.interrupted else 0)
 
 
@@ -110,6 +130,6 @@ def six(option: str, text: str) -> list[float]:
     return found
 
 
-def _tell(number: DirectNumber) -> None:
+def _tell(number: DirectNumber | FastestTiming) -> None:
     if sys.stderr.isatty():
         print(f"found    {number.name}", file=sys.stderr, flush=True)

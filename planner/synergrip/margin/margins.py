@@ -2,75 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.normal_force import least_normal_force
 from synergrip.documents.judging import Arguments
-from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
-from synergrip.margin.direct import direct, wanted
+from synergrip.margin.direct import Wanted, direct, wanted
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.disturbances import AXES, Disturbances, disturbances, judged_box, judged_directions
-from synergrip.margin.measures import Measure, measures
+from synergrip.margin.disturbances import AXES, disturbances, judged_box, judged_directions
+from synergrip.margin.found import Margins
+from synergrip.margin.headroom import headrooms
+from synergrip.margin.measures import measures
+from synergrip.margin.on_request import ON_REQUEST
 from synergrip.margin.quality import WrenchSpaceQuality, wrench_space_quality
+from synergrip.margin.sensitivities import NAME as SENSITIVITIES
+from synergrip.margin.sensitivities import sensitivities_of
+from synergrip.margin.timing.fastest_timing import TIMING, FastestTiming, fastest_timing
+from synergrip.margin.timing.timeless import timeless
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
-from synergrip.values import Value
 
-
-@made_by("margins(grasp, task)")
-@dataclass(frozen=True, eq=False, repr=False)
-class Margins(Value):
-    """Every margin of a plan, and how heavy, slippery, hard, fast and far it may get.
-
-    Example:
-        >>> found = margins(problem.grasp, problem.task)  # doctest: +SKIP
-        >>> found.direct["heaviest_kg"].value, found.measures["slip margin"].worst.value  # doctest: +SKIP
-        (0.33081, 0.5)
-    """
-
-    plan: Plan
-    measures: Mapping[str, Measure]
-    """By name: of the hand that moves where there is one, of the linear model else."""
-    linear: Mapping[str, Measure] | None
-    """The same references in the linear model of the start posture, on a hand."""
-    direct: Mapping[str, DirectNumber] = field(default_factory=dict)
-    """By name; those that were found before somebody interrupted."""
-    interrupted: bool = False
-    disturbance: Disturbances | None = None
-    """What it withstands beside its load; None where it was not asked for."""
-    quality: WrenchSpaceQuality | None = None
-    """The classical figures of the grasp; None where they were not asked for, or nothing is known of its contacts."""
+DISTURBANCE, QUALITY = "disturbance", "quality"
+BESIDE = (DISTURBANCE, QUALITY, SENSITIVITIES, *ON_REQUEST, TIMING)
+"""What may be asked for by name beside the numbers."""
+Heard = Callable[[DirectNumber | FastestTiming], None]
 
 
 @naming_arguments
 def margins(
     grasp: Grasp, task: Task | TimedTask, *, only: Sequence[str] = (),
-    heard: Callable[[DirectNumber], None] = lambda number: None,
     directions: Sequence[Sequence[float]] | Array | None = None, box: Sequence[float] | Array | None = None,
+    heard: Heard = lambda number: None,
 ) -> Margins | Infeasible | Unknown:  # fmt: skip
-    """Return the margins of the plan of a task, how far each of its numbers may go, and what it withstands.
+    """Return the margins of the plan of a task, how far its numbers may go, what it withstands and what would help it.
 
     Args:
         grasp: the grasp.
         task: what is asked.
-        only: names of the numbers that are wanted, "disturbance" and "quality" among them; all when empty.
-        heard: is told of each number as it is found.
+        only: names of what is wanted: numbers, "disturbance", "quality", "sensitivities". All of these when empty, but
+            not what takes as long as all the others: "critical_friction_per_contact", "largest_amplitude_per_mode",
+            "fastest_timing_s".
         directions: (n, 6) of extra wrenches, see `disturbances`; both ways along and about every axis when None.
         box: (6,) half-widths of a box of extra wrenches, see `disturbances`.
+        heard: is told of each number as it is found.
 
     Returns:
         The margins; or what `plan` says where there is no plan.
 
     Raises:
-        InputError: a name that is none, directions or half-widths that are none, and what `plan` raises.
+        InputError: a name that is none, directions or half-widths that are none, a timing that is not free though it is
+            asked for, and what `plan` raises.
 
     Example:
         >>> margins(problem.grasp, problem.task, only=("load_factor",)).direct["load_factor"].proven  # doctest: +SKIP
@@ -79,8 +68,8 @@ def margins(
     judge = Arguments("")
     names = judge.several("only", only, str, '"heaviest_kg"')
     judge.finish()
-    chosen = frozen(AXES) if directions is None else judged_directions(directions)
-    widths = judged_box(box)
+    along, widths = frozen(AXES) if directions is None else judged_directions(directions), judged_box(box)
+    free = timeless(grasp, task)[1] if TIMING in names else None
     made = plan(grasp, task)
     if not isinstance(made, Plan):
         return made
@@ -89,25 +78,70 @@ def margins(
     for name in names:
         if name not in (*numbers, *BESIDE):
             raise InputError.at("only", one_of(name, [*numbers, *BESIDE]))
-    found, direct_numbers = _found(made), dict[str, DirectNumber]()
+    found = _measured(made)
+    pushed = directions is not None or box is not None
+    wants = _Wants(names, [numbers[name] for name in numbers if not names or name in names], along, widths, pushed)
     if made.interrupted:
         return replace(found, interrupted=True)
     try:
-        for number in direct([each for name, each in numbers.items() if not names or name in names], asked, made):
-            direct_numbers[number.name] = number
-            found = replace(found, direct=dict(direct_numbers))
-            heard(number)
-        if not names or "disturbance" in names or directions is not None or box is not None:
-            found = replace(found, disturbance=disturbances(made, directions=chosen, box=widths))
-        if not names or "quality" in names:
-            found = replace(found, quality=_quality(made))
+        for more in _more(found, wants, asked, task, heard):
+            found = more
+        if free is not None:
+            found = replace(found, timing=fastest_timing(grasp, free))
     except KeyboardInterrupt:
         return replace(found, interrupted=True)
     return found
 
 
-BESIDE = ("disturbance", "quality")
-"""What may be asked for by name beside the numbers."""
+@dataclass(frozen=True)
+class _Wants:
+    """What is wanted beside the measures."""
+
+    names: tuple[str, ...]
+    """Empty for all that is not on request."""
+    numbers: Sequence[Wanted]
+    directions: Array
+    box: Array | None
+    pushed: bool
+    """Whether directions or a box are given, which ask for disturbances by themselves."""
+
+    def __contains__(self, name: str) -> bool:
+        usual = not self.names and name not in (*ON_REQUEST, TIMING)
+        return usual or name in self.names or (self.pushed and name == DISTURBANCE)
+
+
+def _measured(made: Plan) -> Margins:
+    """Return the measures of a plan alone."""
+    grasp, limits = made.grasp, made.task.limits
+    least = least_normal_force(limits)
+    own = measures(grasp, made.time, made.forces, least) | headrooms(grasp, limits, made.motion)
+    if made.executed is None:
+        return Margins(made, own, None)
+    promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
+    return Margins(made, own, measures(grasp, made.time, promised.forces, least) | headrooms(grasp, limits, promised))
+
+
+def _more(found: Margins, wants: _Wants, asked: Asked, task: Task | TimedTask, heard: Heard) -> Iterator[Margins]:
+    """Yield margins of which more and more is known, so that an interrupt keeps what is finished."""
+    made = found.plan
+    for number in direct(wants.numbers, asked, made):
+        heard(number)
+        yield (found := replace(found, direct={**found.direct, number.name: number}))
+    for name in (name for name in ON_REQUEST if name in wants):
+        several: dict[str, DirectNumber] = {}
+        for of, number in ON_REQUEST[name](asked, made):
+            heard(number)
+            several = {**several, of: number}
+            yield (found := replace(found, on_request={**found.on_request, name: several}))
+    if DISTURBANCE in wants:
+        yield (found := replace(found, disturbance=disturbances(made, directions=wants.directions, box=wants.box)))
+    if QUALITY in wants:
+        yield (found := replace(found, quality=_quality(made)))
+    if SENSITIVITIES in wants:
+        changes = sensitivities_of(made, task)
+        yield replace(found, sensitivities=changes)
+        if changes.interrupted:
+            raise KeyboardInterrupt
 
 
 def _quality(made: Plan) -> WrenchSpaceQuality | None:
@@ -115,14 +149,3 @@ def _quality(made: Plan) -> WrenchSpaceQuality | None:
         return wrench_space_quality(made.analysis)
     except InputError:  # contacts of a kind of one's own
         return None
-
-
-def _found(made: Plan) -> Margins:
-    grasp = made.grasp
-    least = least_normal_force(made.task.limits)
-    own = measures(grasp, made.time, made.forces, least)
-    linear = None
-    if made.executed is not None:
-        promised = forward(made.analysis.response, made.time, made.dz_r, made.task.wrench)
-        linear = measures(grasp, made.time, promised.forces, least)
-    return Margins(made, own, linear)

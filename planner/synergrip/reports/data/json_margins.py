@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.margins import Margins
+from synergrip.margin.found import Margins
 from synergrip.margin.measures import Measure
 from synergrip.planning.arrays import names_of
-from synergrip.planning.told import finite, margin_document, notes_together, structure_document
+from synergrip.planning.told import cases_document, finite, margin_document, notes_together, structure_document
 from synergrip.reports.data.json_disturbances import disturbance_document, quality_document
-from synergrip.planning.told import cases_document, finite, margin_document, structure_document
 from synergrip.reports.data.json_plan import plain
+from synergrip.reports.data.json_sensitivities import sensitivities_document
+from synergrip.reports.data.json_timing import timing_document
 
 
 def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -28,10 +29,13 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "time_s": plan.time.tolist(),
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
+        "allowances": cases_document(plan.cases),
         "direct": {name: _number(each) for name, each in found.direct.items()},
+        **{name: {of: _number(each) for of, each in several.items()} for name, several in found.on_request.items()},
         "disturbance": None if found.disturbance is None else disturbance_document(found.disturbance),
         "quality": None if found.quality is None else quality_document(found.quality),
-        "allowances": cases_document(plan.cases),
+        **sensitivities_document(found.sensitivities),
+        **({} if found.timing is None else {found.timing.name: timing_document(found.timing)}),
         "interrupted": found.interrupted,
         "notes": notes_together(plan.notes, notes),
     })  # fmt: skip
@@ -42,19 +46,21 @@ def _measure(measure: Measure, linear: Measure | None) -> dict[str, Any]:
     return {
         "unit": measure.unit, "formula": measure.formula, "worst": _worst(measure),
         "linear_worst": None if linear is None else _worst(linear),
-        "per_contact": [[finite(value) for value in row] for row in measure.value.tolist()],
+        "items": list(measure.items),
+        f"per_{measure.of}": [[finite(value) for value in row] for row in measure.value.tolist()],
     }  # fmt: skip
 
 
 def _worst(measure: Measure) -> dict[str, Any]:
     worst = measure.worst
-    return {"value": finite(worst.value), "contact": worst.name, "time_s": worst.time_s}
+    return {"value": finite(worst.value), measure.of: worst.name, "time_s": worst.time_s}
 
 
 def _number(number: DirectNumber) -> dict[str, Any]:
     if number.value is None:
         return {"value": None, "why": number.why}
+    moved = {} if number.displacement is None else {"displacement": list(number.displacement)}
     return {
         "value": number.value, "lower": number.lower, "upper": number.upper, "proven": number.proven,
-        "unit": number.unit, "why": number.why, "set": number.setting,
+        "unit": number.unit, "why": number.why, "set": number.setting, **moved,
     }  # fmt: skip

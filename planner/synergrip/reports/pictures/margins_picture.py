@@ -12,7 +12,7 @@ import numpy as np
 
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
-from synergrip.margin.margins import Margins
+from synergrip.margin.found import Margins
 from synergrip.margin.measures import ALIKE, Measure
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.layout import MARGIN
@@ -93,9 +93,9 @@ def _over_time(found: Margins) -> Part:
 
 
 def _lines(axes: Any, slip: Measure, linear: Measure | None) -> None:
-    colors, marker = contact_colors(slip.contacts), "o" if len(slip.times) == 1 else None
-    for index, name in enumerate(slip.contacts):
-        width = min(1.5 + 0.9 * (len(slip.contacts) - 1 - index), 5.0)  # of lines on each other all are seen
+    colors, marker = contact_colors(slip.items), "o" if len(slip.times) == 1 else None
+    for index, name in enumerate(slip.items):
+        width = min(1.5 + 0.9 * (len(slip.items) - 1 - index), 5.0)  # of lines on each other all are seen
         axes.plot(slip.times, slip.value[:, index], color=colors[name], lw=width, marker=marker, label=name, zorder=3)
         if linear is not None:
             axes.plot(linear.times, linear.value[:, index], color=colors[name], lw=0.7, alpha=0.7, zorder=2)
@@ -114,7 +114,7 @@ def _sections(found: Margins) -> Part:
     pairs = list(zip(grasp.contacts, grasp.rows, strict=True))
     across = min(ACROSS, len(pairs))
     side = min((WIDTH - 2 * MARGIN + GAP) / across - GAP, 2.2)
-    colors = contact_colors(slip.contacts)
+    colors = contact_colors(slip.items)
 
     def draw(sheet: Sheet, top: float) -> None:
         for index, (contact, rows) in enumerate(pairs):

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from shlex import quote
 
 import numpy as np
 
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.margins import Margins
+from synergrip.margin.found import Margins
 from synergrip.margin.measures import Measure
 from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
 from synergrip.reports.text.text_cases import case_table
+from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
+from synergrip.reports.text.text_on_request import several_lines
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_sensitivities import sensitivity_lines
+from synergrip.reports.text.text_timing import timing_lines
 
 ASKS = {
     "critical_friction_scale": ("how slippery", "times the friction"), "heaviest_kg": ("how heavy", ""),
@@ -28,24 +32,49 @@ ASKS = {
 """Name of a number -> what it answers, and the words for its unit where it has none."""
 
 
-def margins_text(problem: Problem, found: Margins, color: bool = False) -> str:
-    """Return what was asked, every margin where it is worst, and the numbers."""
+def margins_text(
+    problem: Problem, found: Margins, color: bool = False, *, whole: bool = False, written: Path | None = None
+) -> str:
+    """Return what was asked, every margin where it is worst, and all that is known beside.
+
+    Args:
+        problem: what was asked.
+        found: of it.
+        color: whether the terminal shows colours.
+        whole: whether every sensitivity is told, not those worth most alone.
+        written: the file with the path of the palm in its fastest timing.
+    """
     plan = found.plan
     slip = found.measures["slip margin"].worst
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
-    lines = [
+    head = [
         *problem_lines(problem), "",
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
-        f"t = {slip.time_s:.2f} s)", "", f"How sure it is: the worst of all contacts and knots, of {who}",
-        _measures(found),
-        _measures(found), *_cases(found), "", *_numbers(found),
+        f"t = {slip.time_s:.2f} s)",
     ]  # fmt: skip
-    lines += ["", *_numbers(found)] if found.direct else []
-    lines += [] if found.disturbance is None else ["", *disturbance_lines(found.disturbance)]
-    lines += [] if found.quality is None else ["", *quality_lines(found.quality)]
+    parts = [head, [f"How sure it is: the worst of all knots, of {who}", _measures(found)], *_parts(found, whole=whole)]
+    if found.timing is not None:
+        parts.append([*timing_lines(problem, found.timing, written)])
+    lines = [line for part in parts for line in (*part, "")][:-1]
     notes = notes_together(plan.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     return "\n".join([*lines, *(["interrupted; these numbers are finished"] if found.interrupted else [])])
+
+
+def _parts(found: Margins, *, whole: bool) -> Iterator[list[str]]:
+    """Yield the lines of each part that is there."""
+    if found.plan.cases:
+        yield [*_cases(found)]
+    if found.direct:
+        yield [*_numbers(found)]
+    for name, several in found.on_request.items():
+        yield [*several_lines(name, several)]
+    if found.disturbance is not None:
+        yield [*disturbance_lines(found.disturbance)]
+    if found.quality is not None:
+        yield [*quality_lines(found.quality)]
+    if found.sensitivities is not None:
+        yield [*sensitivity_lines(found.sensitivities, whole=whole)]
 
 
 def _measures(found: Margins) -> str:
@@ -59,11 +88,10 @@ def _measures(found: Margins) -> str:
 
 
 def _cases(found: Margins) -> Iterator[str]:
-    """Yield in which cases of what the task allows for the slip margin is smallest; nothing where there are none."""
-    if cases := found.plan.cases:
-        yield ""
-        yield f"What is allowed for: the smallest slip margins of {len(cases)} cases"
-        yield table(("slip margin", "at", "case"), case_table(cases))
+    """Yield in which cases of what the task allows for the slip margin is smallest."""
+    cases = found.plan.cases
+    yield f"What is allowed for: the smallest slip margins of {len(cases)} cases"
+    yield table(("slip margin", "at", "case"), case_table(cases))
 
 
 def _value(measure: Measure) -> str:

@@ -1,0 +1,31 @@
+"""The fastest timing along the path of a palm as text, and how to plan it so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from shlex import quote
+
+from synergrip.margin.timing.fastest_timing import FastestTiming
+from synergrip.problems.problem import Problem
+from synergrip.reports.text.tables import wrapped
+
+
+def timing_lines(problem: Problem, found: FastestTiming, written: Path | None) -> Iterator[str]:
+    """Yield how fast the path of the palm can be gone, and the options that plan it so; `written` is its file."""
+    if found.value is None:
+        yield from wrapped("         ", f"fastest timing: {found.why}")
+        return
+    below = "" if found.lower is None else f", not below {found.lower:.5g} s"
+    yield f"Fastest timing along the path of the palm: {found.value:.5g} s instead of {found.given_s:.5g} s{below}"
+    yield from wrapped("         ", found.why)
+    if written is None:
+        yield "         -o DIR writes it as the path of the palm"
+        return
+    task, sets = problem.task, [f'task.palm={{path="{written.resolve()}",inertia=true}}']
+    if getattr(task, "duration", None) is not None:
+        sets.append(f'task.duration="{found.value!r} s"')
+    if getattr(task, "knots", None) is not None and found.path is not None:
+        sets.append(f"task.knots={len(found.path.times)}")
+    yield f"wrote    {written}"
+    yield f"with     {' '.join(f'--set {quote(each)}' for each in sets)}"
