@@ -14,8 +14,8 @@ from synergrip.grasps.contacts.frictionless import Frictionless
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.contacts.soft_finger import SoftFinger
+from synergrip.reports.pictures.cone_sections import first_worst, used_friction
 from synergrip.reports.pictures.contact_colors import COLORS, contact_colors
-from synergrip.reports.pictures.margins_picture import first_worst, used_friction
 
 
 def contact(kind: ContactKind) -> Contact:
@@ -58,11 +58,12 @@ def test_every_contact_has_a_colour_and_the_first_eight_one_of_their_own() -> No
 
 def test_the_picture_is_written_and_told(tmp_path: Path) -> None:
     file = tmp_path / "margins.svg"
-    done = run("margins", "tripod", "--only", "load_factor", "--picture", str(file))
+    done = run("margins", "tripod", "--only", "disturbance", "--only", "sensitivities", "--picture", str(file))
     assert done.exit_code == 0
     assert f"wrote {file}" in done.stdout
     drawn = file.read_text(encoding="utf-8")
-    for text in ("smallest slip margin 7 N", "Slip margin of each contact", "friction cone", *COLORS[:3]):
+    told = ("smallest slip margin 7 N", "Slip margin of each contact", "friction cone", "Extra force", "force cap +1 %")
+    for text in (*told, *COLORS[:3]):
         assert text in drawn
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from synergrip.linalg import Array, frozen
-from synergrip.tasks.palm_motion import Palm
+from synergrip.tasks.palm_motion import Palm, PalmMotion
 from synergrip.tasks.palm_path import PalmPath, PalmSpline, rotations_of, spline
 from synergrip.values import Value
 
@@ -62,6 +62,22 @@ def legs(load: Palm | PalmPath, start: float, end: float, unit: float, parts: in
         found.append(_leg(points[first : last + 1], unit, count))
     upright = found[0].palm.upright
     return tuple(replace(leg, palm=replace(leg.palm, upright=upright)) for leg in found)
+
+
+def passed_as_given(load: Palm | PalmPath, start: float, end: float, unit: float, parts: int) -> Array:
+    """Return (parts + 1,) which share of the way is passed after equal parts of the time that the task takes as asked.
+
+    Arguments as of `legs`; `parts` of the time.
+    """
+    times = np.linspace(start, end, parts + 1)
+    motion = load.motion(start, end)
+    if isinstance(motion, PalmMotion):
+        return frozen(motion.profile.at(times))
+    dense = np.linspace(start, end, LOOKS + 1)
+    poses = np.asarray(motion.poses(dense))
+    poses[:, 3:] *= 2 * unit / np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(poses, axis=0), axis=1))])
+    return frozen(np.interp(times, dense, lengths / lengths[-1]))
 
 
 def _points(load: Palm | PalmPath, start: float, end: float, unit: float) -> Array:

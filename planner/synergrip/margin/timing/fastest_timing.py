@@ -17,7 +17,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import scale_of
 from synergrip.linalg import Array, frozen
 from synergrip.margin.timing.as_poses import as_poses
-from synergrip.margin.timing.by_length import Leg, legs
+from synergrip.margin.timing.by_length import Leg, legs, passed_as_given
 from synergrip.margin.timing.fastest_program import Timing, fastest
 from synergrip.margin.timing.question import timing_question
 from synergrip.margin.timing.timeless import timeless
@@ -39,6 +39,8 @@ SMALL = 5e-3
 SLOWER = (1.001, 1.01, 1.03, 1.1, 1.3, 2.0)
 """Factors of the time of the linear model that are tried until there is a plan of the hand that moves; the first one is
 room for the poses, which are the timing but for the corners of its speed."""
+DRAWN = 200
+"""Parts of the time at which the timing that was asked for is told beside."""
 HALVES = 2
 """How often what lies between a factor with a plan and one without is halved."""
 
@@ -73,6 +75,8 @@ class FastestTiming(Value):
     """The same way at the timing found: poses at instants."""
     share: Array | None = None
     """(K,) the share of the way that is passed at the instants `path.times`."""
+    given_share: Array | None = None
+    """(K,) the same after equal parts of the time that the task takes as it is asked."""
     plan: Plan | None = None
     """Of the task with `path` in place of the palm's own motion."""
 
@@ -194,8 +198,14 @@ def _attained(
     seconds = float(np.asarray(slowed.times)[-1])
     return FastestTiming(
         seconds, found.least, seconds, found.least is not None, found.local, given,
-        _claim(found, good, best.executed is not None), slowed, frozen(passed / passed[-1]), best,
+        _claim(found, good, best.executed is not None), slowed, frozen(passed / passed[-1]),
+        _as_given(grasp, task, palm), best,
     )  # fmt: skip
+
+
+def _as_given(grasp: Grasp, task: Task, palm: Palm | PalmPath) -> Array:
+    times = task.timed(grasp).times
+    return passed_as_given(palm, float(times[0]), float(times[-1]), scale_of(grasp).length, DRAWN)
 
 
 def _slowed(path: PalmPath, factor: float) -> PalmPath:

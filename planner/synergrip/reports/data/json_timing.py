@@ -14,5 +14,7 @@ def timing_document(found: FastestTiming) -> dict[str, Any]:
     return {
         "value": found.value, "lower": found.lower, "upper": found.upper, "proven": found.proven, "local": found.local,
         "unit": "s", "given_s": found.given_s, "why": found.why, "time_s": list(found.path.times),
-        "share": found.share.tolist(), "path": [list(pose) for pose in found.path.poses],
+        "share": found.share.tolist(),
+        "given_share": None if found.given_share is None else found.given_share.tolist(),
+        "path": [list(pose) for pose in found.path.poses],
     }  # fmt: skip

@@ -1,46 +1,38 @@
-"""How sure a grasp is, as a picture: slip margins over time, and the force of each contact inside its friction cone."""
+"""How sure a grasp is, as a picture: margins over time, forces in their cones, what is withstood, what would help."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
 from synergrip.margin.found import Margins
-from synergrip.margin.measures import ALIKE, Measure
+from synergrip.margin.measures import Measure
+from synergrip.margin.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
+from synergrip.margin.timing.fastest_timing import FastestTiming
+from synergrip.margin.withstood_in_plane import withstood_in_plane
+from synergrip.planning.outcome import Plan
+from synergrip.reports.pictures.cone_sections import cone_sections
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.layout import MARGIN
-from synergrip.reports.pictures.page import SPACE, UNDER, Heading
-from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet, write_picture
+from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, GREY, INK, SKY, Panel, Sheet
+from synergrip.reports.pictures.strips import LEFT, WIDTH, Strip, plain, write_strips
+from synergrip.reports.text.text_sensitivities import change_of
 
-WIDTH, LEFT, HIGH = 9.0, 0.75, 2.2
-"""Of the sheet, the room left of a chart, and the height of a chart [inch]."""
-ABOVE, BELOW = 0.45, 0.6
-"""Room above and below a chart for its labels [inch]."""
-ACROSS, GAP = 5, 0.2
-"""Cross-sections in a row at most, and the room between them [inch]."""
-CAPTION = 0.42
-"""Room above a cross-section for the name of its contact and its margin [inch]."""
-
-
-@dataclass(frozen=True)
-class Part:
-    """A part of the sheet, over its whole width."""
-
-    title: str
-    height: float  # [inch]
-    draw: Callable[[Sheet, float], None]
-    """Draws it below so much from the top [inch]."""
+HIGH, ABOVE, BELOW = 2.2, 0.3, 0.5
+"""Height of a chart, and the room above and below it for its labels [inch]."""
+PLANES = ((0, 1), (0, 2), (1, 2))
+SIDE, APART = 2.4, 0.45
+"""Of a plane of directions, and between two of them [inch]."""
+BARS, BAR, NAMES = 6, 0.21, 4.1
+"""How many sensitivities are drawn, the height of each, and the room for their names [inch]."""
 
 
 def draw_margins(found: Margins, title: str, path: Path) -> None:
-    """Draw the slip margins of a plan over time, and where in its cone the force of each contact is.
+    """Draw all that is known of the margins of a plan.
 
     Args:
         found: the margins.
@@ -54,21 +46,21 @@ def draw_margins(found: Margins, title: str, path: Path) -> None:
     worst = found.measures["slip margin"].worst
     who = "linear model of the start posture" if found.linear is None else "hand that moves"
     under = f"smallest slip margin {worst.value:.4g} N at {worst.name}, t = {worst.time_s:.2f} s, of the {who}"
-    heading = Heading.of(title, under, WIDTH)
-    parts = (_over_time(found), _sections(found))
-
-    def fill(sheet: Sheet) -> None:
-        heading.write(sheet)
-        top = heading.height + SPACE
-        for part in parts:
-            sheet.write(MARGIN, top + 0.15, part.title, UNDER)
-            part.draw(sheet, top + 0.15)
-            top += part.height
-
-    write_picture(path, WIDTH, heading.height + SPACE + sum(part.height for part in parts), fill)
+    write_strips(path, title, under, [*_strips(found)])
 
 
-def _over_time(found: Margins) -> Part:
+def _strips(found: Margins) -> Iterator[Strip]:
+    yield _over_time(found)
+    yield cone_sections(found)
+    if found.disturbance is not None:
+        yield _withstood(found.plan, found.disturbance.of)
+    if found.sensitivities is not None and (bars := _bars(found.sensitivities)):
+        yield _worth(bars)
+    if found.timing is not None and found.timing.path is not None:
+        yield _timing(found.timing)
+
+
+def _over_time(found: Margins) -> Strip:
     """Return the chart of slip margins, with the linear model beside it and the margin that is asked for."""
     slip, asked = found.measures["slip margin"], found.plan.task.margin
     linear = None if found.linear is None else found.linear["slip margin"]
@@ -78,94 +70,106 @@ def _over_time(found: Margins) -> Part:
         axes = sheet.chart(LEFT, top + ABOVE, WIDTH - LEFT - MARGIN, HIGH)
         _lines(axes, slip, linear)
         axes.axhline(asked, color=INK, lw=1.0, ls=(0, (4, 3)), zorder=1)
-        low = min(0.0, asked, float(slip.value.min()))
-        high = axes.get_ylim()[1]
+        low, high = min(0.0, asked, float(slip.value.min())), axes.get_ylim()[1]
         axes.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.tick_params(labelsize=8)
-        axes.set_xlabel("time [s]", fontsize=8)
-        axes.set_ylabel("slip margin [N]", fontsize=8)
-        axes.legend(frameon=False, fontsize=7, ncols=6, loc="lower left", bbox_to_anchor=(0.0, 1.0),
-                    borderaxespad=0.0, handlelength=1.2, columnspacing=1.0)  # fmt: skip
+        plain(axes, "time [s]", "slip margin [N]")
+        _legend(axes)
 
-    return Part(f"Slip margin of each contact; dashed: {asked:.4g} N, which is asked for{beside}",
-                ABOVE + HIGH + BELOW, draw)  # fmt: skip
+    title = f"Slip margin of each contact; dashed: {asked:.4g} N, which is asked for{beside}"
+    return Strip(title, ABOVE + HIGH + BELOW, draw)
 
 
 def _lines(axes: Any, slip: Measure, linear: Measure | None) -> None:
     colors, marker = contact_colors(slip.items), "o" if len(slip.times) == 1 else None
     for index, name in enumerate(slip.items):
-        width = min(1.5 + 0.9 * (len(slip.items) - 1 - index), 5.0)  # of lines on each other all are seen
+        width = min(1.4 + 0.6 * (len(slip.items) - 1 - index), 4.0)  # of lines on each other all are seen
         axes.plot(slip.times, slip.value[:, index], color=colors[name], lw=width, marker=marker, label=name, zorder=3)
         if linear is not None:
             axes.plot(linear.times, linear.value[:, index], color=colors[name], lw=0.7, alpha=0.7, zorder=2)
     axes.margins(x=0.0 if len(slip.times) > 1 else 0.1)
 
 
-def first_worst(values: Array) -> int:
-    """Return where values (T,) are first as small as they get."""
-    least = float(values.min())
-    return int(np.nonzero(values <= least + ALIKE * abs(least))[0][0])
+def _legend(axes: Any) -> None:
+    axes.legend(frameon=False, fontsize=7, ncols=6, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0,
+                handlelength=1.2, columnspacing=1.0)  # fmt: skip
 
 
-def _sections(found: Margins) -> Part:
-    """Return the cross-sections: the friction that each contact uses, in which direction, as a share of what it has."""
-    grasp, slip = found.plan.grasp, found.measures["slip margin"]
-    pairs = list(zip(grasp.contacts, grasp.rows, strict=True))
-    across = min(ACROSS, len(pairs))
-    side = min((WIDTH - 2 * MARGIN + GAP) / across - GAP, 2.2)
-    colors = contact_colors(slip.items)
+def _withstood(plan: Plan, of: str) -> Strip:
+    """Return the extra forces at which a contact slips first, in three planes."""
+    planes = [withstood_in_plane(plan, plane) for plane in PLANES]
+    largest = max((float(np.nanmax(np.abs(forces))) for forces in planes if not np.all(np.isnan(forces))), default=0.0)
+    span = 2.4 * largest or 1.0
 
     def draw(sheet: Sheet, top: float) -> None:
-        for index, (contact, rows) in enumerate(pairs):
-            row, column = divmod(index, across)
-            left, above = MARGIN + column * (side + GAP), top + 0.1 + row * (side + CAPTION + GAP)
-            worst = first_worst(slip.value[:, index])
-            sheet.write(left, above + 0.15, _short(contact.name, side), 8.0, colors[contact.name], bold=True)
-            told = f"least {slip.value[worst, index]:.3g} N, t = {slip.times[worst]:.3g} s"
-            sheet.write(left, above + 0.3, told, 7.0, GREY)
-            panel = sheet.panel(left, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
-            _section(panel, contact, found.plan.forces[:, rows], worst, colors[contact.name])
+        for index, (plane, forces) in enumerate(zip(PLANES, planes, strict=True)):
+            panel = sheet.panel(MARGIN + index * (SIDE + APART), top + 0.15, SIDE, SIDE, np.zeros(2), span)
+            _directions(panel, forces, ["xyz"[axis] for axis in plane], span / 2)
 
-    rows = math.ceil(len(pairs) / across)
-    title = "Force of each contact inside its friction cone (circle: slips); dot: where the margin is least"
-    return Part(title, 0.3 + rows * (side + CAPTION + GAP), draw)
+    about = "of the linear model of the start posture" if of == "the start posture" else "about the true equilibria"
+    title = (
+        f"Extra force at the origin of the object at which a contact slips first, by direction, {about}, references "
+        f"as planned; the cross reaches to {largest:.4g} N"
+    )
+    return Strip(title, SIDE + 0.25, draw)
 
 
-def _short(name: str, width: float) -> str:
-    """Return a name that fits into a width [inch]."""
-    most = int(width * 138 / 8 * 0.9)
-    return name if len(name) <= most else f"{name[: most - 1]}…"
+def _directions(panel: Panel, forces: Array, names: list[str], half: float) -> None:
+    reach = half / 1.2
+    panel.strokes([np.array([[-reach, 0.0], [reach, 0.0]]), np.array([[0.0, -reach], [0.0, reach]])], FAINT, 0.8)
+    if not np.any(np.isnan(forces)):
+        panel.area(forces, SKY, 0.45, near=2)
+    panel.strokes([np.vstack([forces, forces[:1]])], BLUE, 1.6, near=3)
+    panel.note(np.array([reach * 1.1, 0.0]), names[0])
+    panel.note(np.array([0.0, reach * 1.1]), names[1])
 
 
-def _section(panel: Panel, contact: Contact, forces: Array, worst: int, color: str) -> None:
-    """Draw the way of a force (T, rows) through its cone, seen along the normal."""
-    turn = np.linspace(0.0, 2 * np.pi, 181)
-    circle = np.column_stack([np.cos(turn), np.sin(turn)])
-    panel.area(circle, FAINT, 0.25)
-    panel.strokes([circle], INK, 1.0, near=2)
-    panel.strokes([np.array([[-1.15, 0], [1.15, 0]]), np.array([[0, -1.15], [0, 1.15]])], FAINT, 0.6, near=1)
-    used = used_friction(contact, forces)
-    if used is None:
-        panel.note(np.array([0.0, -0.5]), "no friction")
-        return
-    panel.strokes([used], color, 1.6, near=4)
-    panel.dots(used[worst][None], color, 7.0, near=5, edge=0.8)
-    panel.note(np.array([1.2, -0.12]), "t")
-    panel.note(np.array([-0.12, 1.17]), "o")
+def _bars(found: Sensitivities) -> list[Sensitivity]:
+    """Return the changes worth most, of both margins."""
+    return [
+        each for kind in (LARGEST, FIXED) if found.margins[kind] is not None for each in found.worth_most(kind, BARS)
+    ]
 
 
-def used_friction(contact: Contact, forces: Array) -> Array | None:
-    """Return (T, 2) the share of its friction that a contact uses, along the tangents t and o; None without friction.
+def _worth(bars: list[Sensitivity]) -> Strip:
+    """Return what changes add to the largest margin, and to the worst one under these references."""
+    high = BAR * len(bars)
 
-    Spin is in the size, not in the direction: at 1 the contact slips. A force outside its cone is drawn at 1.2 at most.
-    """
-    head, tail, friction = contact.nearest_cone(forces)
-    if not np.any(friction > 0):
-        return None
-    names = contact.kind.components
-    tangent = np.column_stack([forces[:, names.index(each)] if each in names else 0 * tail for each in ("t", "o")])
-    length = np.linalg.norm(tangent, axis=1)
-    unit = np.where(length[:, None] > 0, tangent / np.where(length > 0, length, 1.0)[:, None], [1.0, 0.0])
-    share = np.where(head > 0, tail / np.where(head > 0, head, 1.0), np.where(tail > 0, np.inf, 0.0))
-    return np.asarray(np.minimum(share, 1.2)[:, None] * unit)
+    def draw(sheet: Sheet, top: float) -> None:
+        axes = sheet.chart(NAMES, top + 0.1, WIDTH - NAMES - MARGIN, high)
+        colors = [BLUE if each.kind == LARGEST else GREEN for each in bars]
+        places = np.arange(len(bars))[::-1]
+        axes.barh(places, [each.gain for each in bars], color=colors, height=0.7)
+        axes.set_yticks(places, [change_of(each) for each in bars])
+        axes.set_ylim(-0.6, len(bars) - 0.4)
+        plain(axes, "adds to the slip margin [N]", "")
+        axes.tick_params(axis="y", length=0)
+
+    title = (
+        "What changes add, each by 1 % of a number, 1 mm of a contact or 1 deg of its normal: blue to the largest "
+        "margin that there is, green to the worst margin under these references"
+    )
+    return Strip(title, high + BELOW + 0.1, draw)
+
+
+def _timing(found: FastestTiming) -> Strip:
+    """Return the share of the way over time, at the fastest timing and as it is asked."""
+
+    def draw(sheet: Sheet, top: float) -> None:
+        axes = sheet.chart(LEFT, top + ABOVE, WIDTH - LEFT - MARGIN, HIGH)
+        if found.given_share is not None:
+            given = np.linspace(0.0, found.given_s, len(found.given_share))
+            axes.plot(
+                given,
+                100 * found.given_share,
+                color=GREY,
+                lw=1.4,
+                ls=(0, (4, 3)),
+                label=f"as asked, {found.given_s:.4g} s",
+            )
+        if found.path is not None and found.share is not None:
+            axes.plot(found.path.times, 100 * found.share, color=BLUE, lw=1.8, label=f"fastest, {found.value:.4g} s")
+        axes.margins(x=0.0)
+        plain(axes, "time [s]", "way of the palm [%]")
+        _legend(axes)
+
+    return Strip("The fastest timing along the path of the palm", ABOVE + HIGH + BELOW, draw)

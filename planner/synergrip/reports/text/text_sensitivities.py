@@ -35,11 +35,16 @@ def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[
                 yield from wrapped("         ", f"{name}: {why}")
 
 
-def _row(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
+def change_of(each: Sensitivity) -> str:
+    """Return a change the better way, in words."""
     sign = "+" if not each.gain or each.grows else "-"
     where = f" {each.direction}" if each.direction else ""
     of = "" if each.of in ("the object", "the task") else f" of {each.of}"
-    change = f"{each.name}{of}{where} {sign}{each.per}"
+    return f"{each.name}{of}{where} {sign}{each.per}"
+
+
+def _row(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
+    change = change_of(each)
     model = "linear model" if each.model == START else "hand that moves"
     gain = f"{each.gain:.3g} N" if each.gain else "-"
     if not whole:

@@ -1,0 +1,32 @@
+"""How large an extra force a plan withstands in every direction of a plane, to be drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from synergrip.linalg import Array, frozen
+from synergrip.margin.passive import passive_along
+from synergrip.margin.reaction import Reaction
+from synergrip.planning.outcome import Plan
+
+DIRECTIONS = 72
+"""In which it is looked at, around the plane."""
+
+
+def withstood_in_plane(plan: Plan, plane: tuple[int, int]) -> Array:
+    """Return (72, 2) the extra forces [N] in a plane at which a contact slips first, under the references of the plan.
+
+    They act at B. Rows are NaN in directions without an end.
+
+    Args:
+        plan: of any task.
+        plane: two of the axes 0, 1, 2 of N.
+    """
+    reaction, found = Reaction.of(plan, cones_alone=True), []
+    for turn in np.linspace(0.0, 2 * np.pi, DIRECTIONS, endpoint=False):
+        unit = np.array([np.cos(turn), np.sin(turn)])
+        wrench = np.zeros(6)
+        wrench[list(plane)] = unit
+        size = passive_along(reaction, reaction.scaled(wrench)[None]).upper
+        found.append(np.full(2, np.nan) if size is None else size * unit)
+    return frozen(found)

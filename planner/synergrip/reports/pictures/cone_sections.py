@@ -1,0 +1,93 @@
+"""The force of each contact inside its friction cone, seen along the normal."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from synergrip.grasps.contacts.contact import Contact
+from synergrip.linalg import Array
+from synergrip.margin.found import Margins
+from synergrip.margin.measures import ALIKE
+from synergrip.reports.pictures.contact_colors import contact_colors
+from synergrip.reports.pictures.layout import LETTERS, MARGIN
+from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
+from synergrip.reports.pictures.strips import WIDTH, Strip
+
+ACROSS, GAP, LARGEST = 5, 0.2, 2.0
+"""Cross-sections in a row at most, the room between them, and how large one gets [inch]."""
+CAPTION, NAME, UNDER = 0.4, 8.0, 7.0
+"""Room above a cross-section [inch], and sizes of the letters there [points]."""
+OUTSIDE = 1.2
+"""How far outside its cone a force is drawn at most."""
+
+
+def cone_sections(found: Margins) -> Strip:
+    """Return the friction that each contact uses, in which direction, as a share of what it has."""
+    slip, pairs = (
+        found.measures["slip margin"],
+        list(zip(found.plan.grasp.contacts, found.plan.grasp.rows, strict=True)),
+    )
+    across = min(ACROSS, len(pairs))
+    side = min((WIDTH - 2 * MARGIN + GAP) / across - GAP, LARGEST)
+    colors = contact_colors(slip.items)
+
+    def draw(sheet: Sheet, top: float) -> None:
+        for index, (contact, rows) in enumerate(pairs):
+            row, column = divmod(index, across)
+            left, above = MARGIN + column * (side + GAP), top + 0.1 + row * (side + CAPTION + GAP)
+            worst = first_worst(slip.value[:, index])
+            sheet.write(left, above + 0.15, _short(contact.name, side), NAME, colors[contact.name], bold=True)
+            told = f"least {slip.value[worst, index]:.3g} N, t = {slip.times[worst]:.3g} s"
+            sheet.write(left, above + 0.3, told, UNDER, GREY)
+            panel = sheet.panel(left, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
+            _section(panel, contact, found.plan.forces[:, rows], worst, colors[contact.name])
+
+    title = "Force of each contact inside its friction cone (on the circle it slips); dot: where the margin is least"
+    return Strip(title, 0.1 + math.ceil(len(pairs) / across) * (side + CAPTION + GAP), draw)
+
+
+def first_worst(values: Array) -> int:
+    """Return where values (T,) are first as small as they get."""
+    least = float(values.min())
+    return int(np.nonzero(values <= least + ALIKE * abs(least))[0][0])
+
+
+def used_friction(contact: Contact, forces: Array) -> Array | None:
+    """Return (T, 2) the share of its friction that a contact uses, along the tangents t and o; None without friction.
+
+    Spin is in the size, not in the direction: at 1 the contact slips. A force outside its cone is drawn at 1.2 at most.
+    """
+    head, tail, friction = contact.nearest_cone(forces)
+    if not np.any(friction > 0):
+        return None
+    names = contact.kind.components
+    tangent = np.column_stack([forces[:, names.index(each)] if each in names else 0 * tail for each in ("t", "o")])
+    length = np.linalg.norm(tangent, axis=1)
+    unit = np.where(length[:, None] > 0, tangent / np.where(length > 0, length, 1.0)[:, None], [1.0, 0.0])
+    share = np.where(head > 0, tail / np.where(head > 0, head, 1.0), np.where(tail > 0, np.inf, 0.0))
+    return np.asarray(np.minimum(share, OUTSIDE)[:, None] * unit)
+
+
+def _short(name: str, width: float) -> str:
+    """Return a name that fits into a width [inch]; bold letters are wider."""
+    most = int(0.9 * width * LETTERS / NAME)
+    return name if len(name) <= most else f"{name[: most - 1]}…"
+
+
+def _section(panel: Panel, contact: Contact, forces: Array, worst: int, color: str) -> None:
+    """Draw the way of a force (T, rows) through its cone."""
+    turn = np.linspace(0.0, 2 * np.pi, 181)
+    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    panel.area(circle, FAINT, 0.25)
+    panel.strokes([circle], INK, 1.0, near=2)
+    panel.strokes([np.array([[-1.15, 0], [1.15, 0]]), np.array([[0, -1.15], [0, 1.15]])], FAINT, 0.6, near=1)
+    used = used_friction(contact, forces)
+    if used is None:
+        panel.note(np.array([0.0, -0.5]), "no friction")
+        return
+    panel.strokes([used], color, 1.6, near=4)
+    panel.dots(used[worst][None], color, 7.0, near=5, edge=0.8)
+    panel.note(np.array([1.2, -0.12]), "t")
+    panel.note(np.array([-0.12, 1.17]), "o")
