@@ -116,11 +116,25 @@ def test_a_finger_is_not_longer_than_it_is() -> None:
     count = len(found.states)
     assert 0 < count < 11
     assert {len(each) for each in (found.du, found.joint, found.margins, found.stiffness, found.balance.G)} == {count}
-    last, lead = found.states.taken([count - 1]), len(found.path.states) - count
+    last = found.states.taken([count - 1])
     there = found.interpolated(np.array([shares[count - 1], shares[count], 1.0]))
-    assert len(there) == lead + 3
+    assert len(there) == 3
     for name in ("q", "position", "rotation", "forces"):
-        assert getattr(there, name)[lead:] == pytest.approx(np.repeat(getattr(last, name), 3, axis=0), abs=1e-12)
+        assert getattr(there, name) == pytest.approx(np.repeat(getattr(last, name), 3, axis=0), abs=1e-12)
+
+
+@pytest.mark.parametrize("model", ["fixed", "rolling"])
+def test_states_between_those_that_were_followed_step_by_step_are_a_guess(model: Any) -> None:
+    grasp = bundled("gripper-peg")
+    z, wrench = driven(grasp, 2.0)
+    found = execute(grasp, np.array([0.0, 1.0]), np.repeat(z, 2, axis=0), Loads.of(np.repeat(wrench, 2, axis=0)),
+                    contact_model=model)  # fmt: skip
+    assert len(found.path.states) > 2  # followed from the start
+    times = np.array([0.0, 0.5, 1.0])
+    again = execute(grasp, times, np.repeat(z, 3, axis=0), Loads.of(np.repeat(wrench, 3, axis=0)),
+                    guess=found.interpolated(times), contact_model=model)  # fmt: skip
+    assert again.whole
+    assert again.states.forces == pytest.approx(np.repeat(found.states.forces[:1], 3, axis=0), abs=1e-6)
 
 
 @pytest.mark.parametrize("reached", [0, 1])

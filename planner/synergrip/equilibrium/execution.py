@@ -11,6 +11,7 @@ from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.between import states_between
+from synergrip.equilibrium.first_squeeze import squeezes
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import States
 from synergrip.errors import InputError
@@ -95,8 +96,9 @@ class Execution(Value):
         if not (count := len(self.states)):
             raise InputError.at("Execution.interpolated", f"no instant was reached, so no state is known: {self.why}")
         there = states_between(self.times[:count], self.balance, self.maps, self.regular, times, wrench)
-        lead = len(self.path.states) - count
-        return States.joined([self.path.states.taken(slice(0, lead)), there]) if lead else there
+        first = int(self.kept[0])
+        lead = min(squeezes(self.setting), first)
+        return States.joined([self.path.states.taken(slice(first - lead, first)), there]) if lead else there
 
     def left(self, wanted: Array) -> Array:
         """Return the twist (K, 6) from where the object is to where it is wanted.
