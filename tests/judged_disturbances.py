@@ -6,7 +6,7 @@ Plans on random grasps given as matrices, with half of the largest margin. The p
 a second model (`second_disturbances.py`, in cvxpy), within all limits and of the friction cones alone; no wrench in
 10,000 directions inside the balls leaves a cone; of 3 directions in the active ball internal forces answer, and to the
 wrench at its end, 0.1 % larger, none do. Random grasps of four hard fingers must have the epsilon of a hull
-of pyramids made here. Counts plans, grasps and what is wrong; tells the worst differences and how tight active balls are.
+of pyramids made here. Counts plans, grasps and what is wrong; tells the worst differences and how tight balls are.
 """
 
 from __future__ import annotations
