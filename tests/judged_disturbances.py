@@ -2,11 +2,11 @@
 
     python tests/judged_disturbances.py 500 [first seed]
 
-Plans on random grasps given as matrices, with half of the largest margin. The passive ball and a box must be those of a
-second model (`second_disturbances.py`, in cvxpy), within all limits and of the friction cones alone; no wrench in 10,000
-directions inside the balls leaves a cone; of 3 directions in the active ball internal forces answer, and to the wrench
-at its end, 0.1 % larger, none do. Random grasps of four hard fingers must have the epsilon of an independent hull of
-pyramids. Counts plans, grasps and what is wrong, and tells the worst difference and how tight active balls are.
+Plans on random grasps given as matrices, with half of the largest margin. The passive ball and a box must be those of
+a second model (`second_disturbances.py`, in cvxpy), within all limits and of the friction cones alone; no wrench in
+10,000 directions inside the balls leaves a cone; of 3 directions in the active ball internal forces answer, and to the
+wrench at its end, 0.1 % larger, none do. Random grasps of four hard fingers must have the epsilon of a hull
+of pyramids made here. Counts plans, grasps and what is wrong; tells the worst differences and how tight balls are.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "margin")]
+sys.path.insert(0, str(Path(__file__).parent))
 
 from random_grasps import random_grasp
 from scipy.spatial import ConvexHull
 from second_disturbances import SecondModel, some_question
-from test_quality import EDGES, edge_wrenches
+from second_wrench_space import EDGES, edge_wrenches
 
 from synergrip.margin.disturbances import Disturbances, disturbances
 from synergrip.margin.quality import wrench_space_quality
@@ -87,9 +87,7 @@ def main(count: int, first: int) -> None:
         counted["with force closure"] += own.epsilon[0] > 0
         if abs(own.epsilon_pyramids[0] - epsilon) > 1e-9 or own.epsilon[1] < epsilon - 1e-9:
             counted["wrong"] += 1
-            print(
-                f"seed {seed}: epsilon of pyramids {own.epsilon_pyramids[0]:.9g}, of a hull {epsilon:.9g}", flush=True
-            )
+            print(f"seed {seed}: epsilon {own.epsilon_pyramids[0]:.9g}, of a hull {epsilon:.9g}", flush=True)
     print(", ".join(f"{name} {counted[name]}" for name in ("plans", "grasps", "with force closure", "wrong")))
     print("worst differences:", ", ".join(f"{name} {value:.1e}" for name, value in worst.items()))
     if shares:

@@ -25,7 +25,7 @@ write and draw it. A hook that the front door fills would make an answer differ 
 ONLY_IN = {
     "matplotlib": {"reports/pictures/sheet.py"},
     "mujoco": {"hands/kinematics.py", "hands/models/mjcf.py", "simulation/model.py", "simulation/playing.py"},
-    "clarabel": {"conic/solvers/clarabel_.py", "conic/solvers/semidefinite.py"},
+    "clarabel": {"conic/solvers/clarabel_.py", "conic/semidefinite.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
     "cvxpy": {

@@ -119,7 +119,7 @@ def test_a_second_model_withstands_as_much(seed: int) -> None:
 
 def test_a_ball_does_not_depend_on_the_frame() -> None:
     grasp = pinch(MU, NU, compliance=(1e-3, 3e-4))
-    moved = tuple(replace(each, point=frozen(each.point + [0.3, -0.2, 0.1])) for each in grasp.contacts)
+    moved = tuple(replace(each, point=frozen(each.point + np.array([0.3, -0.2, 0.1]))) for each in grasp.contacts)
     here = sg.disturbances(squeezed(grasp, NormalForce(upper=CAP)))
     there = sg.disturbances(squeezed(replace(grasp, contacts=moved, G=grasp_matrix(moved)), NormalForce(upper=CAP)))
     assert there.passive.upper == pytest.approx(here.passive.upper, rel=1e-6)
@@ -129,7 +129,7 @@ def test_a_ball_does_not_depend_on_the_frame() -> None:
 
 
 def test_what_moves_freely_is_not_withstood() -> None:
-    """Two hard fingers leave the turn about the line between them; a force along that line is withstood all the same."""
+    """Two hard fingers leave the turn about the line between them; a force along that line is withstood."""
     hard = sg.load_problem("pinch-hard").grasp
     task = TimedTask(TIME, frozen(np.zeros((1, 6))), still(TIME), 1.0, (NormalForce(upper=20.0),), (LeastEffort(),))
     made = sg.plan(hard, task)

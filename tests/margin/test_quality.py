@@ -9,7 +9,7 @@ import pytest
 from random_grasps import random_grasp
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
-from second_disturbances import unscaled
+from second_wrench_space import EDGES, edge_wrenches
 from small_grasps import pinch, tripod
 
 import synergrip as sg
@@ -17,20 +17,6 @@ from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen, split
 from synergrip.margin.controlled_wrenches import controlled_figures
 from synergrip.margin.quality import Contacts
-
-EDGES = 8
-
-
-def edge_wrenches(grasp: Grasp, edges: int) -> np.ndarray:
-    """Zero and the wrenches of pyramids inside the cones of hard fingers, by trigonometry; no formula is shared."""
-    found = [np.zeros(6)]
-    inverse = np.linalg.inv(unscaled(grasp))
-    for contact in grasp.contacts:
-        n, t, o = contact.frame.T
-        for angle in 2 * np.pi * np.arange(edges) / edges:
-            force = n + contact.friction * (np.cos(angle) * t + np.sin(angle) * o)
-            found.append(inverse @ np.concatenate([force, np.cross(contact.point, force)]))
-    return np.array(found)
 
 
 def closing(rng: np.random.Generator) -> Grasp:
@@ -112,7 +98,7 @@ def test_synergies_cost_and_all_internal_forces_cost_nothing(seed: int) -> None:
 
 def test_figures_do_not_depend_on_the_frame_or_the_size() -> None:
     grasp = tripod()
-    grown = tuple(replace(each, point=frozen(3 * each.point + [0.1, 0.2, 0.0])) for each in grasp.contacts)
+    grown = tuple(replace(each, point=frozen(3 * each.point + np.array([0.1, 0.2, 0.0]))) for each in grasp.contacts)
     here, there = sg.wrench_space_quality(grasp), sg.wrench_space_quality(
         replace(grasp, contacts=grown, G=grasp_matrix(grown))
     )  # fmt: skip

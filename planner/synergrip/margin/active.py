@@ -111,8 +111,8 @@ def nearest_end(reaction: Reaction, known: Sequence[End]) -> End:
     """Return an end that is near by the length-scaled norm: an upper bound on the largest ball inside W.
 
     From the nearest of those that are known each direction is turned into the normal of the half-space there, as long
-    as ends get nearer: they never get farther. On an edge of W, where several half-spaces meet, that may come to rest too
-    early; so it is begun once more a little aside, some times.
+    as ends get nearer: they never get farther. On an edge of W, where several half-spaces meet, that may come to rest
+    too early; so it is begun once more a little aside, some times.
     """
     ended = [end for end in known if end.found.upper is not None]
     if not ended:

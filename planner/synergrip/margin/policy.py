@@ -19,7 +19,7 @@ import numpy as np
 from synergrip.changes.at_a_value import solved
 from synergrip.conic.relaxed import relaxed
 from synergrip.conic.rows import Kind
-from synergrip.conic.solvers.semidefinite import Semidefinite, solve_semidefinite
+from synergrip.conic.semidefinite import Semidefinite, solve_semidefinite
 from synergrip.linalg import Array
 from synergrip.margin.leaving import balls, inside_by, proven
 from synergrip.margin.reaction import Cones, Reaction

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from synergrip.reports.text.tables import table, wrapped
 NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")
 SAME = 5e-5
 """Relative difference of two ends that are told as one number."""
+FAR_APART = 0.01
+"""The same from which on both are told to two digits."""
 NONE_LEFT = 1e-6
 """[N] or [N m] below which nothing is left."""
 
@@ -44,7 +46,7 @@ def disturbance_lines(found: Disturbances) -> Iterator[str]:
     )
     yield from wrapped("         ", told)
     if not found.passive.lower > NONE_LEFT and found.passive.limit:
-        used = f"within all limits nothing is left: the plan uses all of {_end(found.passive)}"
+        used = f"within all limits nothing is left: the plan uses all of {found.passive.limit}"
         yield from wrapped("         ", used)
     if found.executed is not None:
         yield from wrapped("         ", _executed(found.executed))
@@ -87,9 +89,23 @@ def _size(unit: str, found: Withstood) -> str:
         return "no end found"
     if not found.upper > NONE_LEFT:
         return f"0 {unit}"
-    same = found.upper - found.lower <= SAME * found.upper
-    ends = f"{found.lower:.4g}" if same else f"{found.lower:.4g} to {found.upper:.4g}"
-    return f"{ends} {unit}"
+    return f"{_ends(found.lower, found.upper)} {unit}"
+
+
+def _ends(lower: float, upper: float) -> str:
+    """Return a lower and an upper end, rounded away from each other where they are apart; as one number where not."""
+    apart = upper - lower
+    if apart <= SAME * upper:
+        return f"{lower:.4g}"
+    digits = 2 if apart > FAR_APART * upper else 3
+    return f"{_rounded(lower, digits, np.floor):.{digits}g} to {_rounded(upper, digits, np.ceil):.{digits}g}"
+
+
+def _rounded(value: float, digits: int, to: Callable[[float], float]) -> float:
+    if not value > 0:
+        return 0.0
+    step = 10.0 ** (np.floor(np.log10(value)) + 1 - digits)
+    return float(to(value / step) * step)
 
 
 def _end(found: Withstood) -> str:
@@ -99,9 +115,7 @@ def _end(found: Withstood) -> str:
 
 
 def _pair(ends: tuple[float, float]) -> str:
-    lower, upper = ends
-    same = upper - lower <= SAME * upper
-    return f"{upper:.4g}" if same else f"{lower:.4g} to {upper:.4g}"
+    return _ends(*ends)
 
 
 def _written(wrench: Sequence[float] | np.ndarray) -> str:
