@@ -42,7 +42,10 @@ def altered(grasp: Grasp, task: TimedTask, by: Sensitivity, change: float) -> Qu
         return _tilted(grasp, by, change), task
     if by.name == "position":
         return _shifted(grasp, by, change), task
-    limits = tuple(_wider(limit, f"drift limit of {by.of}" if by.name == "drift limit" else by.name, 1 + change) for limit in task.limits)
+    limits = tuple(
+        _wider(limit, f"drift limit of {by.of}" if by.name == "drift limit" else by.name, 1 + change)
+        for limit in task.limits
+    )
     return None if limits == task.limits else (grasp, replace(task, limits=limits))
 
 
