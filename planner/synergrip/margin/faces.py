@@ -14,11 +14,9 @@ from scipy import sparse
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.optimum import Optimum
+from synergrip.margin.optimum import ACTIVE, Optimum
 from synergrip.values import Value
 
-ACTIVE = 1e-5
-"""Slack, in the program's units, below which a limit counts as reached."""
 RANK = 1e-8
 """Singular value, of the largest, below which directions count as dependent."""
 FAR = 1e12

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.changes.asked import Asked
 from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.meeting import Stuck
+from synergrip.equilibrium.setting import setting
 from synergrip.equilibrium.states import States
 from synergrip.errors import SynergripError
 from synergrip.grasps.contacts.contact import Contact
@@ -24,7 +26,6 @@ from synergrip.margin.parameters import STEP, Parameter
 from synergrip.margin.sensitivity import FIXED, HAND, START, Sensitivity
 from synergrip.planning.executing import Executor
 from synergrip.planning.outcome import Plan
-from synergrip.statics.analysis import analyse
 from synergrip.statics.motion import forward
 from synergrip.statics.response import respond
 from synergrip.statics.restraint import NO_LOAD
@@ -39,6 +40,10 @@ NOTHING = 1e-9
 """The same that is rounding."""
 LOST = "there is no equilibrium, or the grasp is refused, as soon as it changes"
 TIED = "several contacts or instants are the worst, or a force is on the axis of its cone"
+
+
+_After = tuple[Grasp, Array]
+"""A grasp, and the forces (T, n_l) there."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,7 +73,14 @@ class References(Value):
         """[N] up to which margins are as bad, and cones as near."""
         return self.largest * (TIES_ON_HAND if self.on_hand else TIES)
 
-    def after(self, parameter: Parameter, change: float) -> tuple[Grasp, Array] | None:
+    @cached_property
+    def worst(self) -> NDArray[np.bool_]:
+        """(T, n_c) where slip margins are the least, or close to it."""
+        parts = zip(self.plan.grasp.contacts, self.plan.grasp.rows, strict=True)
+        margins = np.column_stack([contact.slip_margin(self.forces[:, rows]) for contact, rows in parts])
+        return np.asarray(margins <= margins.min() + self.close)
+
+    def after(self, parameter: Parameter, change: float) -> _After | None:
         """Return the grasp and the forces (T, n_l) after a change of a number; None where there are none."""
         try:
             asked = parameter.turned(change * parameter.scale)
@@ -84,7 +96,8 @@ class References(Value):
         plan = self.plan
         if not self.on_hand:
             return forward(respond(grasp, NO_LOAD), plan.time, plan.dz_r, wrench).forces
-        executor = Executor.of(analyse(grasp, NO_LOAD), plan.task)
+        response = respond(grasp, NO_LOAD)
+        executor = Executor(setting(grasp, "rolling", response), plan.task, response)
         assert plan.executed is not None
         executed = executor.run(plan.time, plan.dz_r, wrench, near(plan.executed))
         if not executed.whole:
@@ -115,50 +128,47 @@ def _derived(parameter: Parameter, references: References) -> Sensitivity:
     more, less = (references.after(parameter, change) for change in (STEP, -STEP))
     if more is None or less is None:
         return _told(parameter, references, None, None, LOST)
-    forces, grasp, close = references.forces, references.plan.grasp, references.close
-    changes = (more[1] - less[1]) / (2 * STEP)
-    ends = []
-    for sign in (1.0, -1.0):
-        rates = [np.inf]
-        for k, i in worst(grasp, forces, close):
-            rows, around = grasp.rows[i], (more[0].contacts[i], less[0].contacts[i])
-            rates.append(_rate(grasp.contacts[i], around, forces[k, rows], changes[k, rows], sign, close))
-        ends.append(sign * min(rates))
-    right, left = ends
+    right, left = (sign * _slowest(references, more, less, sign) for sign in (1.0, -1.0))
     same = abs(right - left) <= ALIKE * max(references.largest, abs(right), abs(left))
     return _told(parameter, references, right if same else left, right, "" if same else TIED)
 
 
-def worst(grasp: Grasp, forces: Array, close: float) -> list[tuple[int, int]]:
-    """Return the instants and contacts whose slip margin is the least, or within `close` of it [N]."""
-    parts = zip(grasp.contacts, grasp.rows, strict=True)
-    margins = np.column_stack([contact.slip_margin(forces[:, rows]) for contact, rows in parts])
-    return [(int(k), int(i)) for k, i in zip(*np.nonzero(margins <= margins.min() + close), strict=True)]
+def _slowest(references: References, more: _After, less: _After, sign: float) -> float:
+    """Return how fast the worst slip margin changes one way [N for the scale of the parameter]."""
+    forces, close, rates = references.forces, references.close, [np.inf]
+    for i, rows in enumerate(references.plan.grasp.rows):
+        at = references.worst[:, i]
+        if np.any(at):
+            contacts = (references.plan.grasp.contacts[i], more[0].contacts[i], less[0].contacts[i])
+            change = (more[1][at, rows] - less[1][at, rows]) / (2 * STEP)
+            rates.append(float(_rates(contacts, forces[at, rows], change, sign, close).min()))
+    return min(rates)
 
 
-def _rate(
-    contact: Contact, around: tuple[Contact, Contact], force: Array, change: Array, sign: float, close: float
-) -> float:  # fmt: skip
-    """Return how fast the slip margin of a contact changes one way [N for the scale of the parameter].
+def _rates(
+    contacts: tuple[Contact, Contact, Contact], forces: Array, change: Array, sign: float, close: float
+) -> Array:  # fmt: skip
+    """Return how fast the slip margins (K,) of a contact change one way [N for the scale of the parameter].
 
     Args:
-        contact: as it is.
-        around: the same with a little more and a little less of the number.
-        force: (rows,) that it carries.
-        change: (rows,) of the force with the number.
+        contacts: as it is, and with a little more and a little less of the number.
+        forces: (K, rows) that it carries.
+        change: (K, rows) of the forces with the number.
         sign: which way.
         close: [N] up to which cones are as near.
     """
-    found = list[tuple[float, float]]()
-    for W, more, less in zip(contact.cones, *(each.cones for each in around), strict=True):
-        value, rate = W @ force, sign * (W @ change + (more - less) @ force / (2 * STEP))
-        tail = float(np.linalg.norm(value[1:]))
-        turn = float(value[1:] @ rate[1:]) / tail if tail > close else float(np.linalg.norm(rate[1:]))
-        found.append((float(value[0]) - tail, float(rate[0]) - turn))
-    if force[0] < 0:  # a contact that would have to pull
-        found.append((float(force[0]), float(sign * change[0])))
-    least = min(margin for margin, _ in found)
-    return min(rate for margin, rate in found if margin <= least + close)
+    margins, rates = [], []
+    for W, more, less in zip(*(each.cones for each in contacts), strict=True):
+        value, rate = forces @ W.T, sign * (change @ W.T + forces @ (more - less).T / (2 * STEP))
+        tail = np.linalg.norm(value[:, 1:], axis=1)
+        along = np.einsum("ki,ki->k", value[:, 1:], rate[:, 1:]) / np.maximum(tail, close)
+        margins.append(value[:, 0] - tail)
+        rates.append(rate[:, 0] - np.where(tail > close, along, np.linalg.norm(rate[:, 1:], axis=1)))
+    pulls = forces[:, 0] < 0  # a contact that would have to pull is missed by that pull at least
+    margins.append(np.where(pulls, forces[:, 0], np.inf))
+    rates.append(np.where(pulls, sign * change[:, 0], np.inf))
+    nearest = np.array(margins) <= np.min(margins, axis=0) + close
+    return np.asarray(np.where(nearest, rates, np.inf).min(axis=0))
 
 
 def _told(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,14 +15,16 @@ from synergrip.conic.cones import row_sizes
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.largest_margin import LargestMargin
-from synergrip.conic.program import Program
+from synergrip.conic.program import Block, Program
 from synergrip.conic.question import Question
+from synergrip.conic.rows import Kind
 from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SynergripError
 from synergrip.linalg import Array
 from synergrip.margin.parameters import Parameter
 from synergrip.planning.formulated import formulated
+from synergrip.planning.instants import intersample_of
 from synergrip.planning.solvers import SOLVERS, ask
 from synergrip.statics.analysis import analyse
 from synergrip.statics.restraint import NO_LOAD
@@ -29,6 +32,8 @@ from synergrip.tasks.scaling import caps, grips
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
+ACTIVE = 1e-5
+"""Slack, in the program's units, below which a limit counts as reached."""
 SHARP = (1e-12, 1e-11, 1e-10)
 """Tolerances that are tried for an answer that is differentiated; the best of all is taken."""
 
@@ -39,9 +44,13 @@ class Optimum(Value):
 
     posed: Posed
     """In the units in which it was solved."""
+    counting: frozenset[str]
+    """Keys of the limits of which some are reached: the others have no part in derivatives."""
     program: Program
+    """With the rows of these limits and of the goal."""
     x: Array
     z: Array
+    """(m,) multipliers of these rows; those of all others are 0."""
 
     @property
     def unit(self) -> float:
@@ -73,7 +82,28 @@ def optimum(posed: Posed) -> Optimum | str:
     if not decision.optimal:
         return "the largest margin of the start posture was not verified"
     x, z = _sharpest(decision)
-    return Optimum(Posed(posed.analysis, posed.timed, formulation), decision.program, x, z)
+    posed = Posed(posed.analysis, posed.timed, formulation)
+    return _what_counts(posed, decision.program, x, z)
+
+
+def _what_counts(posed: Posed, program: Program, x: Array, z: Array) -> Optimum:
+    """Return the optimum without the rows of limits that are not reached anywhere."""
+    slack = program.b - program.A @ x
+    reached = {block.limit for block, rows in program.slices() if _reached(block, slack[rows])}
+    keys = frozenset(limit.key for limit in posed.timed.kept if limit.key in reached)
+    known = {limit.key for limit in posed.timed.kept}
+    kept = [np.full(block.rows, block.limit in keys or block.limit not in known) for block in program.blocks]
+    fewer = question(posed, keys).program()
+    if len(fewer.b) != np.sum(np.concatenate(kept)):  # rows that do not say of which limit they are
+        return Optimum(posed, frozenset(known), program, x, z)
+    return Optimum(posed, keys, fewer, x, z[np.concatenate(kept)])
+
+
+def _reached(block: Block, slack: Array) -> bool:
+    """Return whether a slack is on the boundary of any of its cones."""
+    parts = slack.reshape(-1, block.dim)
+    room = parts[:, 0] - np.linalg.norm(parts[:, 1:], axis=1)
+    return block.kind is Kind.ZERO or bool(np.any(room <= ACTIVE))
 
 
 def _sharpest(decision: Decision) -> tuple[Array, Array]:
@@ -95,7 +125,7 @@ def posed_with(parameter: Parameter, change: float, of: Optimum) -> Posed | str:
     known, units = of.posed.analysis, of.posed.formulation.units
     try:
         asked = parameter.turned(change * parameter.scale)
-        if parameter.same_task and of.posed.formulation.intersample is None:
+        if parameter.same_task:
             other: Posed | None = _posed_again(asked, of)
         else:
             other = asked.posed(known if parameter.same_statics else None, units)
@@ -116,7 +146,8 @@ def _posed_again(asked: Asked, of: Optimum) -> Posed:
     timed, formulation = of.posed.timed, of.posed.formulation
     analysis = analyse(at_start(asked.grasp, timed.wrench[0]), NO_LOAD)
     other = formulated(analysis, timed, redundancy=timed.watches_references).in_units(formulation.units)
-    return Posed(analysis, timed, other)
+    held = intersample_of(timed, analysis) if timed.between == "hold" else None
+    return Posed(analysis, timed, replace(other, intersample=held))
 
 
 def rows_with(parameter: Parameter, change: float, of: Optimum) -> Rows | str:
@@ -124,18 +155,20 @@ def rows_with(parameter: Parameter, change: float, of: Optimum) -> Rows | str:
     other = posed_with(parameter, change, of)
     if isinstance(other, str):
         return other
-    program = question(other).program()
+    program = question(other, of.counting).program()
     if program.A.shape != of.program.A.shape or len(program.blocks) != len(of.program.blocks):
         return "limits come to count or no longer count as soon as it changes"
-    turned = _same_meaning(other.formulation, of.posed.formulation)
-    program = replace(program, A=sparse.csc_matrix(program.A @ turned))
+    if not parameter.same_statics:
+        turned = _same_meaning(other.formulation, of.posed.formulation)
+        program = replace(program, A=sparse.csc_matrix(program.A @ turned))
     sizes = row_sizes(of.program) / row_sizes(program)  # rows may be in units that depend on the number
     return Rows(sparse.csc_matrix(sparse.diags_array(sizes) @ program.A), sizes * program.b)
 
 
-def question(posed: Posed) -> Question:
-    """Return the question of the largest margin."""
-    return Question(posed.formulation, posed.timed.kept, LargestMargin())
+def question(posed: Posed, keys: Container[str]) -> Question:
+    """Return the question of the largest margin within the limits of some keys."""
+    limits = tuple(limit for limit in posed.timed.kept if limit.key in keys)
+    return Question(posed.formulation, limits, LargestMargin())
 
 
 def _same_meaning(new: Formulation, old: Formulation) -> sparse.csc_matrix:
@@ -157,5 +190,6 @@ def margin_with(parameter: Parameter, change: float, of: Optimum) -> float | Non
     other = posed_with(parameter, change, of)
     if isinstance(other, str):
         return None
-    decision = solved("largest margin", question(other).program())
+    whole = Question(other.formulation, other.timed.kept, LargestMargin())
+    decision = solved("largest margin", whole.program())
     return float(decision.solution.x[-1]) * other.formulation.force_unit if decision.optimal else None
