@@ -129,6 +129,7 @@ OTHERS = {
     "__version__",
     "simulate", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
+    "GraspProperties",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
