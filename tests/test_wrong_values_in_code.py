@@ -136,6 +136,7 @@ OTHERS = {
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     "sensitivities", "Sensitivities", "Sensitivity", "fastest_timing", "FastestTiming", "InCase",
+    "GraspProperties",
     *(type(goal).__name__ for goal in GOALS.values() if type(goal).__name__ not in RIGHT),
 }  # fmt: skip
 """Bases, answers, values that only other functions make, goals without numbers, and what is tried above."""
