@@ -24,7 +24,9 @@ LIMITS = {
     "torque, some free": lambda g: sg.JointTorque(frozen([np.inf, np.inf, 0.1, *[np.inf] * (g.n_q - 3)])),
     "effort": lambda g: sg.ActuatorEffort(frozen(np.linspace(0.1, 0.6, g.n_z))),
     "sustained torque": lambda g: sg.SustainedTorque(frozen(np.linspace(0.05, 0.3, g.n_q))),
-    "sustained torque, some free": lambda g: sg.SustainedTorque(frozen([np.inf, 0.1, *[np.inf] * (g.n_q - 2)])),
+    "sustained torque, some free": lambda g: sg.SustainedTorque(
+        frozen([np.inf, np.inf, 0.05, *[np.inf] * (g.n_q - 3)])
+    ),
     "sustained effort": lambda g: sg.SustainedEffort(frozen(np.linspace(0.1, 0.6, g.n_z))),
     "reference": lambda g: sg.SynergyReference(frozen(np.linspace(0.01, 0.05, g.n_z))),
     "rate": lambda g: sg.SynergyRate(frozen(np.linspace(0.02, 0.1, g.n_z))),
