@@ -27,7 +27,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
         "direct": {name: _number(each) for name, each in found.direct.items()},
-        "allowances": cases_document(plan.cases),
+        "allowances": cases_document(plan.cases, plan.formulation.allowed),
         "interrupted": found.interrupted,
         "notes": list(dict.fromkeys([*plan.notes, *notes])),
     })  # fmt: skip
