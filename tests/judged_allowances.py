@@ -3,7 +3,7 @@
     python tests/judged_allowances.py [GRASPS [HANDS [SAMPLES [FIRST SEED]]]]
 
 GRASPS (50) random grasps given as matrices, with friction, loads and contact gaps that are allowed for; HANDS (6)
-variations of bundled problems on hands, with friction, mass and loads. Of each plan SAMPLES (1000) values inside
+variations of bundled problems on hands, with friction, mass, loads and gaps. Of each plan SAMPLES (1000) values inside
 what is allowed, and at its ends, are looked at: the forces of matrices by one elastic system written down anew, those
 of hands by the second execution of `second_execution.py` (10 samples each, which take longer). Prints how many samples
 of plans with and without allowances miss the asked margin, and how many slip.
@@ -101,6 +101,7 @@ def _hand(rng: np.random.Generator, name: str, counted: Counter[str]) -> None:
     allow = Allowances(
         friction_share=float(rng.uniform(0.03, 0.1)),
         mass=(0.8 * body.mass, float(rng.uniform(1.05, 1.2)) * body.mass) if body.mass else None,
+        contact_gap=0.0 if np.any(problem.grasp.C_q) or np.any(problem.grasp.C_z) else float(rng.uniform(0, 3e-5)),
         load=[np.concatenate([0.1 * weight * rng.normal(size=3), np.zeros(3)]) for _ in "ab"],
     )
     limits = [each for each in problem.task.limits if isinstance(each, SlipMargin | JointRange)]
@@ -122,12 +123,25 @@ def _executed(grasp: Grasp, made: Plan, said: str, drawn: Sample, own: float, co
     document: dict[str, Any] = json.loads(json.dumps(outcome_document("", grasp, made)))
     stated = np.array(document["wrench"])
     document["wrench"] = with_mass(stated, _weight(made), drawn.mass, own, drawn.load).tolist()
+    _off(document, grasp, drawn)
     found = executed(document, REPOSITORY)
     if found.ended is not None:
         counted[f"{said} allowances: not reached"] += 1
         return
     margins = slip_margins(grasp, found.forces, drawn)
     _told(counted, said, margins, found.forces, made.task.margin, room=SAME)
+
+
+def _off(document: dict[str, Any], grasp: Grasp, drawn: Sample) -> None:
+    """Put contacts off: their springs are shorter by the gap, ``C_s (lambda - lambda_0) = stretch + g n``.
+
+    Where joints are compliant, they would be taken to be loaded by that at the start.
+    """
+    block = document["execution"]
+    for contact, row, gap in zip(block["contacts"], grasp.normal_rows, drawn.gaps.tolist(), strict=True):
+        softness = contact["compliance"][0][0]
+        if gap and softness > 0:
+            block["lambda_0"][int(row)] += gap / softness
 
 
 def _weight(made: Plan) -> Array:

@@ -88,6 +88,7 @@ from synergrip.tasks.pushes import Push as Push
 from synergrip.tasks.palm_motion import Palm as Palm
 from synergrip.tasks.palm_path import PalmPath as PalmPath
 from synergrip.tasks.control import Control as Control
+from synergrip.tasks.scenarios import Scenarios as Scenarios
 from synergrip.tasks.allowances import Allowances as Allowances
 from synergrip.tasks.task import Task as Task
 from synergrip.tasks.timed_task import TimedTask as TimedTask

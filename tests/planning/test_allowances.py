@@ -197,8 +197,23 @@ def test_a_hand_keeps_its_margin_in_every_case_at_the_true_equilibrium(name: str
             margins.append(slip_margins(made.grasp, found.states.forces, drawn).min())
         assert margins[0] > asked - 2e-3 * max(1.0, np.abs(with_.forces).max())
         missed += margins[1] < asked - 0.02
-    assert missed >= 4
+    assert missed >= 2
     assert min(case.margin for case in with_.cases) == pytest.approx(asked, abs=1e-3 * np.abs(with_.forces).max())
+
+
+def test_what_loads_really_change_is_asked_for_and_never_promised_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loads that bend the hand, and between knots that are far apart: linear changes of the path do not hold."""
+    problem = sg.load_problem("gripper-box", "task.knots=5")
+    allow = sg.Allowances(load=[(0, 4, 0, 0, 0, 0), (0, 0, 4, 0, 0, 0)])
+    task = problem.task.replace(allow=allow, limits=[sg.SlipMargin(0.5)])
+    held = planned(problem.grasp, task)
+    assert all(check.passed for check in held.checks)
+    assert min(case.margin for case in held.cases) > 0.5 - 1e-3 * np.abs(held.forces).max()
+    monkeypatch.setattr("synergrip.planning.walked.kept_in_cases", lambda *given: None)
+    unsure = sg.plan(problem.grasp, task)
+    assert isinstance(unsure, sg.Unknown)
+    assert (unsure.stage, unsure.exit_code) == ("execution", 3)
+    assert "in cases that are allowed for: load [0 4 0 0 0 0]" in unsure.why
 
 
 def test_what_the_file_says_code_can_say(tmp_path: Path) -> None:

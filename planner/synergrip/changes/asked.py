@@ -98,7 +98,7 @@ class Asked(Value):
         held = intersample_of(timed, analysis) if timed.between == "hold" else None
         formulation = replace(formulation, intersample=held.every() if held is not None and every else held)
         if every and formulation.allowed is not None:
-            formulation = replace(formulation, allowed=replace(formulation.allowed, cornered=True))
+            formulation = replace(formulation, allowed=formulation.allowed.exact)
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)
 
@@ -115,7 +115,7 @@ class Posed(Value):
     def strict(self) -> bool:
         """Whether the program asks for no more than the task: without an answer it proves that there is no plan."""
         between, allowed = self.formulation.intersample, self.formulation.allowed
-        return (between is None or between.exact) and not (allowed is not None and allowed.reserves)
+        return (between is None or between.exact) and not (allowed is not None and allowed.asks_more)
 
     @property
     def at_knots(self) -> Posed:

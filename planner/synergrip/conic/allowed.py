@@ -22,12 +22,40 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.reserve import lost
 from synergrip.conic.rows import Kind, Rows
+from synergrip.conic.sampled import Sampled
+from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
+from synergrip.statics import Response
 from synergrip.values import Value
 
+MOST_SAMPLED = 60_000
+"""Samples times knots times contacts, at most."""
 MOST_CORNERS = 256
 """Cases with contacts off to either side that are looked at together, at most."""
+
+
+class Scenarios(Protocol):
+    """Random samples of a grasp, of which a plan is to hold for a stated share."""
+
+    @property
+    def share(self) -> float:
+        """Of others that may miss a limit."""
+
+    @property
+    def confidence(self) -> float:
+        """That no larger share does."""
+
+    @property
+    def seed(self) -> int:
+        """Of the samples."""
+
+    def count(self, unknowns: int) -> int:
+        """Return how many samples a plan of so many numbers takes."""
+
+    def drawn(self, grasp: Grasp, count: int, first: int = 0) -> tuple[Response, ...]:
+        """Return the maps of so many samples."""
 
 
 class Extra(Protocol):
@@ -74,6 +102,9 @@ class Allowed(Value):
     """(n_c,) [m] how far each contact may be off along its normal."""
     rounds: int = 0
     """How often what loads add was looked up along a path."""
+    scenarios: Scenarios | None = None
+    samples: tuple[Response, ...] = ()
+    """Of the scenarios, as many as the unknowns of a formulation take; under the load stated."""
     cornered: bool = False
     """Whether contacts that are off are cases of their own, to either side, in place of a reserve that asks for more
     than is needed."""
@@ -82,6 +113,29 @@ class Allowed(Value):
     def reserves(self) -> bool:
         """Whether more is asked for than is needed: without an answer nothing is proven."""
         return bool(np.any(self.gaps > 0)) and not self.cornered
+
+    @property
+    def asks_more(self) -> bool:
+        """Whether a formulation asks for more than what is guaranteed takes: by reserves, or in samples."""
+        return self.reserves or bool(self.samples)
+
+    @property
+    def exact(self) -> Allowed:
+        """What is guaranteed, no more: every corner a case of its own, and no samples."""
+        return replace(self, cornered=True, samples=())
+
+    def on(self, formulation: Formulation) -> Allowed:
+        """Return it with as many samples as the unknowns of a formulation take."""
+        if self.scenarios is None:
+            return self
+        grasp = formulation.response.grasp
+        count = self.scenarios.count(formulation.unknowns + 1)
+        if count * formulation.knots * grasp.n_c > MOST_SAMPLED:
+            message = (
+                f"{count} samples at {formulation.knots} knots of {grasp.n_c} contacts are more than are looked at"
+            )
+            raise InputError.at("Task.allow.scenarios", f"{message}; take fewer knots, or a larger share")
+        return replace(self, samples=self.scenarios.drawn(grasp, count))
 
     @property
     def signs(self) -> tuple[tuple[int, ...], ...]:
@@ -109,10 +163,12 @@ class Allowed(Value):
         narrow = self.narrowed(formulation)
         offs = off_place(narrow.map_of, narrow.response.grasp, self.gaps)
         cases = [case.of(narrow) for case in self.cases]
+        samples: list[Formulation] = [Sampled.of(narrow, each) for each in self.samples]
         if not self.cornered or not offs:
-            return cases, [replace(narrow, departure=off) for off in offs]
+            return [*cases, *samples], [replace(narrow, departure=off) for off in offs]
         corners = [together(signs, offs) for signs in self.signs]
-        return [replace(each, departure=off.beside(each.departure)) for each in cases for off in corners], []
+        cornered = [replace(each, departure=off.beside(each.departure)) for each in cases for off in corners]
+        return [*cornered, *samples], []
 
 
 def in_all_cases(cases: Sequence[Sequence[Rows]], offs: Sequence[Sequence[Rows]]) -> list[Rows]:

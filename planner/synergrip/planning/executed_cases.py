@@ -103,9 +103,8 @@ def kept_in_cases(walk: Walk, walker: Walker, cases: ExecutedCases) -> tuple[Wal
     allowed = walker.task.allowed
     if allowed is None or not cases.rooms:
         return None
-    if allowed.rounds < LOOKED_UP:
-        harder = _with_true_changes(walk, walker, allowed)
-    else:
+    harder = _with_true_changes(walk, walker, allowed) if allowed.rounds < LOOKED_UP else None
+    if harder is None:
         more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
         still = more.for_what_is_missing(_worst(cases), walker.task)
         harder = None if still is None else replace(walker, more=still)
@@ -117,8 +116,11 @@ def kept_in_cases(walk: Walk, walker: Walker, cases: ExecutedCases) -> tuple[Wal
 
 
 def _with_true_changes(walk: Walk, walker: Walker, allowed: Allowed) -> Walker | None:
-    """Return who walks with what every load adds to the true forces at the knots; None where a case ends early."""
-    task, changed = walker.task, list[Case]()
+    """Return who walks with what every load adds to the true forces at the knots.
+
+    None where a case ends early, or where that is what was asked for already: what is missed is missed between them.
+    """
+    task, changed, new = walker.task, list[Case](), False
     knots = Looks(task.times, task.wrench, walker.wanted)
     for case in allowed.cases:
         if case.extra is None:
@@ -127,7 +129,11 @@ def _with_true_changes(walk: Walk, walker: Walker, allowed: Allowed) -> Walker |
         executed = _run(walk, walker, _under(knots, case))
         if not executed.whole:
             return None
-        changed.append(replace(case, force=frozen(executed.states.forces - walk.executed.states.forces)))
+        force = frozen(executed.states.forces - walk.executed.states.forces)
+        new = new or case.force is None or float(np.abs(force - case.force).max()) > walk.room
+        changed.append(replace(case, force=force))
+    if not new:
+        return None
     known = replace(allowed, cases=tuple(changed), rounds=allowed.rounds + 1)
     return replace(walker, task=replace(task, allowed=known))
 

@@ -44,7 +44,7 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
         times=task.times, wrench=task.wrench, beta=follow.beta, beta_basis=follow.basis, target=follow.target,
         units=sizes, redundancy=redundancy, stated=units_of(analysis, task),
     )  # fmt: skip
-    return replace(found, allowed=task.allowed)
+    return found if task.allowed is None else replace(found, allowed=task.allowed.on(found))
 
 
 def refuse_unheld(analysis: Analysis, allowed: Allowed, times: Array) -> None:

@@ -18,8 +18,9 @@ Answer = Callable[[Formulation], Outcome]
 def held(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Answer) -> Outcome:
     """Return the answer to a task, also in the cases that it allows for, and between the knots when it says so.
 
-    Contacts that may be off are allowed for by a reserve in every cone, which asks for a little more than is needed:
-    "infeasible" with it proves nothing. Then every case with contacts off to either side is asked for by itself.
+    Contacts that may be off are allowed for by a reserve in every cone, which asks for a little more than is needed,
+    and scenarios by samples, all of which are more than the share that is asked: "infeasible" with them proves nothing.
+    Then what is guaranteed is asked for by itself, every case with contacts off to either side.
 
     Args:
         task: with what is to happen between its knots.
@@ -28,11 +29,17 @@ def held(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: 
         answer: plans in a formulation.
     """
     outcome, allowed = _between(task, analysis, formulation, answer), formulation.allowed
-    if allowed is None or not allowed.reserves or not isinstance(outcome, Infeasible):
+    if allowed is None or not allowed.asks_more or not isinstance(outcome, Infeasible):
         return outcome
-    without = _between(task, analysis, replace(formulation, allowed=replace(allowed, cornered=True)), answer)
-    if allowed.all_signs or not isinstance(without, Plan):
+    without = _between(task, analysis, replace(formulation, allowed=allowed.exact), answer)
+    if not isinstance(without, Plan) or (allowed.all_signs and not allowed.samples):
         return without
+    if allowed.samples:
+        why = (
+            f"no plan keeps the limits in all {len(allowed.samples)} scenarios that allow.scenarios takes, and without "
+            "them there is one: whether one keeps them for the share that is asked is not known"
+        )
+        return Unknown(task, analysis, why, (*outcome.decisions, *without.decisions))
     why = (
         "no plan keeps the limits with the reserve that allow.contact_gap takes, and without it, with one contact off "
         "at a time, there is one: whether one keeps them with all contacts off at once is not known"

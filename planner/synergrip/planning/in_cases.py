@@ -9,6 +9,8 @@ from synergrip.conic.allowed import Allowed
 from synergrip.conic.departure import Departure, off_place, together
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.sampled import moved_as
 from synergrip.conic.well_formed import usage_of
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.in_case import InCase
@@ -24,7 +26,7 @@ ALL_CASES = "what is allowed"
 
 def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r: Array) -> tuple[InCase, ...]:
     """Return what references (T, n_z) use of the limits in every case, at the knots and, where that counts, between."""
-    allowed = task.allowed
+    allowed = formulation.allowed
     if allowed is None:
         return ()
     looks = Looks(task.times, task.wrench, formulation.target)
@@ -43,7 +45,17 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
         for words, moved in with_contacts_off(motion, analysis.grasp.S, allowed, offs, names):
             title = titled(allowed, narrow, formulation, case.title, words)
             found.append(InCase(title, tuple(usage_of(limit, there, moved) for limit in limits)))
+    if allowed.samples:
+        stated = forward(analysis.response, looks.times, references, looks.wrench)
+        moved_by = (moved_as(each, stated) for each in allowed.samples)
+        found.append(_worst(allowed, [tuple(usage_of(limit, there, each) for limit in limits) for each in moved_by]))
     return tuple(found)
+
+
+def _worst(allowed: Allowed, every: Sequence[tuple[Usage, ...]]) -> InCase:
+    """Return the sample that is nearest to a limit, or farthest beyond it."""
+    worst = max(every, key=lambda usages: max(usage.violation for usage in usages))
+    return InCase(f"the worst of {len(allowed.samples)} scenarios", worst)
 
 
 def titled(allowed: Allowed, narrow: Formulation, stated: Formulation, *parts: str) -> str:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from synergrip.conic.allowed import Allowed
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
@@ -54,13 +55,24 @@ def margin_document(margins: Usage) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def cases_document(cases: Sequence[InCase]) -> dict[str, Any] | None:
-    """Return the worst slip margin over all that a task allows for, and that of every case; None without any."""
-    if not cases:
+def cases_document(cases: Sequence[InCase], allowed: Allowed | None) -> dict[str, Any] | None:
+    """Return the worst slip margin over all that a task allows for, and that of every case; None without any.
+
+    Args:
+        cases: of a plan.
+        allowed: of its formulation.
+    """
+    if not cases or allowed is None:
         return None
+    asked = allowed.scenarios
+    samples = None if asked is None else {
+        "count": len(allowed.samples), "seed": asked.seed, "share": asked.share, "confidence": asked.confidence,
+    }  # fmt: skip
     least = worst_case(cases)
     every = [{"case": case.title, "worst_N": case.margin} for case in cases]
-    return margin_document(least.usages[0]) | {"case": least.title, "cases": every}
+    return margin_document(least.usages[0]) | {
+        "case": least.title, "cases": every, "scenarios": samples,
+    }  # fmt: skip
 
 
 def usage_document(usage: Usage) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -10,6 +11,7 @@ from synergrip.documents.fields import (
     NUMBER,
     Schema,
     Table,
+    Whole,
     Written,
     array_of,
     listed,
@@ -23,6 +25,7 @@ from synergrip.documents.quantities import quantity
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue
 from synergrip.tasks.allowances import Allowances, Interval
+from synergrip.tasks.scenarios import Scenarios
 
 COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 COMPONENT: Schema = {"anyOf": [NUMBER, unit_schema("force", "torque")]}
@@ -84,6 +87,43 @@ def _or_by_name(schema: Schema) -> Schema:
     return {"anyOf": [schema, {"type": "object", "additionalProperties": schema}]}
 
 
+def _part(value: object) -> float:
+    found = number(value, above=0)
+    if found >= 1:
+        raise InputError.at("", f"expected a share greater than 0 and less than 1, got {shown(value)}")
+    return found
+
+
+Share = Annotated[float, Written(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})]
+Part = Annotated[float, Written(_part, {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1})]
+Tilt = Annotated[float, Written(with_unit("angle", at_least=0), unit_schema("angle"))]
+Distance = Annotated[float, Written(with_unit("length", at_least=0), unit_schema("length"))]
+
+
+class ScenariosTable(Table):
+    """Random errors of a grasp given as matrices, of which the plan is to hold for a stated share."""
+
+    position: Distance = Field(default=0.0, description="largest distance of a contact from where it is stated")
+    normal: Tilt = Field(default=0.0, description="largest tilt of the normal of a contact")
+    compliance: Share = Field(default=0.0, description="share by which compliances may each be less or more")
+    share: Part = Field(default=0.05, description="share of all scenarios that may miss a limit")
+    confidence: Part = Field(default=0.999, description="confidence that no larger share does")
+    seed: Annotated[Whole, Field(ge=0)] = Field(default=0, description="of the random samples")
+
+    def issues(self) -> tuple[Issue, ...]:
+        """Refuse a table in which nothing is random, and a normal that may point anywhere."""
+        if not (self.position or self.normal or self.compliance):
+            return (Issue("nothing is random; give position, normal or compliance"),)
+        return (Issue("expected less than a right angle", key="normal"),) if self.normal >= math.pi / 2 else ()
+
+    def value(self) -> Scenarios:
+        """Return the scenarios."""
+        return Scenarios(
+            position=self.position, normal=self.normal, compliance=self.compliance, share=self.share,
+            confidence=self.confidence, seed=self.seed,
+        )  # fmt: skip
+
+
 class AllowTable(Table):
     """Values for all of which the plan is to hold, those that the problem states among them."""
 
@@ -113,6 +153,9 @@ class AllowTable(Table):
     contact_gap: Annotated[Any, Written(_gap, _or_by_name(unit_schema("length")))] = Field(
         default=0.0, description="how far contacts may be off along their normals, either way: all, or those named"
     )
+    scenarios: ScenariosTable | None = Field(
+        default=None, description="random errors of the grasp, of which the plan is to hold for a stated share"
+    )
 
     def issues(self) -> tuple[Issue, ...]:
         """Refuse a table that allows for nothing."""
@@ -123,4 +166,5 @@ class AllowTable(Table):
         return Allowances(
             friction=self.friction, friction_share=self.friction_share, mass=self.mass, load=self.load,
             load_box=self.load_box, contact_gap=self.contact_gap,
+            scenarios=None if self.scenarios is None else self.scenarios.value(),
         )  # fmt: skip

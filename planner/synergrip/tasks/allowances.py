@@ -12,6 +12,7 @@ from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
+from synergrip.tasks.scenarios import Scenarios
 from synergrip.tasks.wrenches import COLUMNS
 from synergrip.values import ByContent
 
@@ -38,6 +39,8 @@ class Allowances(ByContent):
         load: (K, 6) wrenches that may act beside the task's, about B [N, N m], each or any mean of them and none.
         load_box: (6,) how large each component of a further wrench may be, either way [N, N m].
         contact_gap: how far contacts may be off along their normals, either way [m]: all of them, or those named.
+        scenarios: random errors of places and normals of contacts and of compliance, of which the plan holds for a
+            stated share; of a grasp given as matrices, at its knots and under the load stated.
 
     Raises:
         InputError: nothing allowed, or no such numbers.
@@ -53,6 +56,7 @@ class Allowances(ByContent):
     load: Sequence[Numbers] | Array = ()
     load_box: Numbers = (0.0,) * 6
     contact_gap: float | Mapping[str, float] = 0.0
+    scenarios: Scenarios | None = None
 
     def __post_init__(self) -> None:
         """Judge the arguments."""
@@ -75,9 +79,11 @@ class Allowances(ByContent):
             gap = {name: judge.real(f"contact_gap[{name!r}]", each, at_least=0, unit="m") for name, each in gap.items()}
         else:
             gap = judge.real("contact_gap", gap, at_least=0, unit="m")
+        if self.scenarios is not None:
+            judge.one("scenarios", self.scenarios, Scenarios, "Scenarios(position=1e-3)")
         keep(self, judge, friction=friction, friction_share=share, mass=mass, load=load, load_box=box, contact_gap=gap)
         if not self.asked:
-            what = "friction, friction_share, mass, load, load_box or contact_gap"
+            what = "friction, friction_share, mass, load, load_box, contact_gap or scenarios"
             raise InputError.at("Allowances", f"nothing is allowed for; give {what}")
 
     def _loads(self, judge: TaskArguments) -> Array:
@@ -102,7 +108,7 @@ class Allowances(ByContent):
             np.any(self.load_box),
             any(gaps),
         )
-        return any(each is not None and bool(each) for each in some)
+        return self.scenarios is not None or any(each is not None and bool(each) for each in some)
 
 
 def _interval(judge: TaskArguments, name: str, value: Any, unit: str = "") -> Interval:

@@ -16,6 +16,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.allowances import MOST_CASES, Allowances
 from synergrip.tasks.profiles import Profile
+from synergrip.tasks.scenarios import refuse_scenarios
 from synergrip.values import Value
 
 if TYPE_CHECKING:
@@ -56,6 +57,8 @@ def allowed_on(task: Task, grasp: Grasp, weight: tuple[Profile, ...]) -> Allowed
     allow = task.allow
     if allow is None:
         return None
+    if allow.scenarios is not None:
+        refuse_scenarios(grasp, allow.scenarios, between=task.between == "hold")
     raise_issues([*_unknown(allow, grasp), *_unweighed(allow, grasp, weight)])
     masses, wrenches = _masses(allow, grasp), _wrenches(allow)
     if (count := len(masses) * len(wrenches)) > MOST_CASES:
@@ -66,7 +69,7 @@ def allowed_on(task: Task, grasp: Grasp, weight: tuple[Profile, ...]) -> Allowed
         if share or np.any(wrench):
             said = ", ".join(part for part in (mass, _said(wrench)) if part)
             cases.append(Case(said, More(share, weight, frozen(wrench), task.load_factor)))
-    return Allowed(_kinds(allow, grasp), tuple(cases), _gaps(allow, grasp))
+    return Allowed(_kinds(allow, grasp), tuple(cases), _gaps(allow, grasp), scenarios=allow.scenarios)
 
 
 def _unknown(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:

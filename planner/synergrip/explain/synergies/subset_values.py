@@ -106,6 +106,8 @@ class Looking(Value):
             # the reserve for what is curved between the knots asks for too much to prove anything (planning/holding.py)
             without = self._judged(analysis, task, replace(formulation, intersample=intersample.every()))
             stage, value = without if without[0] == "magnitude" else ("unknown", 0.0)
+        if stage == "magnitude" and formulation.allowed is not None and formulation.allowed.samples:
+            stage, value = "unknown", 0.0  # all samples are more than the share that is asked
         return Tried(tuple(picks), stage, value)
 
     def _judged(self, analysis: Analysis, task: TimedTask, formulation: Formulation) -> tuple[str, float]:

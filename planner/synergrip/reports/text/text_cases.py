@@ -20,7 +20,19 @@ def case_lines(plan: Plan) -> Iterator[str]:
         told = f"all limits hold in {many(len(plan.cases), 'case')} {who}; {_least(plan.cases)}"
         gaps = plan.task.allowed is not None and plan.task.allowed.gaps.any()
         off = "; contacts that are off by the maps of each knot" if gaps and plan.executed is not None else ""
-        yield from wrapped("allow    ", told + off)
+        yield from wrapped("allow    ", told + off + _share(plan))
+
+
+def _share(plan: Plan) -> str:
+    """Return for which share of scenarios the plan holds; nothing where it was asked for none."""
+    allowed = plan.formulation.allowed
+    if allowed is None or allowed.scenarios is None:
+        return ""
+    asked = allowed.scenarios
+    return (
+        f"; of {len(allowed.samples)} scenarios (seed {asked.seed}) all hold, and so, with a confidence of "
+        f"{100 * asked.confidence:.6g} %, all but {100 * asked.share:.4g} % of any others"
+    )
 
 
 def _least(cases: Sequence[InCase]) -> str:

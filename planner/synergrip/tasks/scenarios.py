@@ -1,0 +1,146 @@
+"""What is only likely: places and normals of contacts and compliance, as random samples of the grasp."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from synergrip.documents.judging import described, is_whole
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import InputError
+from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.grasp import Grasp, grasp_matrix
+from synergrip.linalg import Array, frozen
+from synergrip.statics import Response, respond
+from synergrip.tasks.arguments import TaskArguments, keep
+from synergrip.values import ByContent
+
+SAME = 1e-6
+"""Entries of G that are the same [m]."""
+KEY = "Task.allow.scenarios"
+
+
+@naming_arguments
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scenarios(ByContent):
+    """Random errors of a grasp, of which a plan is to hold for a stated share.
+
+    A plan of d numbers that keeps its limits in N samples, drawn at random, keeps them in all but a share epsilon of
+    all others, with confidence 1 - beta, where ``sum over i < d of C(N, i) epsilon^i (1 - epsilon)^(N - i) <= beta``
+    (Campi and Garatti, the scenario approach to convex programs). The references are the same in all of them.
+
+    Args:
+        position: largest distance of a contact on the object from where it is stated, evenly spread in that ball [m].
+        normal: largest tilt of its normal, evenly spread in that cone [rad].
+        compliance: share by which contacts, joints and synergies may each be stiffer or softer, below 1.
+        share: epsilon, of samples that may miss a limit, between 0 and 1.
+        confidence: that no larger share does, between 0 and 1.
+        seed: of the samples, a whole number of at least 0.
+
+    Raises:
+        InputError: no such numbers, or nothing that is random.
+
+    Example:
+        >>> Scenarios(position=1e-3, normal=np.radians(3)).count(4)
+        257
+    """
+
+    position: float = 0.0
+    normal: float = 0.0
+    compliance: float = 0.0
+    share: float = 0.05
+    confidence: float = 0.999
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        """Judge the arguments."""
+        judge = TaskArguments("Scenarios")
+        found = {each.name: judge.real(each.name, getattr(self, each.name), at_least=0) for each in fields(self)[:-1]}
+        if found["normal"] >= np.pi / 2:
+            judge.refuse("normal", f"expected radians, less than a right angle, got {found['normal']:g}")
+        if found["compliance"] >= 1:
+            judge.refuse("compliance", f"expected a share less than 1, got {found['compliance']:g}")
+        for name in ("share", "confidence"):
+            if not 0 < found[name] < 1 and not judge.issues:
+                judge.refuse(name, f"expected a share between 0 and 1, got {found[name]:g}")
+        if not is_whole(self.seed) or self.seed < 0:
+            judge.refuse("seed", f"expected a whole number of at least 0, got {described(self.seed)}")
+        keep(self, judge, **found)
+        if not (self.position or self.normal or self.compliance):
+            raise InputError.at("Scenarios", "nothing is random; give position, normal or compliance")
+
+    def count(self, unknowns: int) -> int:
+        """Return the least number of samples for a plan of so many numbers."""
+        from scipy.special import bdtr
+
+        few, many = unknowns, max(2 * unknowns, 16)
+        while bdtr(unknowns - 1, many, self.share) > 1 - self.confidence:
+            few, many = many, 2 * many
+        while many - few > 1:
+            middle = (few + many) // 2
+            enough = bdtr(unknowns - 1, middle, self.share) <= 1 - self.confidence
+            few, many = (few, middle) if enough else (middle, many)
+        return int(many)
+
+    def drawn(self, grasp: Grasp, count: int, first: int = 0) -> tuple[Response, ...]:
+        """Return the maps of so many samples of a grasp.
+
+        Args:
+            grasp: given as matrices, with the points and normals of its contacts.
+            count: of samples.
+            first: where in the seed they begin; others than those of a plan judge it.
+        """
+        return tuple(
+            respond(self._sample(grasp, np.random.default_rng([self.seed, first + i])), grasp.w_0[None])
+            for i in range(count)
+        )
+
+    def _sample(self, grasp: Grasp, rng: np.random.Generator) -> Grasp:
+        contacts, J = [], np.array(grasp.J)
+        for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
+            turn = _tilt(rng, contact.frame, self.normal)
+            shift = _direction(rng) * self.position * np.cbrt(rng.random())
+            contacts.append(replace(contact, point=frozen(contact.point + shift), frame=frozen(turn @ contact.frame)))
+            if rows.stop - rows.start >= 3:
+                three = slice(rows.start, rows.start + 3)
+                J[three] = contact.frame.T @ turn.T @ contact.frame @ J[three]
+        soft = {name: getattr(grasp, name) * rng.uniform(1 - self.compliance, 1 + self.compliance)
+                for name in ("C_s", "C_q", "C_z")}  # fmt: skip
+        G = grasp_matrix(tuple(contacts)) if self.position or self.normal else grasp.G
+        return replace(grasp, contacts=tuple(contacts), G=G, J=frozen(J), **soft)
+
+
+def refuse_scenarios(grasp: Grasp, scenarios: Scenarios, *, between: bool) -> None:
+    """Refuse scenarios of a grasp of which not enough is known.
+
+    Raises:
+        InputError: says what is missing.
+    """
+    if grasp.held is not None:
+        message = "scenarios are for grasps given as matrices; on a hand that moves no sample can be promised to hold"
+        raise InputError.at(KEY, message)
+    if between:
+        raise InputError.at(KEY, 'scenarios are kept at the knots; leave out between = "hold"')
+    placed = np.allclose(grasp_matrix(grasp.contacts), grasp.G, rtol=0, atol=SAME)
+    if (scenarios.position or scenarios.normal) and not placed:
+        raise InputError.at(KEY, "G is not that of the stated points and normals; give those, or compliance alone")
+    if scenarios.normal and any(_few(contact) for contact in grasp.contacts):
+        raise InputError.at(f"{KEY}.normal", "a contact of which only the normal force is known cannot be tilted")
+
+
+def _few(contact: Contact) -> bool:
+    return contact.n_rows < 3
+
+
+def _direction(rng: np.random.Generator) -> Array:
+    found = rng.normal(size=3)
+    return np.asarray(found / np.linalg.norm(found))
+
+
+def _tilt(rng: np.random.Generator, frame: Array, most: float) -> Array:
+    """Return a rotation (3, 3) about a random axis across the normal."""
+    from scipy.spatial.transform import Rotation
+
+    angle, size = rng.uniform(0, 2 * np.pi), most * np.sqrt(rng.random())
+    return np.asarray(Rotation.from_rotvec(size * (frame @ [0.0, np.cos(angle), np.sin(angle)])).as_matrix())
