@@ -16,7 +16,7 @@ from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
-from synergrip.margin.sensitivity import Sensitivity
+from synergrip.margin.sensitivity.sensitivity import Sensitivity
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.tasks.timed_task import TimedTask

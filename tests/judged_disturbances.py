@@ -25,8 +25,8 @@ from scipy.spatial import ConvexHull
 from second_disturbances import SecondModel, some_question
 from second_wrench_space import EDGES, edge_wrenches
 
-from synergrip.margin.disturbances import Disturbances, disturbances
-from synergrip.margin.quality import wrench_space_quality
+from synergrip.margin.disturbance.disturbances import Disturbances, disturbances
+from synergrip.margin.wrench_space.quality import wrench_space_quality
 from synergrip.planning.outcome import Plan
 
 SAME = 1e-4

@@ -27,8 +27,8 @@ from too_much import with_plan
 
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.margin.sensitivities import sensitivities_of
-from synergrip.margin.sensitivity import LARGEST, Sensitivity
+from synergrip.margin.sensitivity.sensitivities import sensitivities_of
+from synergrip.margin.sensitivity.sensitivity import LARGEST, Sensitivity
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward

@@ -16,8 +16,8 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen
-from synergrip.margin.executed_wrench import executed_wrench
-from synergrip.margin.leaving import along, balls, proven
+from synergrip.margin.disturbance.executed_wrench import executed_wrench
+from synergrip.margin.disturbance.leaving import along, balls, proven
 from synergrip.planning.outcome import Plan
 from synergrip.tasks.timed_task import TimedTask, still
 

@@ -15,8 +15,8 @@ from small_grasps import pinch, tripod
 import synergrip as sg
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import frozen, split
-from synergrip.margin.controlled_wrenches import controlled_figures
-from synergrip.margin.quality import Contacts
+from synergrip.margin.wrench_space.controlled_wrenches import controlled_figures
+from synergrip.margin.wrench_space.quality import Contacts
 
 
 def closing(rng: np.random.Generator) -> Grasp:

@@ -17,8 +17,8 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.linalg import frozen
-from synergrip.margin.moved_contacts import moved, turned
-from synergrip.margin.sensitivity import FIXED, HAND, LARGEST, START, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.moved_contacts import moved, turned
+from synergrip.margin.sensitivity.sensitivity import FIXED, HAND, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.reports.data.json_sensitivities import sensitivities_document

@@ -112,5 +112,5 @@ def test_scenarios_of_a_file_and_what_they_are_not_for() -> None:
     told = outcome_document("", problem.grasp, made)["allowances"]["scenarios"]
     assert (told["share"], told["seed"]) == (0.2, 0)
     with pytest.raises(sg.InputError, match="allow.scenarios"):
-        sg.load_problem("barrett-ball-hold", [f'allow.scenarios={{ position = "1 mm" }}'])
+        sg.load_problem("barrett-ball-hold", ['allow.scenarios={ position = "1 mm" }'])
     assert allow["scenarios"]["position"] == "1 mm"

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 from synergrip.documents.naming import made_by
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.disturbances import Disturbances
+from synergrip.margin.disturbance.disturbances import Disturbances
 from synergrip.margin.measures import Measure
-from synergrip.margin.quality import WrenchSpaceQuality
-from synergrip.margin.sensitivity import Sensitivities
+from synergrip.margin.sensitivity.sensitivity import Sensitivities
 from synergrip.margin.timing.fastest_timing import FastestTiming
+from synergrip.margin.wrench_space.quality import WrenchSpaceQuality
 from synergrip.planning.outcome import Plan
 from synergrip.values import Value
 

@@ -14,16 +14,16 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.margin.direct import Wanted, direct, wanted
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.margin.disturbances import AXES, disturbances, judged_box, judged_directions
+from synergrip.margin.disturbance.disturbances import AXES, disturbances, judged_box, judged_directions
 from synergrip.margin.found import Margins
 from synergrip.margin.headroom import headrooms
 from synergrip.margin.measures import measures
 from synergrip.margin.on_request import ON_REQUEST
-from synergrip.margin.quality import WrenchSpaceQuality, wrench_space_quality
-from synergrip.margin.sensitivities import NAME as SENSITIVITIES
-from synergrip.margin.sensitivities import sensitivities_of
+from synergrip.margin.sensitivity.sensitivities import NAME as SENSITIVITIES
+from synergrip.margin.sensitivity.sensitivities import sensitivities_of
 from synergrip.margin.timing.fastest_timing import TIMING, FastestTiming, fastest_timing
 from synergrip.margin.timing.timeless import timeless
+from synergrip.margin.wrench_space.quality import WrenchSpaceQuality, wrench_space_quality
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.statics.motion import forward

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.margin.disturbances import Disturbances, WithstoodAlong
-from synergrip.margin.quality import WrenchSpaceQuality
-from synergrip.margin.withstood import Withstood
+from synergrip.margin.disturbance.disturbances import Disturbances, WithstoodAlong
+from synergrip.margin.disturbance.withstood import Withstood
+from synergrip.margin.wrench_space.quality import WrenchSpaceQuality
 from synergrip.planning.told import finite
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from synergrip.margin.sensitivity import Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.sensitivity import Sensitivities, Sensitivity
 
 
 def sensitivities_document(found: Sensitivities | None) -> dict[str, Any]:

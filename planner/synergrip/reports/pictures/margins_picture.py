@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from synergrip.linalg import Array
+from synergrip.margin.disturbance.withstood_in_plane import withstood_in_plane
 from synergrip.margin.found import Margins
 from synergrip.margin.measures import Measure
-from synergrip.margin.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
 from synergrip.margin.timing.fastest_timing import FastestTiming
-from synergrip.margin.withstood_in_plane import withstood_in_plane
 from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.cone_sections import cone_sections
 from synergrip.reports.pictures.contact_colors import contact_colors

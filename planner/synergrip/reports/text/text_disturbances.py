@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from synergrip.margin.disturbances import AXES, Disturbances, WithstoodAlong
-from synergrip.margin.executed_wrench import ExecutedWrench
-from synergrip.margin.quality import WrenchSpaceQuality
-from synergrip.margin.withstood import Withstood
+from synergrip.margin.disturbance.disturbances import AXES, Disturbances, WithstoodAlong
+from synergrip.margin.disturbance.executed_wrench import ExecutedWrench
+from synergrip.margin.disturbance.withstood import Withstood
+from synergrip.margin.wrench_space.quality import WrenchSpaceQuality
 from synergrip.reports.text.tables import table, wrapped
 
 NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from synergrip.margin.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.reports.text.tables import table, wrapped
 
 HEADS = {

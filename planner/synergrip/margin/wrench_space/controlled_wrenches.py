@@ -14,7 +14,7 @@ from synergrip.changes.at_a_value import solved
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.wrench_hull import HullFigures, hull_figures
+from synergrip.margin.wrench_space.wrench_hull import HullFigures, hull_figures
 from synergrip.statics.response import Response
 
 FAR = 1e3

@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.documents.naming import made_by
 from synergrip.linalg import Array, frozen
-from synergrip.margin.reaction import Reaction
+from synergrip.margin.disturbance.reaction import Reaction
 from synergrip.values import Value
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.documents.naming import made_by
 from synergrip.linalg import Array, frozen
-from synergrip.margin.withstood import Withstood
+from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.planning.executing import Executor
 from synergrip.planning.outcome import Plan
 from synergrip.values import Value

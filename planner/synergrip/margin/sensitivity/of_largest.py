@@ -14,10 +14,10 @@ from scipy import sparse
 
 from synergrip.changes.at_a_value import solved
 from synergrip.linalg import Array
-from synergrip.margin.faces import Faces, faces, steepest
-from synergrip.margin.optimum import Optimum, margin_with, rows_with
-from synergrip.margin.parameters import STEP, Parameter
-from synergrip.margin.sensitivity import LARGEST, START, Sensitivity
+from synergrip.margin.sensitivity.faces import Faces, faces, steepest
+from synergrip.margin.sensitivity.optimum import Optimum, margin_with, rows_with
+from synergrip.margin.sensitivity.parameters import STEP, Parameter
+from synergrip.margin.sensitivity.sensitivity import LARGEST, START, Sensitivity
 from synergrip.values import Value
 
 VARIES = 1e-6

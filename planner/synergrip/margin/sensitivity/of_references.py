@@ -22,8 +22,8 @@ from synergrip.errors import SynergripError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.margin.parameters import STEP, Parameter
-from synergrip.margin.sensitivity import FIXED, HAND, START, Sensitivity
+from synergrip.margin.sensitivity.parameters import STEP, Parameter
+from synergrip.margin.sensitivity.sensitivity import FIXED, HAND, START, Sensitivity
 from synergrip.planning.executing import Executor
 from synergrip.planning.outcome import Plan
 from synergrip.statics.motion import forward

@@ -21,8 +21,8 @@ from synergrip.conic.relaxed import relaxed
 from synergrip.conic.rows import Kind
 from synergrip.conic.semidefinite import Semidefinite, solve_semidefinite
 from synergrip.linalg import Array
-from synergrip.margin.leaving import balls, inside_by, proven
-from synergrip.margin.reaction import Cones, Reaction
+from synergrip.margin.disturbance.leaving import balls, inside_by, proven
+from synergrip.margin.disturbance.reaction import Cones, Reaction
 from synergrip.values import Value
 
 PROGRAMS = 5

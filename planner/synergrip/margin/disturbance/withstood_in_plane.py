@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.linalg import Array, frozen
-from synergrip.margin.passive import passive_along
-from synergrip.margin.reaction import Reaction
+from synergrip.margin.disturbance.passive import passive_along
+from synergrip.margin.disturbance.reaction import Reaction
 from synergrip.planning.outcome import Plan
 
 DIRECTIONS = 72

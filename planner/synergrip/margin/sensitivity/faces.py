@@ -14,7 +14,7 @@ from scipy import sparse
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.optimum import ACTIVE, Optimum
+from synergrip.margin.sensitivity.optimum import ACTIVE, Optimum
 from synergrip.values import Value
 
 RANK = 1e-8

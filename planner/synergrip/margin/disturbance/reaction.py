@@ -19,7 +19,7 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
 from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array, Places, frozen
-from synergrip.margin.reacting import Reacting, statics_of
+from synergrip.margin.disturbance.reacting import Reacting, statics_of
 from synergrip.planning.outcome import Plan
 from synergrip.values import Value
 

@@ -19,8 +19,8 @@ from synergrip.conic.certificate import Certificate
 from synergrip.conic.conflicts import conflicts
 from synergrip.conic.relaxed import proof
 from synergrip.linalg import Array
-from synergrip.margin.reaction import Reaction
-from synergrip.margin.withstood import Withstood, none_of_it, scaled
+from synergrip.margin.disturbance.reaction import Reaction
+from synergrip.margin.disturbance.withstood import Withstood, none_of_it, scaled
 from synergrip.values import Value
 
 FAR = 1e3

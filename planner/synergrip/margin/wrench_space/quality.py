@@ -21,9 +21,9 @@ from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, split
-from synergrip.margin.contact_wrenches import FEWEST, UnitForces
-from synergrip.margin.controlled_wrenches import controlled_figures
-from synergrip.margin.wrench_hull import hull, hull_figures, is_flat
+from synergrip.margin.wrench_space.contact_wrenches import FEWEST, UnitForces
+from synergrip.margin.wrench_space.controlled_wrenches import controlled_figures
+from synergrip.margin.wrench_space.wrench_hull import hull, hull_figures, is_flat
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import Response
 from synergrip.statics.restraint import NO_LOAD

@@ -16,12 +16,12 @@ from synergrip.documents.judging import Arguments, as_numbers, described
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.margin.active import End, active_along, active_box, as_radius, nearest_end
-from synergrip.margin.executed_wrench import ExecutedWrench, executed_wrench
-from synergrip.margin.passive import corners, passive_along, passive_ball
-from synergrip.margin.policy import largest_answered
-from synergrip.margin.reaction import Reaction
-from synergrip.margin.withstood import Withstood
+from synergrip.margin.disturbance.active import End, active_along, active_box, as_radius, nearest_end
+from synergrip.margin.disturbance.executed_wrench import ExecutedWrench, executed_wrench
+from synergrip.margin.disturbance.passive import corners, passive_along, passive_ball
+from synergrip.margin.disturbance.policy import largest_answered
+from synergrip.margin.disturbance.reaction import Reaction
+from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.planning.outcome import Plan
 from synergrip.values import Value
 

@@ -7,11 +7,11 @@ from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
-from synergrip.margin.of_largest import of_largest
-from synergrip.margin.of_references import of_references
-from synergrip.margin.optimum import optimum
-from synergrip.margin.parameters import left_out, parameters
-from synergrip.margin.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.of_largest import of_largest
+from synergrip.margin.sensitivity.of_references import of_references
+from synergrip.margin.sensitivity.optimum import optimum
+from synergrip.margin.sensitivity.parameters import left_out, parameters
+from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
 from synergrip.planning.outcome import Infeasible, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.tasks.task import Task

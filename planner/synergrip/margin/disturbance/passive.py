@@ -12,9 +12,9 @@ import numpy as np
 
 from synergrip.conic.rows import Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.leaving import SHORT, Balls, along, balls, proven
-from synergrip.margin.reaction import Cones, Reaction
-from synergrip.margin.withstood import NO_END, Withstood, none_of_it, scaled
+from synergrip.margin.disturbance.leaving import SHORT, Balls, along, balls, proven
+from synergrip.margin.disturbance.reaction import Cones, Reaction
+from synergrip.margin.disturbance.withstood import NO_END, Withstood, none_of_it, scaled
 
 
 def passive_ball(reaction: Reaction) -> Withstood:

@@ -12,8 +12,8 @@ from synergrip.changes.turning import contact_dials, friction_dial, limit_dials,
 from synergrip.conic.limits.dial import Dial
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
-from synergrip.margin.moved_contacts import POINT, has_kinematics, moved, turned
-from synergrip.margin.sensitivity import Sensitivity
+from synergrip.margin.sensitivity.moved_contacts import POINT, has_kinematics, moved, turned
+from synergrip.margin.sensitivity.sensitivity import Sensitivity
 from synergrip.statics.response import Response
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value

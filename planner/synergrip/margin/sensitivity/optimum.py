@@ -22,7 +22,7 @@ from synergrip.conic.solution import Settings
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SynergripError
 from synergrip.linalg import Array
-from synergrip.margin.parameters import Parameter
+from synergrip.margin.sensitivity.parameters import Parameter
 from synergrip.planning.formulated import formulated
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.solvers import SOLVERS, ask

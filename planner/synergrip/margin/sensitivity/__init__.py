@@ -1,0 +1,1 @@
+"""How much margins change with each number of a grasp and a task."""
