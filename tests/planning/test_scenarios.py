@@ -111,6 +111,6 @@ def test_scenarios_of_a_file_and_what_they_are_not_for() -> None:
     made = sg.plan(problem.grasp, problem.task)
     told = outcome_document("", problem.grasp, made)["allowances"]["scenarios"]
     assert (told["share"], told["seed"]) == (0.2, 0)
-    with pytest.raises(sg.InputError, match="allow.scenarios"):
+    with pytest.raises(sg.InputError, match=r"allow\.scenarios"):
         sg.load_problem("barrett-ball-hold", ['allow.scenarios={ position = "1 mm" }'])
     assert allow["scenarios"]["position"] == "1 mm"
