@@ -8,15 +8,14 @@ from synergrip.linalg import Array, frozen
 from synergrip.margin.timing.by_length import Leg
 from synergrip.tasks.palm_path import PalmPath
 
-LINES = 60
-"""Of the whole path, and the fewest of a leg."""
 LEAST_LINES = 12
+"""Of a leg."""
 TURN = np.radians(5)
 """By which the palm turns from one line to the next, on the average, at most."""
 MOST_LINES = 400
 
 
-def as_poses(path: tuple[Leg, ...], b: Array) -> tuple[PalmPath, Array]:
+def as_poses(path: tuple[Leg, ...], b: Array, fewest: int) -> tuple[PalmPath, Array]:
     """Return the path over time, and the length passed at each of its lines.
 
     Acceleration jumps in a timing, and in a spline through poses it does not. At each line it is therefore the mean
@@ -26,10 +25,11 @@ def as_poses(path: tuple[Leg, ...], b: Array) -> tuple[PalmPath, Array]:
     Args:
         path: legs between stops.
         b: (n + 1,) squares of the speed at the grid points [m^2/s^2].
+        fewest: lines of the whole path; more where the palm turns far.
     """
     speeds, first = np.sqrt(b), 0
     seconds = 2 * np.concatenate([np.diff(leg.at) for leg in path]) / (speeds[:-1] + speeds[1:])
-    count = _lines(path)
+    count = _lines(path, fewest)
     times, poses, passed = [np.zeros(1)], [_poses(path[0], np.zeros(1))], [np.zeros(1)]
     for leg in path:
         last = first + len(leg.at) - 1
@@ -43,9 +43,9 @@ def as_poses(path: tuple[Leg, ...], b: Array) -> tuple[PalmPath, Array]:
     return PalmPath(np.concatenate(times), np.vstack(poses), inertia=True), frozen(np.concatenate(passed))
 
 
-def _lines(path: tuple[Leg, ...]) -> int:
+def _lines(path: tuple[Leg, ...], fewest: int) -> int:
     turned = sum(float(np.linalg.norm(leg.palm.rotation_rates(leg.at)[0], axis=1).mean()) * leg.length for leg in path)
-    return int(np.clip(turned / TURN, LINES, MOST_LINES))
+    return int(np.clip(turned / TURN, fewest, MOST_LINES))
 
 
 def _smooth(times: Array, speeds: Array, length: float, count: int) -> tuple[Array, Array]:

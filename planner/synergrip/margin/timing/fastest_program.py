@@ -9,7 +9,6 @@ import numpy as np
 
 from synergrip.changes.at_a_value import solved
 from synergrip.conic.certificate import DUAL_TOLERANCE
-from synergrip.conic.cones import distance_to_cones
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.program import Program
@@ -26,7 +25,7 @@ ROUNDS, NEAR = 4, 3.0
 """How often it is asked anew in units that suit what came of it; b is then as many times its unit at most, or least."""
 MORE = 1.1
 """How much larger than the violation between grid points a reserve is."""
-RESERVES = 3
+RESERVES = 5
 """How often a reserve is made larger."""
 SLOWER = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 1e-3)
 """Factors of b from which on a timing within all rates is looked for."""
@@ -50,7 +49,7 @@ class Timing(Value):
     local: bool
     """Whether it is the best in its neighbourhood only."""
     reserve: float = 0.0
-    """By how much less than there is it uses of every limit, in the units of their rows, for what is between points."""
+    """The largest share of a limit, in the unit of its rows, that a part leaves for what is between its ends."""
 
 
 def fastest(pose: Callable[[Usual], TimingQuestion], usual: Usual, rates: Sequence[SynergyRate]) -> Timing | str:
@@ -79,15 +78,15 @@ def fastest(pose: Callable[[Usual], TimingQuestion], usual: Usual, rates: Sequen
 def _whole(timing: TimingProgram, rates: Sequence[SynergyRate], decision: Decision) -> Timing | str:
     """Return the fastest timing, with the reserve that limits need between the grid points."""
     least = _least(timing, decision)
-    reserve = 0.0
+    reserve = np.zeros(len(timing.question.parts))
     for _ in range(RESERVES):
         found = _kept(timing, rates, reserve, decision)
         if isinstance(found, str):
             return found
-        missing = _missing(timing.question, found)
-        if missing <= HELD:
-            return replace(found, least=least, reserve=reserve)
-        reserve += MORE * missing
+        missing = timing.question.missing(found.v, found.b)
+        if missing.max() <= HELD:
+            return replace(found, least=least, reserve=float(reserve.max()))
+        reserve = reserve + MORE * missing
     return "limits do not hold between the points at which the path is looked at"
 
 
@@ -100,16 +99,10 @@ def _least(timing: TimingProgram, decision: Decision) -> float | None:
     return timing.seconds * (value - certificate.gap * max(1.0, abs(value)))
 
 
-def _missing(question: TimingQuestion, found: Timing) -> float:
-    """Return how far limits are from holding inside the parts."""
-    inside = question.between(found.v, found.b)
-    return distance_to_cones(inside, inside.b)
-
-
-def _kept(timing: TimingProgram, rates: Sequence[SynergyRate], reserve: float, first: Decision) -> Timing | str:
+def _kept(timing: TimingProgram, rates: Sequence[SynergyRate], reserve: Array, first: Decision) -> Timing | str:
     """Return the fastest timing with a reserve, or why there is none."""
     decision = first
-    if reserve:
+    if np.any(reserve):
         decision = solved(NAME, with_rates(timing.with_reserve(reserve), relaxed(timing, rates)))
         if not decision.acceptable:
             return "no timing was found with the reserve that limits need between the points of the path"

@@ -41,6 +41,8 @@ SLOWER = (1.001, 1.01, 1.03, 1.1, 1.3, 2.0)
 room for the poses, which are the timing but for the corners of its speed."""
 DRAWN = 200
 """Parts of the time at which the timing that was asked for is told beside."""
+LINES = (60, 120, 240)
+"""How many poses the path is told by: more where the linear model has no plan between those."""
 HALVES = 2
 """How often what lies between a factor with a plan and one without is halved."""
 
@@ -168,18 +170,10 @@ def _attained(
     grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, given: float
 ) -> FastestTiming:
     """Return the timing as it is planned along the hand that moves."""
-    posed, passed = as_poses(path, found.b)
+    posed, passed = _posed(grasp, task, palm, path, found)
 
     def planned(factor: float) -> Plan | None:
-        slowed = _slowed(posed, factor)
-        loads = tuple(slowed if load is palm else load for load in task.loads)
-        along = task.replace(loads=loads, duration=None, knots=None)
-        if not isinstance(plan_of_start_posture(grasp, along), Plan):
-            return None
-        outcome = planned_with(WHOLE, grasp, along)
-        if isinstance(outcome, Plan) and outcome.interrupted:
-            raise KeyboardInterrupt
-        return outcome if isinstance(outcome, Plan) else None
+        return _planned(grasp, _along(task, palm, _slowed(posed, factor)))
 
     best, good, bad = None, SLOWER[-1], 0.0
     for factor in SLOWER:
@@ -206,6 +200,33 @@ def _attained(
 def _as_given(grasp: Grasp, task: Task, palm: Palm | PalmPath) -> Array:
     times = task.timed(grasp).times
     return passed_as_given(palm, float(times[0]), float(times[-1]), scale_of(grasp).length, DRAWN)
+
+
+def _posed(
+    grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing
+) -> tuple[PalmPath, Array]:
+    """Return the timing as poses, as few as will do for the linear model, and the length passed at each of them."""
+    for lines in LINES:
+        posed, passed = as_poses(path, found.b, lines)
+        if isinstance(plan_of_start_posture(grasp, _along(task, palm, _slowed(posed, SLOWER[0]))), Plan):
+            break
+    return posed, passed
+
+
+def _planned(grasp: Grasp, task: Task) -> Plan | None:
+    """Return the plan along the hand that moves, if there is one; not where the start posture has none already."""
+    if not isinstance(plan_of_start_posture(grasp, task), Plan):
+        return None
+    outcome = planned_with(WHOLE, grasp, task)
+    if isinstance(outcome, Plan) and outcome.interrupted:
+        raise KeyboardInterrupt
+    return outcome if isinstance(outcome, Plan) else None
+
+
+def _along(task: Task, palm: Palm | PalmPath, path: PalmPath) -> Task:
+    """Return the task with another path in place of the palm's own motion, at its lines."""
+    loads = tuple(path if load is palm else load for load in task.loads)
+    return task.replace(loads=loads, duration=None, knots=None)
 
 
 def _slowed(path: PalmPath, factor: float) -> PalmPath:

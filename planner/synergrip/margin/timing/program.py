@@ -60,18 +60,18 @@ class TimingProgram(Value):
     @cached_property
     def program(self) -> Program:
         """The program: rows of all limits first."""
-        return self.with_reserve(0.0)
+        return self.with_reserve(np.zeros(len(self.question.parts)))
 
-    def with_reserve(self, reserve: float) -> Program:
-        """Return the program with that much less room in the cones of all limits, in the units of their rows."""
-        rest = self.question.rows.at_rest
+    def with_reserve(self, reserve: Array) -> Program:
+        """Return the program with less room (n,) in the cones of each part, in the units of their rows."""
+        rest, instant = self.question.rows.at_rest, self.question.rows.instant
         timing, right, blocks = self._own()
         n = sum(self.sizes)
         cost = np.zeros(n)
         cost[n - self.sizes[3] :] = 2 * self.question.parts / self.question.length
         return Program(
             sparse.csc_matrix((n, n)), frozen(cost), sparse.csc_matrix(below((self._of_limits(), timing))),
-            frozen(np.concatenate([rest.b - reserve * heads(rest), right])), (*rest.blocks, *blocks),
+            frozen(np.concatenate([rest.b - reserve[instant // 2] * heads(rest), right])), (*rest.blocks, *blocks),
             len(self.question.parts) + 1, self.question.formulation.n_v, frozen(np.full(n, LARGEST)),
         )  # fmt: skip
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.least_effort import LeastEffort
@@ -91,8 +90,8 @@ class TimingQuestion(Value):
         """Return the rows under some load (2 n, 6)."""
         return Question(replace(self.formulation, wrench=wrench), self.limits, LeastEffort()).program()
 
-    def between(self, v: Array, b: Array) -> Program:
-        """Return the rows inside the parts, with the unknowns there as they are: those of the program's are zero.
+    def missing(self, v: Array, b: Array) -> Array:
+        """Return how far limits are from holding inside each part (n,), in the units of their rows; 0 where they hold.
 
         Args:
             v: (n + 1, n_v) unknowns of the plan at the grid points.
@@ -111,8 +110,7 @@ class TimingQuestion(Value):
         unknowns = (v[:-1, None] * (1 - share[:, None]) + v[1:, None] * share[:, None]).reshape(-1, v.shape[1])
         formulation = _at(self.formulation, found)
         program = Question(formulation, self.limits, LeastEffort()).program()
-        slack = program.b - program.A @ unknowns.ravel()
-        return replace(program, A=sparse.csc_matrix(program.A.shape), b=frozen(slack))
+        return frozen(_outside(program, program.b - program.A @ unknowns.ravel()).reshape(-1, len(share)).max(axis=1))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -183,3 +181,14 @@ def _at(formulation: Formulation, wrench: Array) -> Formulation:
     }
     target = frozen(np.tile(formulation.target[:1], (count, 1)))
     return replace(formulation, times=frozen(np.arange(float(count))), wrench=frozen(wrench), target=target, **parts)
+
+
+def _outside(program: Program, slack: Array) -> Array:
+    """Return how far the slack (m,) is outside the cones of each instant (T,), 0 inside."""
+    worst = np.zeros(program.knots)
+    for block, rows in program.slices():
+        cones = slack[rows].reshape(block.knots, len(block.items), block.dim)
+        outside = np.linalg.norm(cones[:, :, 1:], axis=2) - cones[:, :, 0]
+        own = worst[block.first_knot : block.first_knot + block.knots]
+        np.maximum(own, outside.max(axis=1, initial=0.0), out=own)
+    return worst
