@@ -108,6 +108,8 @@ def test_a_second_model_withstands_as_much(seed: int) -> None:
     units = rng.normal(size=(10_000, 6))
     units /= np.linalg.norm(units, axis=1)[:, None]
     assert model.worst(found.passive.lower * units) <= 1e-6 * unit
+    assert found.passive.wrench is not None
+    assert model.worst(1.1 * np.linalg.solve(model.unscale, found.passive.wrench)[None]) > 1e-6 * unit
     for direction in units[:2]:
         assert model.has_answer(found.active.lower * direction, 1e-6 * unit)
     assert found.active.wrench is not None
