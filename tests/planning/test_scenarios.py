@@ -47,7 +47,7 @@ def test_a_plan_holds_for_its_share_and_one_without_does_not() -> None:
     assert len(allowed.samples) == SCENARIOS.count(with_.formulation.unknowns + 1)
     assert min(margins(each, with_.dz_r[0]).min() for each in allowed.samples) == pytest.approx(0.1, abs=1e-5)
     assert with_.cases[-1].margin == pytest.approx(0.1, abs=1e-5)
-    fresh = SCENARIOS.drawn(tripod(0.8), 600, first=10_000)
+    fresh = SCENARIOS.drawn(tripod(0.8), 300, first=10_000)
     missed = [np.mean([margins(each, made.dz_r[0]).min() < 0.1 for each in fresh]) for made in (with_, without)]
     assert missed[0] <= SCENARIOS.share
     assert missed[1] > 3 * SCENARIOS.share
@@ -69,11 +69,11 @@ def test_the_number_of_samples_is_the_least_that_the_bound_has(unknowns: int, sh
 
 def test_a_sample_is_a_grasp_with_errors_no_larger_than_stated() -> None:
     grasp = tripod(0.8)
-    shifts, tilts = [], []
+    shifts, tilts = list[float](), list[float]()
     for response in SCENARIOS.drawn(grasp, 50):
         for own, stated in zip(response.grasp.contacts, grasp.contacts, strict=True):
-            shifts.append(np.linalg.norm(own.point - stated.point))
-            tilts.append(np.arccos(min(1.0, own.normal @ stated.normal)))
+            shifts.append(float(np.linalg.norm(own.point - stated.point)))
+            tilts.append(float(np.arccos(np.clip(own.normal @ stated.normal, -1.0, 1.0))))
         assert 0.7e-3 <= response.grasp.C_s[0, 0] <= 1.3e-3
     assert 2.5e-3 < max(shifts) <= 3e-3
     assert 0.08 < max(tilts) <= 0.1 + 1e-9
@@ -105,7 +105,6 @@ def test_what_are_no_scenarios(values: dict[str, Any], said: str) -> None:
 
 
 def test_scenarios_of_a_file_and_what_they_are_not_for() -> None:
-    allow = {"scenarios": {"position": "1 mm", "normal": "3 deg", "share": 0.2, "confidence": 0.9, "seed": 2}}
     problem = sg.load_problem("tripod", ["task.knots=2", "allow.scenarios.position=1 mm", "allow.scenarios.share=0.2"])
     assert problem.task.allow == sg.Allowances(scenarios=sg.Scenarios(position=1e-3, share=0.2))
     made = sg.plan(problem.grasp, problem.task)
@@ -113,4 +112,3 @@ def test_scenarios_of_a_file_and_what_they_are_not_for() -> None:
     assert (told["share"], told["seed"]) == (0.2, 0)
     with pytest.raises(sg.InputError, match=r"allow\.scenarios"):
         sg.load_problem("barrett-ball-hold", ['allow.scenarios={ position = "1 mm" }'])
-    assert allow["scenarios"]["position"] == "1 mm"
