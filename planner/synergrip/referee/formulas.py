@@ -39,8 +39,14 @@ from synergrip.linalg import Array
 from synergrip.referee.friction import NotWrittenError, contact_cones
 from synergrip.referee.model import Cone, Expression, Model, Written
 from synergrip.referee.motion_formulas import elastic_motion, joint_range, object_error, synergy_acceleration
-from synergrip.referee.motion_goals import centred_joints, least_motion, least_reconfiguration, steady_forces
-from synergrip.referee.sustained import least_holding, over_time
+from synergrip.referee.motion_goals import (
+    centred_joints,
+    least_holding,
+    least_motion,
+    least_reconfiguration,
+    steady_forces,
+)
+from synergrip.referee.sustained import over_time
 
 
 def write_limit(model: Model, limit: Limit) -> tuple[Cone, ...]:

@@ -1,10 +1,11 @@
-"""The formulas of the second formulation for goals of motion, and for what earlier goals determined."""
+"""The formulas of the second formulation for goals over time and of motion, and for what earlier goals determined."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from synergrip.conic.goals.centred_joints import CentredJoints
+from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.goals.least_motion import LeastMotion
 from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.steady_forces import SteadyForces
@@ -53,6 +54,20 @@ def steady_forces(model: Model, goal: SteadyForces) -> Written:
     share = model.force @ np.diag(model.response.scale.force / model.force_unit)
     factor = len(model.times) if goal.exact else min(float(len(model.times)), goal.stiffest * h.min())
     return Written(0.5 * factor * cp.sum_squares(times_rows(1 / np.sqrt(h), share[1:] - share[:-1])))
+
+
+def least_holding(model: Model, goal: LeastHolding) -> Written:
+    """Write the mean of the squares down, by Simpson's rule in each step, which is exact for parabolas."""
+    import cvxpy as cp
+
+    value = model.torque if goal.of == "torque" else model.effort
+    share = value / (model.force_unit * model.response.scale.length)
+    if len(model.times) == 1:
+        return Written(0.5 * cp.sum_squares(share))
+    h = len(model.times) * np.diff(model.times)[:, None] / (model.times[-1] - model.times[0])
+    ends = share[:-1], (share[:-1] + share[1:]) / 2, share[1:]
+    parts = (cp.sum_squares(times_rows(np.sqrt(w * h / 6), part)) for w, part in zip((1, 4, 1), ends, strict=True))
+    return Written(0.5 * sum(parts))
 
 
 def centred_joints(model: Model, goal: CentredJoints) -> Written:

@@ -1,4 +1,4 @@
-"""The formulas of the second formulation for the mean over time of squares: bounded, or as small as can be."""
+"""The formula of the second formulation for what is bounded over the whole time: the mean of squares."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.conic.goals.least_holding import LeastHolding
 from synergrip.conic.rows import Item, items_of
 from synergrip.linalg import interpolated
-from synergrip.referee.model import Cone, Expression, Model, Written
-from synergrip.referee.motion_formulas import times_rows
+from synergrip.referee.model import Cone, Expression, Model
 
 
 def over_time(model: Model, limit: Any, names: tuple[str, ...], value: Expression) -> tuple[Cone, ...]:
@@ -35,17 +33,3 @@ def over_time(model: Model, limit: Any, names: tuple[str, ...], value: Expressio
         mean = (rows @ value[:, [i]] / limit.limit[i]).T
         cones.append(Cone(limit.key, (Item(names[i], "norm"),), np.ones(1), mean))
     return tuple(cones)
-
-
-def least_holding(model: Model, goal: LeastHolding) -> Written:
-    """Write the mean of the squares down, by Simpson's rule in each step, which is exact for parabolas."""
-    import cvxpy as cp
-
-    value = model.torque if goal.of == "torque" else model.effort
-    share = value / (model.force_unit * model.response.scale.length)
-    if len(model.times) == 1:
-        return Written(0.5 * cp.sum_squares(share))
-    h = len(model.times) * np.diff(model.times)[:, None] / (model.times[-1] - model.times[0])
-    ends = share[:-1], (share[:-1] + share[1:]) / 2, share[1:]
-    parts = (cp.sum_squares(times_rows(np.sqrt(w * h / 6), part)) for w, part in zip((1, 4, 1), ends, strict=True))
-    return Written(0.5 * sum(parts))
