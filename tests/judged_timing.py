@@ -32,8 +32,8 @@ from synergrip.margin.timing.fastest_program import Timing, fastest
 from synergrip.margin.timing.question import timing_question
 
 COARSE, FINE = 14, 128
-STEP = 1e-5
-"""[m] By which poses are differentiated."""
+STEP = 2e-6
+"""[m] By which poses are differentiated: short, as third derivatives jump at the poses of a path."""
 NONE_FASTER, NEAR = 1e-4, 1e-2
 """Share of the time by which the optimiser may be faster, for its own tolerance; and within which it counts as near."""
 SLIPS = 2e-4
@@ -159,13 +159,13 @@ def timing(grasp: sg.Grasp, task: sg.Task, parts: int, held: float) -> Timing | 
 
 
 def missed(statics: Statics, found: Timing, margin: float, cap: float) -> float:
-    """How far cones or cap are missed anywhere, at 9 instants of every part [N]."""
+    """How far cones or cap are missed anywhere, at 14 instants of every part [N]."""
     question, worst, first = found.question, np.inf, 0
     alpha = found.v @ question.formulation.alpha.matrix.T @ question.formulation.spaces.E_s.T
     for leg in question.legs:
         own = slice(first, first + len(leg.at))
         b, squeeze, h = found.b[own], alpha[own], np.diff(leg.at)
-        for share in np.linspace(0.0, 1.0, 9):
+        for share in np.linspace(0.0, 1.0, 14):
             rest, of_a, of_b = statics.loads(leg, leg.at[:-1] + share * h)
             a, square = np.diff(b) / (2 * h), (1 - share) * b[:-1] + share * b[1:]
             wrench = rest + of_a * a[:, None] + of_b * square[:, None]

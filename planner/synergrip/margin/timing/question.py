@@ -29,7 +29,7 @@ from synergrip.tasks.timed_task import TimedTask, still
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
-LOOKS = (0.25, 0.5, 0.75)
+LOOKS = (1 / 8, 1 / 4, 3 / 8, 1 / 2, 5 / 8, 3 / 4, 7 / 8)
 """Where between grid points it is looked whether all limits hold there, too, as shares of the part."""
 ADDS_UP = 1e-9
 """Share by which what limits say of a sum of loads may differ from the sum of what they say of each."""
