@@ -17,8 +17,10 @@ from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Kind
 from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array, Places, frozen
+from synergrip.margin.disturbance.leaving import inside_by
 from synergrip.margin.disturbance.reacting import Reacting, statics_of
 from synergrip.planning.outcome import Plan
 from synergrip.values import Value
@@ -82,11 +84,21 @@ class Reaction(Value):
     def made(
         cls, times: Array, scale: Scale, unit: float, free: Array, under_wrench: Callable[[Array], Program]
     ) -> Reaction:
-        """Return it with the columns that the programs tell."""
-        program = under_wrench(np.zeros(6))
+        """Return it with the columns that the programs tell.
+
+        A plan keeps its limits to some digits; where it is beyond one, the limit is taken to be where the plan is.
+        """
+        known = under_wrench(np.zeros(6))
+        room = _room(known)
+
+        def with_room(wrench: Array) -> Program:
+            program = under_wrench(wrench)
+            return replace(program, b=frozen(program.b + room))
+
+        program = with_room(np.zeros(6))
         moves = [unit * column for column in scale.motion]  # of w = motion' w~
-        columns = [under_wrench(wrench).b - program.b for wrench in moves]
-        return cls(times, scale, unit, free, under_wrench, program, frozen(np.column_stack(columns)))
+        columns = [under_wrench(wrench).b - known.b for wrench in moves]
+        return cls(times, scale, unit, free, with_room, program, frozen(np.column_stack(columns)))
 
     @classmethod
     def of(cls, plan: Plan, *, cones_alone: bool = False) -> Reaction:
@@ -131,6 +143,18 @@ class Reaction(Value):
             if block.rows:
                 places = np.arange(rows.start, rows.stop).reshape(-1, block.dim)
                 yield Cones(block, self.program.b[places], self.columns[places], places)
+
+
+def _room(program: Program) -> Array:
+    """Return (m,) what puts values b (m,) that are outside of their cones on the edge of them."""
+    found = np.zeros(len(program.b))
+    for block, rows in program.slices():
+        values = program.b[rows].reshape(-1, block.dim)
+        if block.kind is Kind.ZERO:
+            found[rows] = -program.b[rows]
+        elif block.rows:
+            found[rows][:: block.dim] = np.maximum(-inside_by(values), 0.0)
+    return found
 
 
 FREE = 1e-8

@@ -17,7 +17,7 @@ SAME = 5e-5
 """Relative difference of two ends that are told as one number."""
 FAR_APART = 0.01
 """The same from which on both are told to two digits."""
-NONE_LEFT = 1e-6
+NONE_LEFT = 1e-5
 """[N] or [N m] below which nothing is left."""
 
 
@@ -86,7 +86,7 @@ def _cells(unit: str, slip: Withstood, passive: Withstood, active: Withstood) ->
 
 def _size(unit: str, found: Withstood) -> str:
     if found.upper is None:
-        return "no end found"
+        return "no end found" if found.proven else "not known"
     if not found.upper > NONE_LEFT:
         return f"0 {unit}"
     return f"{_ends(found.lower, found.upper)} {unit}"
