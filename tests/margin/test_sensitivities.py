@@ -13,11 +13,15 @@ from small_grasps import pinch, tripod
 from too_much import with_plan
 
 import synergrip as sg
+from synergrip.changes.asked import Asked
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.linalg import frozen
 from synergrip.margin.sensitivity.moved_contacts import moved, turned
+from synergrip.margin.sensitivity.of_largest import by_differences
+from synergrip.margin.sensitivity.optimum import optimum
+from synergrip.margin.sensitivity.parameters import parameters
 from synergrip.margin.sensitivity.sensitivity import FIXED, HAND, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
@@ -137,6 +141,21 @@ def test_turned_normals_of_matrices_agree_with_margins_found_anew() -> None:
     assert sum(bool(each.size) for each in tried) > 3
     for each in tried:
         agrees(each, grasp, task, CAP)
+
+
+def test_differences_of_optima_found_anew_are_what_multipliers_say() -> None:
+    made = plan(pinch(MU), CARRY)
+    assert isinstance(made, Plan)
+    asked = Asked.of(made.grasp, CARRY, made.task)
+    posed = asked.posed(made.analysis)
+    assert posed is not None
+    best = optimum(posed)
+    assert not isinstance(best, str)
+    common, left, *_ = parameters(asked, made.task, made.analysis.response)
+    smooth, kinked = by_differences(common, best, MU * CAP), by_differences(left, best, MU * CAP)
+    assert (smooth.differentiable, smooth.derivative) == (True, pytest.approx(MU * CAP))
+    assert (kinked.left, kinked.right) == pytest.approx((MU * CAP / 100, 0.0), rel=1e-4, abs=1e-7)
+    assert not kinked.differentiable
 
 
 def test_places_and_normals_on_a_hand_agree_with_margins_found_anew() -> None:

@@ -75,7 +75,7 @@ def _derived(parameter: Parameter, of: Optimum, found: Faces, change: _Change) -
     tied = _varies(found.open_.T @ own, own)
     several = _several(found, change)
     if several:
-        return _by_differences(parameter, of, value)
+        return by_differences(parameter, of, value)
     if not tied:
         return _told(parameter, of, (value, value))
     ends = [_end(of, found, sign * rows) for sign in (1.0, -1.0)]
@@ -101,7 +101,7 @@ def _end(of: Optimum, found: Faces, rows: Array) -> float | None:
     return float(decision.program.objective(decision.solution.x)) * of.unit if decision.optimal else None
 
 
-def _by_differences(parameter: Parameter, of: Optimum, value: float) -> Sensitivity:
+def by_differences(parameter: Parameter, of: Optimum, value: float) -> Sensitivity:
     """Return one-sided differences of the second order, of largest margins that are found anew."""
     sides = list[float | None]()
     for sign in (-1.0, 1.0):
