@@ -25,7 +25,7 @@ from synergrip.documents.quantities import quantity
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue
 from synergrip.tasks.allowances import Allowances, Interval
-from synergrip.tasks.scenarios import Scenarios
+from synergrip.tasks.scenarios import LARGEST_SEED, Scenarios
 
 COMPONENTS = (*[number_or("force")] * 3, *[number_or("torque")] * 3)
 COMPONENT: Schema = {"anyOf": [NUMBER, unit_schema("force", "torque")]}
@@ -108,7 +108,7 @@ class ScenariosTable(Table):
     compliance: Share = Field(default=0.0, description="share by which compliances may each be less or more")
     share: Part = Field(default=0.05, description="share of all scenarios that may miss a limit")
     confidence: Part = Field(default=0.999, description="confidence that no larger share does")
-    seed: Annotated[Whole, Field(ge=0)] = Field(default=0, description="of the random samples")
+    seed: Annotated[Whole, Field(ge=0, lt=LARGEST_SEED)] = Field(default=0, description="of the random samples")
 
     def issues(self) -> tuple[Issue, ...]:
         """Refuse a table in which nothing is random, and a normal that may point anywhere."""

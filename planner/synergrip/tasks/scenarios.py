@@ -18,6 +18,7 @@ from synergrip.values import ByContent
 
 SAME = 1e-6
 """Entries of G that are the same [m]."""
+LARGEST_SEED = 2**63
 KEY = "Task.allow.scenarios"
 
 
@@ -36,7 +37,7 @@ class Scenarios(ByContent):
         compliance: share by which contacts, joints and synergies may each be stiffer or softer, below 1.
         share: epsilon, of samples that may miss a limit, between 0 and 1.
         confidence: that no larger share does, between 0 and 1.
-        seed: of the samples, a whole number of at least 0.
+        seed: of the samples, a whole number from 0 to 2^63 - 1.
 
     Raises:
         InputError: no such numbers, or nothing that is random.
@@ -64,8 +65,8 @@ class Scenarios(ByContent):
         for name in ("share", "confidence"):
             if not 0 < found[name] < 1 and not judge.issues:
                 judge.refuse(name, f"expected a share between 0 and 1, got {found[name]:g}")
-        if not is_whole(self.seed) or self.seed < 0:
-            judge.refuse("seed", f"expected a whole number of at least 0, got {described(self.seed)}")
+        if not is_whole(self.seed) or not 0 <= self.seed < LARGEST_SEED:
+            judge.refuse("seed", f"expected a whole number from 0 to 2^63 - 1, got {described(self.seed)}")
         keep(self, judge, **found)
         if not (self.position or self.normal or self.compliance):
             raise InputError.at("Scenarios", "nothing is random; give position, normal or compliance")
