@@ -73,7 +73,9 @@ def test_a_hold_counts_its_mean_and_its_last_value(loads: str) -> None:
     """Both fingers are closed by one actuator: sigma = 2 n = load / mu."""
     given, counts = HELD[loads]
     least = counts / 0.5
-    assert isinstance(plan(pinch(0.5), held(*given, SustainedEffort=1.0001 * least)), Plan)
+    made = plan(pinch(0.5), held(*given, SustainedEffort=1.0001 * least))
+    assert isinstance(made, Plan)
+    np.testing.assert_allclose(made.usages["sustained effort"].value[-1], least, rtol=1e-6)
     refused = plan(pinch(0.5), held(*given, SustainedEffort=0.9999 * least))
     assert isinstance(refused, Infeasible)
     assert refused.certificate.verified
