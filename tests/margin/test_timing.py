@@ -20,7 +20,7 @@ import synergrip as sg
 from synergrip.grasps.scale import scale_of
 from synergrip.margin.timing import fastest_program
 from synergrip.margin.timing.by_length import Leg, legs
-from synergrip.margin.timing.fastest_program import Timing, fastest
+from synergrip.margin.timing.fastest_program import Timing, Usual, fastest
 from synergrip.margin.timing.loads import load_along
 from synergrip.margin.timing.question import TimingQuestion, timing_question
 from synergrip.planning.planning import plan_of_start_posture
@@ -118,7 +118,7 @@ def asked(grasp: sg.Grasp, task: sg.Task, parts: int = 64) -> Timing:
     path = legs(palm, 0.0, float(timed.times[-1]), scale_of(grasp).length, parts)
     rates = tuple(each for each in timed.limits if isinstance(each, sg.SynergyRate))
 
-    def pose(usual: tuple[float, float]) -> TimingQuestion:
+    def pose(usual: Usual) -> TimingQuestion:
         return timing_question(grasp, task, timed, path, usual)
 
     found = fastest(pose, (4.0, 1.0), rates)

@@ -23,7 +23,7 @@ HELD = 1e-6
 """Violation of a row between grid points, in its unit, that is not worth a reserve."""
 ROUNDS, NEAR = 4, 3.0
 """How often it is asked anew in units that suit what came of it; b is then as many times its unit at most, or least."""
-MORE = 1.1
+MORE = 1.25
 """How much larger than the violation between grid points a reserve is."""
 RESERVES = 5
 """How often a reserve is made larger."""
@@ -32,7 +32,8 @@ SLOWER = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 1e-3)
 STEPS, SETTLED = 12, 1e-6
 """How often a local answer is bettered at most, and the share of the time that is not worth another step."""
 
-Usual = tuple[float, float]
+Usual = tuple[Array | float, Array | float]
+"""Acceleration along the path and square of the speed, one for all or (2 n,) at both sides of every part."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,15 +63,15 @@ def fastest(pose: Callable[[Usual], TimingQuestion], usual: Usual, rates: Sequen
         rates: limits on the rates of references.
     """
     for _ in range(ROUNDS):
-        timing = TimingProgram(pose(usual), usual[1])
+        timing = TimingProgram(pose(usual), float(np.max(usual[1])))
         decision = solved(NAME, with_rates(timing.program, relaxed(timing, rates)))
         if decision.infeasible:
             return "no timing keeps all limits, which is proven of the linear model of the start posture"
         if not decision.acceptable:
             return "the program of the fastest timing did not verify"
         _, b = timing.plan(decision.solution.x)
-        usual = float(np.abs(np.diff(b) / (2 * timing.question.parts)).max()), float(b.max())
-        if 1 / NEAR < usual[1] / timing.unit < NEAR:
+        usual = np.repeat(np.diff(b) / (2 * timing.question.parts), 2), np.column_stack([b[:-1], b[1:]]).ravel()
+        if 1 / NEAR < b.max() / timing.unit < NEAR:
             return _whole(timing, rates, decision)
     return f"no end of it was found up to {FASTEST ** ((ROUNDS - 1) / 2):g} times as fast: give a limit on the forces"
 

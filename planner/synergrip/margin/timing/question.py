@@ -29,7 +29,7 @@ from synergrip.tasks.timed_task import TimedTask, still
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
-LOOKS = (1 / 8, 1 / 4, 3 / 8, 1 / 2, 5 / 8, 3 / 4, 7 / 8)
+LOOKS = (1 / 32, 1 / 16, 1 / 8, 1 / 4, 3 / 8, 1 / 2, 5 / 8, 3 / 4, 7 / 8, 15 / 16, 31 / 32)
 """Where between grid points it is looked whether all limits hold there, too, as shares of the part."""
 ADDS_UP = 1e-9
 """Share by which what limits say of a sum of loads may differ from the sum of what they say of each."""
@@ -132,7 +132,7 @@ class Rows(Value):
 
 
 def timing_question(
-    grasp: Grasp, task: Task, timed: TimedTask, path: tuple[Leg, ...], usual: tuple[float, float]
+    grasp: Grasp, task: Task, timed: TimedTask, path: tuple[Leg, ...], usual: tuple[Array | float, Array | float]
 ) -> TimingQuestion:
     """Return the question of the linear model of the start posture, which holds the load at rest when the task begins.
 
@@ -141,7 +141,8 @@ def timing_question(
         task: what is asked; its loads are not bound to time.
         timed: the same at its knots.
         path: of the palm, legs between its stops.
-        usual: acceleration and square of the speed along the path as they are about [m/s^2, m^2/s^2], for the units.
+        usual: acceleration and square of the speed along the path as they are about [m/s^2, m^2/s^2], one for all or
+            (2 n,) at both sides of every part; for the units.
 
     Raises:
         Refusal: the load needs what the contacts leave free.
@@ -156,8 +157,8 @@ def timing_question(
     limits = tuple(each for each in timed.all_limits if not each.couples_knots)
     begun = at_start(grasp, load.at_rest[0])
     analysis = analyse(begun, NO_LOAD)
-    size = np.ones(len(load.at_rest))
-    formulation = _formulation(analysis, timed, load.wrench(usual[0] * size, usual[1] * size))
+    one = np.ones(len(load.at_rest))
+    formulation = _formulation(analysis, timed, load.wrench(usual[0] * one, usual[1] * one))
     return TimingQuestion(begun, task, path, limits, formulation, load)
 
 
