@@ -92,10 +92,9 @@ def test_balls_are_exact_and_proven(d: int) -> None:
         assert np.linalg.norm(beyond[1:]) > beyond[0]
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_a_second_model_withstands_as_much(seed: int) -> None:
-    plan = next(each for each in (some_question(10 * seed + i) for i in range(10)) if each is not None)
-    rng, widths = np.random.default_rng(seed), np.array([1.0, 0.5, 0.8, 0.02, 0.01, 0.03])
+def test_a_second_model_withstands_as_much() -> None:
+    plan = next(each for each in (some_question(i) for i in range(10)) if each is not None)
+    rng, widths = np.random.default_rng(0), np.array([1.0, 0.5, 0.8, 0.02, 0.01, 0.03])
     found, model = sg.disturbances(plan, box=widths), SecondModel(plan)
     unit = plan.formulation.force_unit
     assert found.box is not None
