@@ -87,7 +87,8 @@ def margins(
         for more in _more(found, wants, asked, task, heard):
             found = more
         if free is not None:
-            found = replace(found, timing=fastest_timing(grasp, free))
+            found = replace(found, timing=(timing := fastest_timing(grasp, free)))
+            heard(timing)
     except KeyboardInterrupt:
         return replace(found, interrupted=True)
     return found
@@ -125,14 +126,14 @@ def _more(found: Margins, wants: _Wants, asked: Asked, task: Task | TimedTask, h
     """Yield margins of which more and more is known, so that an interrupt keeps what is finished."""
     made = found.plan
     for number in direct(wants.numbers, asked, made):
-        heard(number)
         yield (found := replace(found, direct={**found.direct, number.name: number}))
+        heard(number)
     for name in (name for name in ON_REQUEST if name in wants):
         several: dict[str, DirectNumber] = {}
         for of, number in ON_REQUEST[name](asked, made):
-            heard(number)
             several = {**several, of: number}
             yield (found := replace(found, on_request={**found.on_request, name: several}))
+            heard(number)
     if DISTURBANCE in wants:
         yield (found := replace(found, disturbance=disturbances(made, directions=wants.directions, box=wants.box)))
     if QUALITY in wants:
