@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import between, first_plan, outcome_at, posed_at, with_room
+from synergrip.changes.at_a_value import between, first_plan, least_with_plan, outcome_at, posed_at, with_room
 from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -26,7 +26,7 @@ FARTHER = (1.1, 1.5)
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
 MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
-"""Shares by which a bound is wider than what the plan uses that is there, one after the other until it has a plan."""
+"""Shares by which a bound is wider than what the plan uses that is there; the least with a plan is found by halves."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES = 1
@@ -140,7 +140,7 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial = found.dial
     if dial.cause not in OF_PLAN:
         return _ends(of, found, dial.value, plan)
-    attained = first_plan(dial, (dial.rounded(dial.value * (1 + more)) for more in MORE), BRIEF)
+    attained = least_with_plan(dial, [dial.rounded(dial.value * (1 + more)) for more in MORE], BRIEF)
     if attained is None:
         more = f"up to {MORE[-1]:.0%} more than the plan uses"
         return DirectNumber.none(of.name, of.unit, f"no plan verified with {more}")
