@@ -58,6 +58,16 @@ def test_a_pinch_squeezes_as_its_closed_form_says(allow: dict[str, Any], squeeze
     assert not allow or min(case.margin for case in made.cases) == pytest.approx(0.0, abs=1e-5)
 
 
+@pytest.mark.parametrize("limit", [sg.ActuatorEffort, sg.SustainedEffort])
+def test_a_contact_that_is_early_counts_in_what_is_bound_at_once_and_in_what_is_bound_over_time(limit: Any) -> None:
+    """To keep 3 N with a contact late by g it takes 3.1 N, and with one that is early that becomes 3.2 N."""
+    grasp = pinch(0.5)
+    least = np.abs(planned(grasp, carried()).motion.efforts).max() * 3.2 / 3
+    for share, verdict in ((1.001, "feasible"), (0.999, "infeasible")):
+        task = carried(limit(share * least), contact_gap=1e-4).replace(knots=3)
+        assert sg.plan(grasp, task).verdict == verdict
+
+
 def allowed_tripod() -> tuple[Grasp, sg.Task]:
     """Everything that matrices can be allowed for, on fingers below the equator of a ball."""
     grasp = tripod(0.8, below=0.2)
