@@ -43,6 +43,8 @@ FIRST = {
     "acceleration, some free": 137,
 }
 """Seeds from which on a task that this kind of limit makes infeasible is looked for; 0 for the others."""
+AT_INSTANTS = [kind for kind in LIMITS if not kind.startswith("sustained")]
+"""Kinds that add nothing up over time."""
 TIMES = np.array([0.0, 1.0])
 
 
@@ -68,7 +70,7 @@ def document_of(formulation: Formulation, limits: list[Any], multipliers: list[A
     return marked(problem, multipliers)
 
 
-@pytest.mark.parametrize("kind", LIMITS)
+@pytest.mark.parametrize("kind", AT_INSTANTS)
 @pytest.mark.parametrize("seed", [1, 6])
 def test_the_sum_is_that_of_the_rows_of_the_program(kind: str, seed: int) -> None:
     rng, formulation = random_formulation(seed)
@@ -310,6 +312,12 @@ def test_a_limit_on_something_else_leaves_no_exact_proof() -> None:
     found = exact_proof(with_limit(OfAlpha()))
     assert isinstance(found, NoExactProof)
     assert "'OfAlpha'" in found.why
+
+
+def test_a_limit_over_time_leaves_no_exact_proof() -> None:
+    found = exact_proof(with_limit(sg.SustainedTorque(1e-3)))
+    assert isinstance(found, NoExactProof)
+    assert found.why == "no exact proof: 'limits.sustained_torque' adds up over time"
 
 
 def test_the_page_prints_the_checker() -> None:

@@ -126,8 +126,8 @@ def _proven(posed: Posed) -> ExactProof | NoExactProof:
     formulation, program, y = found.question.formulation, found.decision.program, found.decision.certificate.y
     try:
         cones = stated(limits, formulation)
-    except ValueError as key:
-        return NoExactProof(f"no exact proof: '{key}' looks at more than forces, torques, references and motions")
+    except ValueError as why:
+        return NoExactProof(f"no exact proof: {why}")
     value = Fraction(0)
     for share in NEGLIGIBLE:
         kept = weighed(cones, _rays(program, y, share))

@@ -29,14 +29,16 @@ def stated(limits: Sequence[Limit], formulation: Formulation) -> list[list[Cone]
     """Return the cones of each block of the program of some limits, in the order of its rows.
 
     Raises:
-        ValueError: the key of a limit on something else.
+        ValueError: a limit adds up over time, or is on something else; in words.
     """
     bare, known = BareFormulation.of(formulation), quantities(formulation)
     found: list[list[Cone]] = []
     for limit in limits:
         parts = limit.rows(bare)
+        if any(part.over_time is not None for part in parts):
+            raise ValueError(f"'{limit.key}' adds up over time")
         if not is_of_quantities(limit.rows(formulation), parts, known):
-            raise ValueError(limit.key)
+            raise ValueError(f"'{limit.key}' looks at more than forces, torques, references and motions")
         found += [list(cones_of(part, bare)) for part in parts]
     return found
 
