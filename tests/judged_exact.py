@@ -34,9 +34,9 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
 
 Document = dict[str, Any]
-KINDS = [kind for kind in LIMITS if kind != "drift of the rigid part on some axes" and "sustained" not in kind]
-"""Of limits that take a plan away from a task whose wanted motion is followed rigidly: nothing drifts there. Limits that
-add up over time have no proof in fractions."""
+KINDS = [each for each in LIMITS if each != "drift of the rigid part on some axes" and "sustained" not in each]
+"""Of limits that take a plan away from a task whose wanted motion is followed rigidly: nothing drifts there.
+Limits that add up over time have no proof in fractions."""
 TIGHTER = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4)
 """Shares of a limit that are tried until there is no plan."""
 

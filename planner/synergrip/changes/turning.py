@@ -12,7 +12,6 @@ from synergrip.changes.allowance_dials import allowance_dials
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
-from synergrip.conic.limits.sustained import Sustained
 from synergrip.errors import InputError
 from synergrip.linalg import frozen
 from synergrip.statics.analysis import Analysis
@@ -136,7 +135,7 @@ def _stretches(task: Task) -> bool:
 
 def _feels_time(task: Task, timed: TimedTask) -> bool:
     """Return whether it matters how long a task takes: for changes from knot to knot, or for inertia."""
-    changes = any(limit.couples_knots and not isinstance(limit, Sustained) for limit in timed.limits)
+    changes = any(limit.couples_knots and not limit.adds_up for limit in timed.limits)
     return _has_inertia(task) or changes
 
 

@@ -59,7 +59,8 @@ def explained(
     planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
     others: list[Repair] = []
     if isinstance(no, Unknown) and not interrupted:
-        turned = [each.dial for each in helping] if short and helping else numbers
+        known_to_help = short and any(each.verified for each in planned)
+        turned = [each.dial for each in helping] if known_to_help else numbers
         others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(turned, planned), heard))
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping)

@@ -68,7 +68,7 @@ def executed_cases(walk: Walk, walker: Walker, formulation: Formulation) -> Exec
     if allowed is None:
         return ExecutedCases()
     looks, narrow = _looks(walk, walker), allowed.narrowed(formulation.whole)
-    limits = [limit for limit in task.all_limits if not limit.couples_knots]
+    limits = [limit for limit in task.all_limits if limit.adds_up or not limit.couples_knots]
     offs = _offs(walk, walker, allowed, looks)
     names = [contact.name for contact in walker.start.grasp.contacts]
     found, missed, worst = list[InCase](), list[str](), dict[str, Check]()

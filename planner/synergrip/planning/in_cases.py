@@ -35,7 +35,7 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
     references = interpolated(looks.times, task.times, dz_r)
     narrow = allowed.narrowed(formulation)
     there = replace(narrow, times=looks.times, wrench=looks.wrench, target=looks.target)
-    limits = [limit for limit in task.all_limits if not limit.couples_knots]
+    limits = [limit for limit in task.all_limits if limit.adds_up or not limit.couples_knots]
     names = [contact.name for contact in analysis.grasp.contacts]
     offs = off_place(narrow.map_of, analysis.grasp, allowed.gaps)
     found = []

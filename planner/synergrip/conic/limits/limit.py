@@ -166,6 +166,11 @@ class Limit(Complete, ByContent, ABC):
         """Whether it speaks of the step from knot to knot, and not of each instant."""
         return False
 
+    @property
+    def adds_up(self) -> bool:
+        """Whether it adds something up over the whole time: it couples the knots, and is known at any instants."""
+        return False
+
     @abstractmethod
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return the rows it adds to the program, divided by the limit or another size of what they are about."""
@@ -227,6 +232,11 @@ class InOtherRows(Limit):
     def couples_knots(self) -> bool:
         """Whether the other one does."""
         return self.limit.couples_knots
+
+    @property
+    def adds_up(self) -> bool:
+        """Whether the other one does."""
+        return self.limit.adds_up
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return that of the other one."""

@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import sparse
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.intersample import knots_in
@@ -35,6 +34,7 @@ class Sustained(Symmetric):
     """
 
     couples_knots = True
+    adds_up = True
 
     @abstractmethod
     def value(self, formulation: Formulation) -> Affine:
@@ -42,6 +42,8 @@ class Sustained(Symmetric):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone of each joint or synergy, and of a hold two bounds at the last knot."""
+        from scipy import sparse
+
         grasp = formulation.response.grasp
         names, limit, value = self.names(grasp), self.on(grasp).limit, self.value(formulation)
         keep, rows = np.flatnonzero(np.isfinite(limit)), []

@@ -82,6 +82,9 @@ class Disturbances(Value):
     """Which linear model they are of: of "the start posture", or about "the true equilibria" of a hand that moves."""
     executed: ExecutedWrench | None
     """Nearly the wrench at which a contact slips first, on the hand that moves; None without a hand."""
+    left_out: tuple[str, ...] = ()
+    """Keys of limits that say nothing of an instant, and that all of these figures leave out: on changes from knot to
+    knot, and on what adds up over time."""
 
     @property
     def known_share(self) -> float | None:
@@ -126,6 +129,7 @@ def disturbances(
         passive, slip, _active(every, passive, [*ends, *axes]), along,
         None if widths is None else _box(every, cones, widths), scale.length, scale.centroid,
         "the start posture" if plan.executed is None else "the true equilibria", executed_wrench(plan, slip),
+        tuple(limit.key for limit in plan.task.all_limits if limit.couples_knots),
     )  # fmt: skip
 
 
@@ -165,6 +169,7 @@ def judged_directions(directions: object) -> Array:
     found = np.atleast_2d(found)
     if not np.all(np.isfinite(found)) or not np.all(np.any(found, axis=1)):
         raise InputError.at("directions", "expected finite numbers, not all of them 0; a direction has a length")
+    found = found / np.abs(found).max(axis=1, keepdims=True)  # however large or small
     forces, moments = (np.linalg.norm(part, axis=1) for part in (found[:, :3], found[:, 3:]))
     return frozen(found / np.where(forces > 0, forces, moments)[:, None])
 

@@ -50,7 +50,7 @@ class Reacting(Formulation):
 
         alpha = Affine(frozen(whole.units.force * np.eye(count)), frozen(np.zeros((T, count))))
         own = {"each": each, "alpha": alpha, "beta": still(plan.beta), "gamma": still(plan.gamma),
-               "intersample": None, "free_basis": None, "unreduced": None}  # fmt: skip
+               "intersample": None, "free_basis": None, "unreduced": None, "allowed": None}  # fmt: skip
         return cls(**fields_of(whole) | own, plan=plan, extra=frozen(extra))
 
     @property

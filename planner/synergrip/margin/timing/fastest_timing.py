@@ -43,6 +43,8 @@ DRAWN = 200
 """Parts of the time at which the timing that was asked for is told beside."""
 LINES = (60, 120, 240)
 """How many poses the path is told by: more where the linear model has no plan between those."""
+MUCH = 1.05
+"""Factor from which on the fastest timing of the linear model says little about the hand that moves."""
 HALVES = 2
 """How often what lies between a factor with a plan and one without is halved."""
 
@@ -162,8 +164,8 @@ def _linear(grasp: Grasp, task: Task, timed: TimedTask, path: tuple[Leg, ...]) -
     )  # fmt: skip
 
 
-def _none(given: float, why: str) -> FastestTiming:
-    return FastestTiming(None, None, None, proven=False, local=False, given_s=given, why=why)
+def _none(given: float, why: str, least: float | None = None) -> FastestTiming:
+    return FastestTiming(None, least, None, proven=least is not None, local=False, given_s=given, why=why)
 
 
 def _attained(
@@ -183,7 +185,7 @@ def _attained(
         bad = factor
     if best is None:
         why = f"no plan verified up to {SLOWER[-1]:g} times the time of the linear model, {found.seconds:.4g} s"
-        return _none(given, why)
+        return _none(given, why, found.least)
     for _ in range(HALVES if bad else 0):
         middle = (good + bad) / 2
         nearer = planned(middle)
@@ -237,6 +239,8 @@ def _claim(found: Timing, factor: float, moves: bool) -> str:
     """Return what is attained, and what is proven of what."""
     who = "the hand that moves" if moves else "the linear model of the start posture"
     slower = f", {100 * (factor - 1):.2g} % slower than the linear model of the start posture is"
+    if factor > MUCH:
+        slower += " (one factor on the times that are given, shortest_duration_s, may be less)"
     local = "; with limits on rates it is the best of those near it only" if found.local else ""
     proof = (
         "; less is proven impossible of the program of the linear model of the start posture, on a grid of the path"

@@ -31,7 +31,7 @@ def timeless(grasp: object, task: object) -> tuple[Grasp, Task, TimedTask, Palm 
     assert isinstance(task, Task)
     palm = _palm(task)
     timed = task.timed(grasp)
-    raise_issues([*_bound_loads(task), *_bound_target(task, timed), *_bound_limits(timed.limits)])
+    raise_issues([*_allowances(task), *_bound_loads(task), *_bound_target(task, timed), *_bound_limits(timed.limits)])
     return grasp, task, timed, palm
 
 
@@ -61,6 +61,16 @@ def _bound_loads(task: Task) -> list[Issue]:
         )
         issues.append(Issue(message, key=f"Task.loads[{index}]"))
     return issues
+
+
+def _allowances(task: Task) -> list[Issue]:
+    if task.allow is None:
+        return []
+    message = (
+        "the fastest timing is that of what is stated, and knows nothing of other values; leave allow out, and plan "
+        f"the path it gives with it; {INSTEAD}"
+    )
+    return [Issue(message, key="Task.allow")]
 
 
 def _bound_target(task: Task, timed: TimedTask) -> list[Issue]:

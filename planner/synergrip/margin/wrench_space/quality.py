@@ -124,8 +124,9 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     made = controlled_figures(response, analysis.spaces.E_s)
     why = "" if whole.epsilon[1] else "the grasp has no force closure"
     why = why or ("" if made.epsilon[1] else "the synergies do not hold loads from every direction")
+    part = (made.epsilon[0], min(made.epsilon[1], whole.epsilon[1]))  # of the same wrenches, with fewer forces
     pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
-    return found(whole.epsilon, made.epsilon, pyramids, (whole.volume, most), (made.volume, most), why=why)
+    return found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), why=why)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

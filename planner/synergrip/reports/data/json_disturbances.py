@@ -16,6 +16,7 @@ def disturbance_document(found: Disturbances) -> dict[str, Any]:
     return {
         "passive_N": _withstood(found.passive), "slip_N": _withstood(found.slip), "active_N": _withstood(found.active),
         "known_share": found.known_share, "linear_model": found.of,
+        "left_out": list(found.left_out),
         "norm": {"length_m": found.length, "centroid_m": found.centroid.tolist()},
         "along": [{"direction": each.wrench.tolist(), **_along(each)} for each in found.along],
         "box": None if found.box is None else {"half_widths": found.box.wrench.tolist(), **_along(found.box)},

@@ -48,6 +48,9 @@ def disturbance_lines(found: Disturbances) -> Iterator[str]:
     if not found.passive.lower > NONE_LEFT and found.passive.limit:
         used = f"within all limits nothing is left: the plan uses all of {found.passive.limit}"
         yield from wrapped("         ", used)
+    if found.left_out:
+        said = f"left out, for they say nothing of an instant: {', '.join(found.left_out)}"
+        yield from wrapped("         ", said)
     if found.executed is not None:
         yield from wrapped("         ", _executed(found.executed))
 

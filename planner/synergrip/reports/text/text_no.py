@@ -80,6 +80,14 @@ def _repairs(found: Explanation) -> Iterator[str]:
     if found.cannot_help:
         words = ", ".join(cause.replace("_", " ") + FAR.get(cause, "") for cause in found.cannot_help)
         yield from wrapped("No help  ", f"proven of the linear model of the start posture, whatever the value: {words}")
+        if _moves(found):
+            yield from wrapped("         ", "on the hand as it moves they may help all the same")
+
+
+def _moves(found: Explanation) -> bool:
+    """Return whether the answer is about a hand that is linearised anew along its motion."""
+    posed = found.posed
+    return posed is not None and posed.analysis.grasp.held is not None and posed.timed.linearise == "along"
 
 
 def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:

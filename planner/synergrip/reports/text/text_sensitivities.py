@@ -24,7 +24,7 @@ def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[
         of = head.format(f"{margin:.4g} N")
         yield "" if kind == FIXED else f"What changes are worth most, {MEANT}" if not whole else f"Changes, {MEANT}"
         if not chosen:
-            yield f"{of}: no such change adds to it"
+            yield f"{of}: {'interrupted before it was found' if found.interrupted else 'no such change adds to it'}"
             continue
         columns = ("change", "adds", "toward less", "toward more", "in", "") if whole else ("change", "adds", "in")
         yield of
