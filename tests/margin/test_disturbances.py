@@ -129,6 +129,36 @@ def test_a_ball_does_not_depend_on_the_frame() -> None:
     assert np.allclose(there.centroid, [0.3, -0.2, 0.1])
 
 
+def test_only_the_direction_of_a_wrench_counts_however_large() -> None:
+    made = squeezed(pinch(MU, NU))
+    ends = [
+        sg.disturbances(made, directions=[[size, size, 0, 0, 0, 0]]).along[0].passive for size in (1, 1e200, 1e-320)
+    ]
+    assert [each.upper for each in ends] == pytest.approx([ends[0].upper] * 3, rel=1e-12)
+
+
+def test_what_says_nothing_of_an_instant_is_left_out_by_name_and_what_is_allowed_for_changes_nothing() -> None:
+    grasp = pinch(MU, NU)
+    task = sg.Task(
+        loads=[sg.Wrench((0, 0, -1, 0, 0, 0))], limits=[sg.SlipMargin(0.5)], goals=[sg.LeastEffort()], knots=3
+    )
+    plain, sustained, allowing = (
+        sg.plan(grasp, each)
+        for each in (
+            task, task.replace(limits=[sg.SlipMargin(0.5), sg.SustainedEffort(20.0)]),
+            task.replace(limits=[sg.SlipMargin(0.3)], allow=sg.Allowances(friction=(0.4, 0.5))),
+        )
+    )  # fmt: skip
+    assert isinstance(plain, Plan)
+    assert isinstance(sustained, Plan)
+    assert isinstance(allowing, Plan)
+    assert sg.disturbances(plain).left_out == ()
+    assert sg.disturbances(sustained).left_out == ("limits.sustained_effort",)
+    stated = float(allowing.margins.min())  # at the friction that is stated, more than was asked for
+    along = sg.disturbances(allowing, directions=[(0, 0, -1, 0, 0, 0)]).along[0]
+    assert along.slip.upper == pytest.approx(2 * stated, rel=1e-6)
+
+
 def test_what_moves_freely_is_not_withstood() -> None:
     """Two hard fingers leave the turn about the line between them; a force along that line is withstood."""
     hard = sg.load_problem("pinch-hard").grasp

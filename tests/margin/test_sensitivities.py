@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from dataclasses import replace
 
@@ -26,6 +27,7 @@ from synergrip.margin.sensitivity.sensitivity import FIXED, HAND, LARGEST, START
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.reports.data.json_sensitivities import sensitivities_document
+from synergrip.reports.text.text_sensitivities import sensitivity_lines
 from synergrip.statics.motion import forward
 from synergrip.statics.response import respond
 from synergrip.tasks.timed_task import TimedTask, still
@@ -228,6 +230,13 @@ def test_they_are_printed() -> None:
     assert done.stdout.count("friction of all contacts +1 %") == 2
     assert "friction of left" not in done.stdout
     assert "friction of left" in run("margins", "pinch-soft", "--only", "sensitivities", "--all").stdout
+
+
+def test_what_was_interrupted_is_not_said_to_be_nothing(carried: Sensitivities) -> None:
+    half = dataclasses.replace(carried, each=carried.of(LARGEST), interrupted=True)
+    told = "\n".join(sensitivity_lines(half))
+    assert "with these references: interrupted before it was found" in told
+    assert "no such change" not in told
 
 
 def test_the_document_has_them_in_si_units(carried: Sensitivities) -> None:

@@ -183,6 +183,7 @@ LIFTED = [DOWN, shifted((0, 0, FAR))]
         ({"loads": [*LIFTED, sg.Push(force=1.0, direction="x", start=0.2)]}, "Task.loads[2]", "Push is bound"),
         ({"loads": [*LIFTED, sg.WrenchTable([0, 1], np.zeros((2, 6)))]}, "Task.loads[2]", "WrenchTable is"),
         ({"target": sg.Move(axis="z", lift=0.001)}, "Task.target", "target=Hold()"),
+        ({"allow": sg.Allowances(mass=(0.1, 0.2))}, "Task.allow", "leave allow out"),
         ({"limits": [sg.SynergyAcceleration(1.0)]}, "limits.synergy_acceleration", "leave it out"),
     ],
 )

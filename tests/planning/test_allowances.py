@@ -68,6 +68,14 @@ def test_a_contact_that_is_early_counts_in_what_is_bound_at_once_and_in_what_is_
         assert sg.plan(grasp, task).verdict == verdict
 
 
+def test_what_adds_up_over_time_is_looked_at_in_every_case() -> None:
+    made = planned(pinch(0.5), carried(sg.SustainedTorque(50.0), load=[(1, 0, 0, 0, 0, 0)]).replace(knots=3))
+    titles = [[usage.title for usage in case.usages] for case in made.cases]
+    assert titles == [["slip margin", "sustained torque"]] * 2
+    stated, pushed = (case.usages[1].value[-1].max() for case in made.cases)
+    assert pushed == pytest.approx(stated + 0.5)
+
+
 def allowed_tripod() -> tuple[Grasp, sg.Task]:
     """Everything that matrices can be allowed for, on fingers below the equator of a ball."""
     grasp = tripod(0.8, below=0.2)

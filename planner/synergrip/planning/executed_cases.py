@@ -21,7 +21,7 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between
 from synergrip.planning.figures import kept, missed_in, moved, rooms_of, stable
 from synergrip.planning.in_case import InCase
-from synergrip.planning.in_cases import ALL_CASES, titled, with_contacts_off
+from synergrip.planning.in_cases import ALL_CASES, limits_of_cases, titled, with_contacts_off
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.outcome import Check
 from synergrip.planning.reach import off
@@ -68,7 +68,7 @@ def executed_cases(walk: Walk, walker: Walker, formulation: Formulation) -> Exec
     if allowed is None:
         return ExecutedCases()
     looks, narrow = _looks(walk, walker), allowed.narrowed(formulation.whole)
-    limits = [limit for limit in task.all_limits if limit.adds_up or not limit.couples_knots]
+    limits = limits_of_cases(task)
     offs = _offs(walk, walker, allowed, looks)
     names = [contact.name for contact in walker.start.grasp.contacts]
     found, missed, worst = list[InCase](), list[str](), dict[str, Check]()

@@ -9,7 +9,7 @@ from synergrip.conic.allowed import Allowed
 from synergrip.conic.departure import Departure, off_place, together
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
-from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.sampled import moved_as
 from synergrip.conic.well_formed import usage_of
 from synergrip.linalg import Array, frozen, interpolated
@@ -24,6 +24,11 @@ ALL_CASES = "what is allowed"
 """How the names of checks begin that are about all cases."""
 
 
+def limits_of_cases(task: TimedTask) -> list[Limit]:
+    """Return the limits that other loads change, at instants and over time; steps of references are always the same."""
+    return [limit for limit in task.all_limits if limit.adds_up or not limit.couples_knots]
+
+
 def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r: Array) -> tuple[InCase, ...]:
     """Return what references (T, n_z) use of the limits in every case, at the knots and, where that counts, between."""
     allowed = formulation.allowed
@@ -35,20 +40,27 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
     references = interpolated(looks.times, task.times, dz_r)
     narrow = allowed.narrowed(formulation)
     there = replace(narrow, times=looks.times, wrench=looks.wrench, target=looks.target)
-    limits = [limit for limit in task.all_limits if limit.adds_up or not limit.couples_knots]
+    limits = limits_of_cases(task)
     names = [contact.name for contact in analysis.grasp.contacts]
     offs = off_place(narrow.map_of, analysis.grasp, allowed.gaps)
     found = []
+
+    def use(limit: Limit, moved: Motion) -> Usage:
+        """Return what is used of a limit: of one over time on straight lines from knot to knot."""
+        if limit.adds_up:
+            return usage_of(limit, narrow, moved.first(formulation.knots))
+        return usage_of(limit, there, moved)
+
     for case in allowed.cases:
         extra = 0.0 if case.extra is None else case.extra.at(looks.times)
         motion = forward(analysis.response, looks.times, references, frozen(looks.wrench + extra))
         for words, moved in with_contacts_off(motion, analysis.grasp.S, allowed, offs, names):
             title = titled(allowed, narrow, formulation, case.title, words)
-            found.append(InCase(title, tuple(usage_of(limit, there, moved) for limit in limits)))
+            found.append(InCase(title, tuple(use(limit, moved) for limit in limits)))
     if allowed.samples:
         stated = forward(analysis.response, looks.times, references, looks.wrench)
         moved_by = (moved_as(each, stated) for each in allowed.samples)
-        found.append(_worst(allowed, [tuple(usage_of(limit, there, each) for limit in limits) for each in moved_by]))
+        found.append(_worst(allowed, [tuple(use(limit, each) for limit in limits) for each in moved_by]))
     return tuple(found)
 
 

@@ -16,7 +16,7 @@ from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import Between, between
 from synergrip.planning.free import free_notes
-from synergrip.planning.in_cases import case_checks, in_cases
+from synergrip.planning.in_cases import case_checks, in_cases, limits_of_cases
 from synergrip.planning.let_go import ranges_left, undone_notes
 from synergrip.planning.outcome import Check, Plan
 from synergrip.planning.stages import Stage
@@ -59,9 +59,9 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     cases = in_cases(task, analysis, formulation, motion.dz_r)
     checks += case_checks(cases, LIMIT)
     there = found.usages if found is not None and task.between == "hold" else ()
-    of_instants = [limit for limit in task.all_limits if not limit.couples_knots]
+    of_instants, of_cases = [each for each in task.all_limits if not each.couples_knots], limits_of_cases(task)
     asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
-    asked += [pair for case in cases for pair in zip(of_instants, case.usages, strict=True)]
+    asked += [pair for case in cases for pair in zip(of_cases, case.usages, strict=True)]
     _judge(checks, exact, asked, analysis.response.scale.largest_force(motion.forces))
     rigid = beta @ analysis.spaces.Gamma_ucs.T
     return Plan(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +30,10 @@ class Motion(Value):
     sag: Array  # (T, 6) the part of du that the change of the external wrench causes
     dq: Array  # (T, n_q) joint displacement
     dz: Array  # (T, n_z) synergy displacement
+
+    def first(self, count: int) -> Motion:
+        """Return the first knots of it."""
+        return replace(self, **{each.name: frozen(getattr(self, each.name)[:count]) for each in fields(self)})
 
 
 def forces_at_start(response: Response | EachResponse) -> Array:

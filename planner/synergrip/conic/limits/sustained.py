@@ -91,12 +91,17 @@ def gauss_instants(times: Array) -> tuple[Array, Array]:
 def so_far(times: Array, values: Array, *, goes_on: bool) -> Array:
     """Return the root of the integral of values^2 from the start to each time, over the whole time (T, m).
 
+    Times (T,) may be in any order; of two that are the same the first is that before a step.
     Where it `goes_on` with the last value, the size of this is there at the end where it is more.
     """
+    order = np.argsort(times, kind="stable")
+    times, values = times[order], values[order]
     first, second = values[:-1], values[1:]
     squares = np.diff(times)[:, None] * (first**2 + first * second + second**2) / 3
     total = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(squares, axis=0)])
     found = np.sqrt(total / ((times[-1] - times[0]) or 1.0))
     if goes_on:
         found[-1] = np.maximum(found[-1], np.abs(values[-1]))
-    return frozen(found)
+    result = np.empty_like(found)
+    result[order] = found
+    return frozen(result)
