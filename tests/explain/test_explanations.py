@@ -163,7 +163,7 @@ def test_a_motion_that_only_the_moving_hand_cannot_do_is_told_what_would_help() 
 
 def test_where_the_hand_that_moves_needs_more_than_its_start_posture_a_second_number_is_told() -> None:
     """The margin keeps the start posture from a plan, the way the hand that moves."""
-    overrides = ("task.motion_factor=3", "limits.margin=3 N")
+    overrides = ("task.motion_factor=3", "limits.margin=3 N", "task.knots=5")
     found = refused("barrett-ball-roll", *overrides).explain()
     assert not any(repair.verified for repair in found.repairs)
     assert {two.cause for _, two in found.pairs} == {"amplitude"}

@@ -32,11 +32,11 @@ def _written(name: str) -> tuple[Problem, dict[str, Any]]:
     return problem, document_of(problem)
 
 
-@pytest.mark.parametrize("name", ["tripod", "barrett-ball-hold", "gripper-peg"])
-def test_no_altered_number_is_accepted(name: str) -> None:
+@pytest.mark.parametrize(("name", "most"), [("tripod", 12), ("barrett-ball-hold", 6), ("gripper-peg", 5)])
+def test_no_altered_number_is_accepted(name: str, most: int) -> None:
     """`python tests/judged_check.py` alters more of them."""
-    found = judged(name, 12)
-    assert found.count > 100
+    found = judged(name, most)
+    assert found.count > 60
     assert not found.missed
     # what the references tell is seen without the digest, but for what is rounding beside the load
     assert not [key for key, value in found.compared if not key.startswith(BY_DIGEST) and abs(value) > 1e-8]

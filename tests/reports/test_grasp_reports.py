@@ -116,8 +116,12 @@ def test_notes_are_told_by_validate(sunk: Problem) -> None:
 
 @pytest.mark.parametrize(
     "more",
-    [[], ["contacts.friction=2", "limits.normal_force=200 N", "limits.joint_torque=50", "limits.joint_range=none"]],
-)
+    [
+        [],
+        ["contacts.friction=2", "limits.normal_force=200 N", "limits.joint_torque=50", "limits.joint_range=none",
+         "task.knots=3"],
+    ],
+)  # fmt: skip
 def test_notes_are_told_with_every_outcome_of_a_plan(more: list[str]) -> None:
     problem = load_problem("barrett-ball-hold", [*SUNK, *more])
     outcome = plan(problem.grasp, problem.task)

@@ -26,6 +26,9 @@ from synergrip.planning.pace import BRIEF, WHOLE
 
 BEST = 3
 """Repairs of the short form."""
+UNANSWERED = "solver"
+"""Stage of an answer that ended at the start posture: what is short is not looked for along the motion, which takes
+many times as long."""
 SMALL = math.log(FIRST[0])
 """Change than which no smaller one is tried."""
 
@@ -55,10 +58,11 @@ def explained(
         cause, known = _blamed(no, (), [])
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
-    most, effort = (BEST, BRIEF if isinstance(no, Infeasible) else WHOLE) if short else (None, WHOLE)
+    walked = isinstance(no, Unknown) and no.stage != UNANSWERED
+    most, effort = (BEST, WHOLE if walked else BRIEF) if short else (None, WHOLE)
     planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
     others: list[Repair] = []
-    if isinstance(no, Unknown) and not interrupted:
+    if isinstance(no, Unknown) and (walked or not short) and not interrupted:
         known_to_help = short and any(each.verified for each in planned)
         turned = [each.dial for each in helping] if known_to_help else numbers
         others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(turned, planned), heard))
