@@ -122,11 +122,22 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     inner, (outer, most) = hull(own.points(edges))[0], hull(around)
     whole = hull_figures(own.points(edges), own.farthest)
     made = controlled_figures(response, analysis.spaces.E_s)
-    why = "" if whole.epsilon[1] else "the grasp has no force closure"
-    why = why or ("" if made.epsilon[1] else "the synergies do not hold loads from every direction")
+    why = _none_of(whole.epsilon, "the grasp has force closure", "the grasp has no force closure")
+    why = why or _none_of(
+        made.epsilon, "the synergies hold loads from every direction",
+        "the synergies do not hold loads from every direction",
+    )  # fmt: skip
     part = (made.epsilon[0], min(made.epsilon[1], whole.epsilon[1]))  # of the same wrenches, with fewer forces
     pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
     return found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), why=why)
+
+
+def _none_of(epsilon: tuple[float, float], some: str, none: str) -> str:
+    """Return that there is no ball, or that it is not known whether there is one; nothing where there is."""
+    lower, upper = epsilon
+    if lower > 0:
+        return ""
+    return f"it is not known whether {some}: epsilon is {upper:.2g} at most" if upper > 0 else none
 
 
 @dataclass(frozen=True, eq=False, repr=False)
