@@ -79,8 +79,13 @@ def _about(found: Disturbances) -> str:
 
 def _lesser(one: WithstoodAlong, other: WithstoodAlong) -> tuple[str, ...]:
     """Return the cells of the lesser of both ways, column by column."""
-    return _cells(one.unit, *(min(getattr(one, name), getattr(other, name), key=lambda each: each.lower)
+    return _cells(one.unit, *(min(getattr(one, name), getattr(other, name), key=_told_size)
                               for name in ("slip", "passive", "active")))  # fmt: skip
+
+
+def _told_size(found: Withstood) -> float:
+    """Return what counts as the size where two are compared: of such as differ by rounding the first is the lesser."""
+    return float(f"{found.lower:.6g}")
 
 
 def _cells(unit: str, slip: Withstood, passive: Withstood, active: Withstood) -> tuple[str, ...]:
