@@ -10,6 +10,7 @@ import cvxpy as cp
 import numpy as np
 import pytest
 from allowed_samples import elastic_forces, sample, slip_margins
+from command_line import run
 from small_grasps import pinch, tripod
 
 import synergrip as sg
@@ -286,6 +287,9 @@ def test_a_task_in_code_refuses_what_does_not_fit() -> None:
         still.timed(problem.grasp)
     with pytest.raises(sg.InputError, match="nothing that it allows for"):
         sg.plan(pinch(0.5), carried(load_box=(0, 0, 1, 0, 0, 0)), solver="cvxpy")
+    done = run("plan", "tripod", "--set", "allow.friction_share=0.1", "--solver", "cvxpy")
+    assert done.exit_code == 2
+    assert "nothing that it allows for" in done.stderr
 
 
 def test_between_the_knots_every_case_holds() -> None:

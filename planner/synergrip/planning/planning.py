@@ -68,12 +68,6 @@ def planned_with(
 ) -> Outcome:
     """Return the answer that an effort along the motion comes to; other arguments as of `plan`."""
     answers = answerer(solver, "solver")
-    if (
-        solver == "cvxpy"
-        and (task.allowed if isinstance(task, TimedTask) else getattr(task, "allow", None)) is not None
-    ):
-        message = "the second formulation writes down what a task states, and nothing that it allows for beside that"
-        raise InputError.at("solver", f"{message}; leave the solver out, or Task.allow")
     return _on_the_hand(plan_of_start_posture(grasp, task, answers), answers, effort)
 
 

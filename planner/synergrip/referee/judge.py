@@ -20,7 +20,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.rows import Item
 from synergrip.conic.solution import Claim, Settings, Solution
-from synergrip.errors import SelfCheckError
+from synergrip.errors import InputError, SelfCheckError
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.referee.formulas import friction, write_goal, write_limit
 from synergrip.referee.maps import mapped
@@ -134,8 +134,12 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
 
     Raises:
         NotWrittenError: a limit or the goal is of a type that has no formula.
+        InputError: the task allows for more than it states.
     """
     formulation = question.formulation
+    if formulation.allowed is not None:
+        message = "the second formulation writes down what a task states, and nothing that it allows for beside that"
+        raise InputError.at("solver", f"{message}; leave the solver out, or Task.allow")
     knots = Looks(formulation.times, formulation.wrench, formulation.target)
     model = _written(formulation, knots, _references(formulation))
     objective, limits, inside = cones_of(question, model, partial(_written, formulation))
