@@ -178,23 +178,25 @@ def in_all_cases(cases: Sequence[Sequence[Rows]], offs: Sequence[Sequence[Rows]]
         cases: the rows in each case, the one of the load stated first.
         offs: the rows with one contact off, for each that may be.
     """
-    result = []
+    result = list[Rows]()
     for place, stated in enumerate(cases[0]):
         changes = [each[place].constant - stated.constant for each in offs if stated.kind is not Kind.ZERO]
-        parts = _together([each[place] for each in cases])
-        result += [_reserved(part, changes) for part in parts]
+        result += _reserved(_together([each[place] for each in cases]), changes)
     return result
 
 
-def _reserved(part: Rows, changes: Sequence[Array]) -> Rows:
-    """Return rows that keep what changes of either sign of their constants take, all of them together."""
-    if part.over_time is not None:  # the norm over time grows by that of a change at most
+def _reserved(parts: Sequence[Rows], changes: Sequence[Array]) -> Sequence[Rows]:
+    """Return the same rows in several cases with room for what changes of their constants, of either sign, take."""
+    if not changes:
+        return parts
+    first = parts[0]
+    if first.over_time is not None:  # the norm over time grows by that of a change at most
         taken = sum(float(np.linalg.norm(change, axis=0).max()) for change in changes)
-        return replace(part, over_time=part.over_time - taken)
-    needed = np.zeros_like(part.constant)
+        return [replace(part, over_time=first.over_time - taken) for part in parts]
+    needed = np.zeros_like(first.constant)
     for change in changes:
-        needed[:, :: part.dim] += np.maximum(lost(part, change), lost(part, -change))
-    return replace(part, constant=frozen(part.constant - needed))
+        needed[:, :: first.dim] += np.maximum(lost(first, change), lost(first, -change))
+    return [replace(part, constant=frozen(part.constant - needed)) for part in parts]
 
 
 def _together(parts: Sequence[Rows]) -> list[Rows]:

@@ -68,6 +68,8 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
         grasp: at the start, whose compliances hold at all knots.
         gaps: of its contacts; one of 0 adds nothing, and is left out.
     """
+    if not np.any(gaps > 0):
+        return []
     J, S, G = (map_of(of) for of in (
         lambda at: at.response.grasp.J, lambda at: at.response.grasp.S, lambda at: at.response.grasp.G
     ))  # fmt: skip
@@ -76,11 +78,11 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
     n_l = grasp.n_l
     upper = np.concatenate([C * EVEN, G.mT], axis=-1)
     lower = np.concatenate([G, np.zeros((*G.shape[:-1], 6))], axis=-1)
-    system = np.concatenate([upper, lower], axis=-2)
+    inverse = np.linalg.pinv(np.concatenate([upper, lower], axis=-2))  # an object that is free to move stays
     found = []
     for row, gap in zip(grasp.normal_rows, gaps, strict=True):
         if gap > 0:
-            answer = np.linalg.pinv(system)[..., :, row] * (gap * EVEN)  # an object that is free to move stays
+            answer = inverse[..., :, row] * (gap * EVEN)
             force = answer[..., :n_l]
             torque = (force[..., None, :] @ J)[..., 0, :]
             joint = -(torque[..., None, :] @ of_joints.mT)[..., 0, :]

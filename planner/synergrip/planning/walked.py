@@ -56,7 +56,7 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
-    cases = executed_cases(walk, walker, plan.formulation)
+    cases = ExecutedCases() if said else executed_cases(walk, walker, plan.formulation)
     if said := said or cases.said:
         return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
@@ -135,8 +135,9 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
-    cases = executed_cases(walk, walker, linear.formulation)
-    if missed := _missed(found) or cases.said:
+    missed = _missed(found)
+    cases = ExecutedCases() if missed else executed_cases(walk, walker, linear.formulation)
+    if missed := missed or cases.said:
         raise KeyboardInterrupt(come + missed)
     note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
