@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from synergrip.changes.allowance_dials import allowance_dials
+from synergrip.changes.allowance_dials import FRICTION_END, allowance_dials
 from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.limit import Limit
@@ -23,8 +23,6 @@ from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.tracking import wish_size
 
-FRICTION_END = 100.0
-"""How many times its friction a contact is asked to have at most."""
 LONGEST = 100.0
 """How many times as long a task is asked to take at most."""
 LEAST_MASS = 1e-9
@@ -192,10 +190,10 @@ def friction_dial(asked: Asked) -> Dial[Asked] | None:
     return _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least) if least > 0 else None
 
 
-def contact_dials(asked: Asked) -> tuple[Dial[Asked], ...]:
-    """Return the friction of each contact by itself."""
+def contact_dials(asked: Asked) -> dict[str, Dial[Asked]]:
+    """Return by its name the friction of each contact that has any, by itself."""
     contacts = [contact for contact in asked.grasp.contacts if contact.friction > 0]
-    return tuple(_friction(asked, (contact.name,), contact.friction) for contact in contacts)
+    return {contact.name: _friction(asked, (contact.name,), contact.friction) for contact in contacts}
 
 
 def _friction(asked: Asked, names: tuple[str, ...], least: float) -> Dial[Asked]:

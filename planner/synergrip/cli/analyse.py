@@ -71,8 +71,7 @@ def analyse(
                 found = refusal
             asked = (dimension_table(loaded.grasp) if table else None,
                      grasp_properties(loaded.grasp) if quality else None)  # fmt: skip
-        written = None
-        with placed(loaded):
+            written = None
             with shown_anyway(form, lambda: _text(loaded, found, asked, None),
                               lambda: _document(loaded, found, asked)):  # fmt: skip
                 written = _drawn(loaded, found, picture) if picture else None

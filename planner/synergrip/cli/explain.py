@@ -18,6 +18,7 @@ from synergrip.cli.running import (
     SetOption,
     answering,
     color,
+    draw_at,
     heard,
     picture_place,
     possible,
@@ -101,7 +102,5 @@ def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:
     if known is None or least is None:
         print(f"nothing is missing that could be drawn over time, so '{picture}' was not drawn", file=sys.stderr)
         return False
-    with writing("--picture", picture):
-        draw_no(known, least, title, picture)
-    ending.keep(picture)
+    draw_at(picture, lambda path: draw_no(known, least, title, path))
     return True

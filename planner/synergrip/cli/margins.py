@@ -16,6 +16,7 @@ from synergrip.cli.running import (
     SetOption,
     answering,
     color,
+    draw_at,
     end_without_plan,
     heard,
     picture_place,
@@ -23,7 +24,6 @@ from synergrip.cli.running import (
     possible,
     show,
     shown_anyway,
-    writing,
 )
 
 if TYPE_CHECKING:
@@ -111,9 +111,7 @@ def margins(
 def _draw(found: Margins, title: str, picture: Path) -> None:
     from synergrip.reports.pictures.margins_picture import draw_margins
 
-    with writing("--picture", picture):
-        draw_margins(found, title, picture)
-    ending.keep(picture)
+    draw_at(picture, lambda path: draw_margins(found, title, path))
 
 
 def six(option: str, text: str) -> list[float]:

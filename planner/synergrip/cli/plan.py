@@ -18,6 +18,7 @@ from synergrip.cli.running import (
     SetOption,
     answering,
     color,
+    draw_at,
     heard,
     picture_place,
     placed,
@@ -144,7 +145,5 @@ def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
     if not isinstance(outcome, Plan):
         print(f"there is no plan, so '{picture}' was not drawn", file=sys.stderr)
         return False
-    with writing("--picture", picture):
-        draw_plan(outcome, title, picture)
-    ending.keep(picture)
+    draw_at(picture, lambda path: draw_plan(outcome, title, path))
     return True

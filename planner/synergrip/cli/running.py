@@ -158,6 +158,13 @@ def picture_place(picture: Path | None) -> None:
         possible("--picture", picture, refuse_unwritable)
 
 
+def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
+    """Draw a picture, and keep it whatever ends the program after that."""
+    with writing("--picture", picture):
+        draw(picture)
+    ending.keep(picture)
+
+
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
     """Print the answer, as text or as one JSON document, on standard output."""
     say(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())

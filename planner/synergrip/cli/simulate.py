@@ -16,6 +16,7 @@ from synergrip.cli.running import (
     FormatOption,
     answering,
     color,
+    draw_at,
     picture_place,
     possible,
     show,
@@ -75,9 +76,7 @@ def simulate(
             if picture:
                 from synergrip.reports.pictures.simulation_picture import draw_simulation
 
-                with writing("--picture", picture):
-                    draw_simulation(found, picture)
-                ending.keep(picture)
+                draw_at(picture, lambda path: draw_simulation(found, path))
                 document["picture"] = str(picture)
                 wrote.append(str(picture))
         show(form, text, lambda: document)

@@ -16,6 +16,7 @@ from synergrip.cli.running import (
     ProblemArgument,
     SetOption,
     answering,
+    draw_at,
     heard,
     picture_place,
     placed,
@@ -73,9 +74,8 @@ def fit(
             if picture is not None:
                 from synergrip.reports.pictures.variance import draw_variance
 
-                with writing("--picture", picture):
-                    draw_variance(made.principal.shares[: made.principal.decision.rank], picture, made.file.title)
-                ending.keep(picture)
+                shares = made.principal.shares[: made.principal.decision.rank]
+                draw_at(picture, lambda path: draw_variance(shares, path, made.file.title))
         show(form, lambda: fit_text(made, output, picture), lambda: fit_document(made, output, picture))
 
 
@@ -130,9 +130,8 @@ def show_(
             if picture is not None:
                 from synergrip.reports.pictures.synergies import draw_synergies
 
-                with writing("--picture", picture):
-                    draw_synergies(loaded, shown, resting(loaded.joints, shown) if q is None else q, picture)
-                ending.keep(picture)
+                at = resting(loaded.joints, shown) if q is None else q
+                draw_at(picture, lambda path: draw_synergies(loaded, shown, at, path))
         show(form, lambda: show_text(loaded, shown, q, picture), lambda: show_document(loaded, shown, q, picture))
 
 
@@ -202,9 +201,7 @@ def needed(
             if picture is not None:
                 from synergrip.reports.pictures.needed_curve import draw_needed
 
-                with writing("--picture", picture):
-                    draw_needed(found, picture, loaded.title)
-                ending.keep(picture)
+                draw_at(picture, lambda path: draw_needed(found, path, loaded.title))
         written = "".join(f"\nwrote {path}" for path in (csv, picture) if path is not None)
         show(form, lambda: needed_text(loaded, found) + written, lambda: needed_document(found))
     raise typer.Exit(130 if found.interrupted else 0)

@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.conic.program import Program
+from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Kind
 from synergrip.linalg import Array
 
 
+def outside(block: Block, values: Array) -> Array:
+    """Return how far values (rows,) of a block are outside each of its cones (cones,); below 0 inside."""
+    parts = values.reshape(-1, block.dim)
+    if block.kind is Kind.ZERO:
+        return np.asarray(np.abs(parts).max(axis=1, initial=0.0))
+    if block.kind is Kind.NONNEGATIVE:
+        return np.asarray(-parts.min(axis=1, initial=np.inf))
+    return np.asarray(np.linalg.norm(parts[:, 1:], axis=1) - parts[:, 0])
+
+
 def distance_to_cones(program: Program, s: Array) -> float:
     """Return how far s (m,) is outside the program's cones: the largest over the cones, 0 inside."""
-    worst = 0.0
-    for block, rows in program.slices():
-        part = s[rows].reshape(-1, block.dim)
-        if part.size == 0:
-            continue
-        if block.kind is Kind.ZERO:
-            outside = np.abs(part)
-        elif block.kind is Kind.NONNEGATIVE:
-            outside = -part
-        else:
-            outside = np.linalg.norm(part[:, 1:], axis=1) - part[:, 0]
-        worst = max(worst, float(outside.max()))
-    return worst
+    parts = (outside(block, s[rows]) for block, rows in program.slices())
+    return max((float(part.max(initial=0.0)) for part in parts), default=0.0)
 
 
 def row_sizes(program: Program) -> Array:

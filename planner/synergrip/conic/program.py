@@ -17,7 +17,7 @@ from synergrip.conic.rows import Item, Kind
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, Places, frozen
 from synergrip.values import Value
 
 
@@ -46,6 +46,11 @@ class Block:
     def rows(self) -> int:
         """Number of rows."""
         return self.cones * self.dim
+
+    @property
+    def instants(self) -> Places:
+        """(cones,) the knot that each cone speaks of; of instants between the knots, which of them."""
+        return self.first_knot + np.repeat(np.arange(self.knots), len(self.items))
 
 
 @naming_arguments

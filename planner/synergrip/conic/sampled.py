@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from synergrip.conic.affine import Affine
 from synergrip.conic.beside_knots import fields_of
 from synergrip.conic.formulation import Formulation
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Response
-from synergrip.statics.motion import Motion
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,19 +61,3 @@ def started(response: Response) -> Array:
     if grasp.lambda_0 is None:
         return frozen(passive)
     return frozen(passive + grasp.lambda_0 + response.dlambda_dw @ (grasp.G @ grasp.lambda_0))
-
-
-def moved_as(response: Response, motion: Motion) -> Motion:
-    """Return what references and load of a motion do on another grasp."""
-    grasp, change = response.grasp, motion.wrench - response.grasp.w_0
-    parts = {
-        name: motion.dz_r @ getattr(response, f"d{name}_dzr").T + change @ getattr(response, f"d{name}_dw").T
-        for name in ("lambda", "u", "z", "q")
-    }
-    forces = started(response) + parts["lambda"]
-    torques = forces @ grasp.J
-    arrays = (
-        motion.times, motion.dz_r, motion.wrench, forces, torques, torques @ grasp.S, parts["u"],
-        change @ response.du_dw.T, parts["q"], parts["z"],
-    )  # fmt: skip
-    return Motion(*(frozen(np.asarray(each)) for each in arrays))

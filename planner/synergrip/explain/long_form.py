@@ -70,7 +70,7 @@ def _pairs(
 
 def _others(asked: Asked, posed: Posed, program: Program, heard: Callable[[Repair], None]) -> Iterator[Repair]:
     """Yield changes of the friction of single contacts, and of the stiffness, with which there is a plan."""
-    alone = [least_change(dial, posed, program) for dial in contact_dials(asked)]
+    alone = [least_change(dial, posed, program) for dial in contact_dials(asked).values()]
     for repair in repaired(ranked(alone), posed, heard=heard):
         if repair.verified:
             yield repair

@@ -78,7 +78,7 @@ def knots_of_rows(program: Program) -> NDArray[np.intp]:
     found = np.full(len(program.b), -1, dtype=np.intp)
     for block, rows in program.slices():
         if not block.between:
-            found[rows] = block.first_knot + np.repeat(np.arange(block.knots), len(block.items) * block.dim)
+            found[rows] = np.repeat(block.instants, block.dim)
     return found
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.documents import read_document
+from synergrip.documents.words import listed
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contacts.contact import Contact, contact_frame
 from synergrip.grasps.grasp import Grasp
@@ -151,7 +152,7 @@ def _normal_at(matrices: Matrices, k: int) -> str:
         *([f"row and column {row} of C_s"] if coupled else []),
         *([f"lambda_0[{row}]"] if matrices.lambda_0 is not None else []),
     ]  # fmt: skip
-    return f"{', '.join(places[:-1])} and {places[-1]}"
+    return listed(places)
 
 
 def _contact(data: GivenContact, columns: Array, point: Array, normal_at: str) -> Contact:

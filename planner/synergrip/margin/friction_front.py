@@ -9,16 +9,14 @@ import numpy as np
 
 from synergrip.changes.asked import Asked
 from synergrip.changes.turning import friction_dial
-from synergrip.conic.goals.least_effort import LeastEffort
-from synergrip.conic.goals.least_peak import LeastPeak
 from synergrip.grasps.grasp import Grasp
 from synergrip.margin.direct import Wanted, number_of
+from synergrip.margin.front import GOALS
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.planning import plan
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 
-GOALS = LeastPeak(), LeastEffort()
 LEAST_SCALE = 0.1
 """Least factor of the friction where no end of it was found."""
 

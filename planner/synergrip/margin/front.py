@@ -16,6 +16,9 @@ from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.planning.solvers import SOLVERS, Answerer
 from synergrip.tasks.timed_task import TimedTask
 
+GOALS = LeastPeak(), LeastEffort()
+"""Of every point of a front; the goals of its task play no part."""
+
 
 @dataclass(frozen=True)
 class FrontPoint:
@@ -60,7 +63,7 @@ def front(best: Plan, count: int, solver: Answerer = SOLVERS["clarabel"]) -> Ite
             most = min(most, float(best.between.usages[0].value.min()))
     top = most - ROOM * max(most, best.formulation.force_unit)
     for margin in np.linspace(min(task.margin, top), top, count):
-        point = plan(grasp, replace(task, margin=float(margin), goals=(LeastPeak(), LeastEffort())), solver)
+        point = plan(grasp, replace(task, margin=float(margin), goals=GOALS), solver)
         if isinstance(point, Plan) and point.interrupted:  # half of its goals make no point
             raise KeyboardInterrupt
         if isinstance(point, Plan):

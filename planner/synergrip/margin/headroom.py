@@ -34,20 +34,20 @@ def headrooms(grasp: Grasp, limits: Sequence[Limit], motion: Motion) -> dict[str
     """
     found = {}
     for kind, name, formula, of in FORMULAS:
-        most = _most(grasp, limits, kind)
+        of_hand = kind("hand")
+        most, names = _most(grasp, limits, of_hand), of_hand.names(grasp)
         there = np.flatnonzero(np.isfinite(most))
         if not len(there):
             continue
-        names, values = (grasp.joints, motion.torques) if kind is JointTorque else (grasp.synergies, motion.efforts)
-        left = 1 - np.abs(values[:, there]) / most[there]
+        left = 1 - np.abs(of_hand.reached(motion)[:, there]) / most[there]
         found[name] = Measure(name, "", formula, frozen(left), tuple(names[i] for i in there), motion.times, of=of)
     return found
 
 
-def _most(grasp: Grasp, limits: Sequence[Limit], kind: type[JointTorque | ActuatorEffort]) -> Array:
+def _most(grasp: Grasp, limits: Sequence[Limit], of_hand: JointTorque | ActuatorEffort) -> Array:
     """Return the largest torque or effort of each joint or synergy; infinity where neither task nor hand has one."""
-    count = grasp.n_q if kind is JointTorque else grasp.n_z
-    stated = np.full(count, np.inf) if grasp.held is None else kind("hand").of_hand(grasp.held)
-    own = [np.asarray(limit.on(grasp).limit) for limit in limits if isinstance(limit, kind)]
-    asked = np.min(own, axis=0) if own else np.full(count, np.inf)
+    none = np.full(len(of_hand.names(grasp)), np.inf)
+    stated = none if grasp.held is None else of_hand.of_hand(grasp.held)
+    own = [np.asarray(limit.on(grasp).limit) for limit in limits if isinstance(limit, type(of_hand))]
+    asked = np.min(own, axis=0) if own else none
     return np.where(np.isfinite(asked), asked, stated)

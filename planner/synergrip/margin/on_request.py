@@ -32,17 +32,12 @@ def frictions(asked: Asked, plan: Plan) -> Iterator[tuple[str, DirectNumber]]:
         plan: of it.
     """
     posed = asked.posed(plan.analysis)
-    for dial, contact in zip(contact_dials(asked), _rough(asked), strict=True):
+    for contact, dial in contact_dials(asked).items():
         of = Wanted("critical_friction_per_contact", "", dial, "")
         if posed is None:
             yield contact, DirectNumber.none(of.name, of.unit, "the task has no program of the start posture")
         else:
             yield contact, number_of(of, dial, posed, plan)
-
-
-def _rough(asked: Asked) -> list[str]:
-    """Return the names of the contacts with friction."""
-    return [contact.name for contact in asked.grasp.contacts if contact.friction > 0]
 
 
 def amplitudes(asked: Asked, plan: Plan) -> Iterator[tuple[str, DirectNumber]]:

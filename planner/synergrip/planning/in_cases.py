@@ -10,7 +10,7 @@ from synergrip.conic.departure import Departure, off_place, together
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.sampled import moved_as
+from synergrip.conic.sampled import started
 from synergrip.conic.well_formed import usage_of
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.in_case import InCase
@@ -58,8 +58,7 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
             title = titled(allowed, narrow, formulation, case.title, words)
             found.append(InCase(title, tuple(use(limit, moved) for limit in limits)))
     if allowed.samples:
-        stated = forward(analysis.response, looks.times, references, looks.wrench)
-        moved_by = (moved_as(each, stated) for each in allowed.samples)
+        moved_by = (forward(each, looks.times, references, looks.wrench, started(each)) for each in allowed.samples)
         found.append(_worst(allowed, [tuple(use(limit, each) for limit in limits) for each in moved_by]))
     return tuple(found)
 

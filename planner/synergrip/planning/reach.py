@@ -8,6 +8,7 @@ from itertools import compress
 import numpy as np
 
 from synergrip.conic.conflicts import Conflict
+from synergrip.documents.words import listed
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.hand import Joint
 from synergrip.hands.units import SI_UNITS
@@ -82,7 +83,7 @@ def _binding(limits: Sequence[Conflict]) -> str:
     """Return that limits other than ranges of joints bind."""
     what = [f"{limit.key} ({', '.join(limit.items)})" for limit in limits]
     if len(what) > 1:
-        return f"{', '.join(what[:-1])} and {what[-1]} cannot {'both' if len(what) == 2 else 'all'} be kept there"
+        return f"{listed(what)} cannot {'both' if len(what) == 2 else 'all'} be kept there"
     return f"{what[0]} cannot be kept there" if limits[0].friction else f"{what[0]} binds"
 
 

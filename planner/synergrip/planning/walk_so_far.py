@@ -97,7 +97,7 @@ class Walk(Value):
     @property
     def kept_to(self) -> float:
         """[N] how far beyond a limit forces may be that count as kept."""
-        return max(KEPT, OF_FORCES_KEPT * self.largest)
+        return kept_for(self.largest)
 
     @property
     def largest(self) -> float:
@@ -142,6 +142,11 @@ def gap_to(promised: Array | None, forces: Array) -> float:
 def differs(promised: Array | None, forces: Array) -> bool:
     """Return whether forces are not those that were promised."""
     return gap_to(promised, forces) > room_of(forces)
+
+
+def kept_for(largest: float) -> float:
+    """Return how far [N] beyond a limit forces may be that count as kept, beside the largest of them [N]."""
+    return max(KEPT, OF_FORCES_KEPT * largest)
 
 
 def room_of(forces: Array) -> float:

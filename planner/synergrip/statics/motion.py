@@ -50,7 +50,7 @@ def largest_term(response: Response, dz_r: Array) -> float:
     return response.scale.largest_force(np.abs(dz_r) @ np.abs(response.dlambda_dzr).T)
 
 
-def forward(response: Response, times: Array, dz_r: Array, wrench: Array) -> Motion:
+def forward(response: Response, times: Array, dz_r: Array, wrench: Array, begun: Array | None = None) -> Motion:
     """Apply the forward maps (26)-(28) and the response to the wrench.
 
     Args:
@@ -58,10 +58,11 @@ def forward(response: Response, times: Array, dz_r: Array, wrench: Array) -> Mot
         times: (T,) [s].
         dz_r: (T, n_z) synergy references, from those at the start.
         wrench: (T, 6) external wrench on the object [N, N m].
+        begun: (n_l,) contact forces at the start [N, N m]; those of the grasp when None.
     """
     dw = wrench - response.grasp.w_0
     change = dz_r @ response.dlambda_dzr.T + dw @ response.dlambda_dw.T
-    forces = forces_at_start(response) + change
+    forces = (forces_at_start(response) if begun is None else begun) + change
     torques = forces @ response.grasp.J
     sag = dw @ response.du_dw.T
     dz = dz_r @ response.dz_dzr.T + dw @ response.dz_dw.T

@@ -10,6 +10,7 @@ import numpy as np
 from synergrip.conic.limits.object_error import AXES, AxisName, axis_weights
 from synergrip.documents.judging import described, is_list, is_whole, is_word
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.words import listed
 from synergrip.errors import Refusal, one_of, repeated
 from synergrip.linalg import RANK_TOLERANCE
 from synergrip.statics.analysis import Analysis
@@ -118,5 +119,4 @@ def _competing(control: Control) -> str:
         f"{len(control.motions)} of motion ({', '.join(control.motions)})" if control.motions else "",
         f"{control.reconfiguration} of reconfiguration" if control.reconfiguration else "",
     ]
-    told = [part for part in parts if part]
-    return f"{' and '.join([', '.join(told[:-1]), told[-1]] if len(told) > 1 else told)} compete"
+    return f"{listed([part for part in parts if part])} compete"

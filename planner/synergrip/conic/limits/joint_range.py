@@ -21,6 +21,7 @@ from synergrip.documents.fields import Written
 from synergrip.documents.naming import naming_arguments
 from synergrip.documents.numbers import number
 from synergrip.documents.validation import shown
+from synergrip.documents.words import listed
 from synergrip.errors import InputError, suggest
 from synergrip.hands.units import joint_kinds, unit_of
 from synergrip.linalg import Array, frozen
@@ -90,8 +91,7 @@ class JointRange(Limit):
         """Return it with one number for each joint, and those of the hand where none is given."""
         missing = [end for end in ENDS if getattr(self, end) is None]
         if missing and grasp.held is None:
-            needed = " and ".join([", ".join(missing[:-1]), missing[-1]] if len(missing) > 1 else missing)
-            message = f"needs a hand with joint ranges; a grasp given as matrices states none, give {needed}"
+            message = f"needs a hand with joint ranges; a grasp given as matrices states none, give {listed(missing)}"
             raise InputError.at(f"{self.of}.{missing[0]}", message)
         of_hand = {} if grasp.held is None else _stated(grasp.held)
         each: dict[str, Any] = {

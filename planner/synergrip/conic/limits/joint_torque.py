@@ -51,11 +51,16 @@ class JointTorque(Symmetric):
 
     def unit(self, grasp: Grasp) -> str:
         """Return "N m", "N" when all joints slide, nothing when some turn and some slide."""
-        return torque_unit(joint_kinds(grasp.held.hand.joints).values()) if grasp.held is not None else "N m"
+        return unit_of_torques(grasp)
 
     def of_hand(self, held: Held) -> Array:
         """Return the torque limits of a hand's joints."""
         return frozen([joint.torque_limit for joint in held.hand.joints])
+
+
+def unit_of_torques(grasp: Grasp) -> str:
+    """Return "N m", "N" when all joints slide, nothing when some turn and some slide."""
+    return torque_unit(joint_kinds(grasp.held.hand.joints).values()) if grasp.held is not None else "N m"
 
 
 IN_FILE = FileKey(

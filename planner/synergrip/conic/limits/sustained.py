@@ -7,17 +7,16 @@ exactly. So the bound is one second-order cone over all the knots.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import knots_in
 from synergrip.conic.limits.limit import Usage
 from synergrip.conic.limits.symmetric import Symmetric
-from synergrip.conic.rows import Kind, Rows, items_of, within
+from synergrip.conic.rows import Kind, Rows, items_of
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
@@ -36,10 +35,6 @@ class Sustained(Symmetric):
     couples_knots = True
     adds_up = True
 
-    @abstractmethod
-    def value(self, formulation: Formulation) -> Affine:
-        """Return what is bounded."""
-
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return one second-order cone of each joint or synergy, and of a hold two bounds at the last knot."""
         from scipy import sparse
@@ -48,9 +43,7 @@ class Sustained(Symmetric):
         names, limit, value = self.names(grasp), self.on(grasp).limit, self.value(formulation)
         keep, rows = np.flatnonzero(np.isfinite(limit)), []
         if is_hold(formulation):
-            unit = np.where(np.isfinite(limit), limit, 1.0)
-            parts = within(self.key, names, value, -limit, limit, unit)
-            rows = [replace(part, constant=frozen(part.constant[-1:])) for part in parts]
+            rows = [replace(part, constant=frozen(part.constant[-1:])) for part in super().rows(formulation)]
         if not len(keep) or len(formulation.times) < 2:
             return rows
         instants, weights = gauss_instants(formulation.times)
@@ -64,13 +57,9 @@ class Sustained(Symmetric):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the root of what has come together of the mean square by each time; of a hold the last value, too."""
-        grasp = formulation.response.grasp
-        limit = self.on(grasp).limit
-        found = so_far(motion.times, self.reached(motion), goes_on=is_hold(formulation))
-        upper = np.where(np.isfinite(limit), limit, np.inf)
-        scale = np.where(np.isfinite(limit), limit, 1.0)
-        lower = frozen(np.full(len(limit), -np.inf))
-        return Usage(self.title, self.unit(grasp), self.names(grasp), found, lower, upper, scale, motion.times)
+        of_instants = super().usage(formulation, motion)
+        found = so_far(motion.times, of_instants.value, goes_on=is_hold(formulation))
+        return replace(of_instants, value=found, lower=frozen(np.full(found.shape[1], -np.inf)))
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> None:
         """Return nothing: an instant may take more than the mean."""

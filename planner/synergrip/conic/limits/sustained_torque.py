@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.file_key import FileKey, OwnEfforts
+from synergrip.conic.limits.joint_torque import unit_of_torques
 from synergrip.conic.limits.sustained import Sustained
 from synergrip.documents.naming import naming_arguments
-from synergrip.hands.units import joint_kinds, torque_unit
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
 
@@ -50,7 +50,7 @@ class SustainedTorque(Sustained):
 
     def unit(self, grasp: Grasp) -> str:
         """Return "N m", "N" when all joints slide, nothing when some turn and some slide."""
-        return torque_unit(joint_kinds(grasp.held.hand.joints).values()) if grasp.held is not None else "N m"
+        return unit_of_torques(grasp)
 
 
 IN_FILE = FileKey(

@@ -20,6 +20,7 @@ from synergrip.margin.disturbance.active import End, active_along, active_box, a
 from synergrip.margin.disturbance.executed_wrench import ExecutedWrench, executed_wrench
 from synergrip.margin.disturbance.passive import corners, passive_along, passive_ball
 from synergrip.margin.disturbance.policy import largest_answered
+from synergrip.margin.disturbance.reacting import statics_of
 from synergrip.margin.disturbance.reaction import Reaction
 from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.planning.outcome import Plan
@@ -118,7 +119,8 @@ def disturbances(
     judge.one("plan", plan, Plan, "the one that plan(grasp, task) returns where there is one")
     judge.finish()
     wrenches, widths = judged_directions(directions), judged_box(box)
-    every, cones = Reaction.of(plan), Reaction.of(plan, cones_alone=True)
+    each = statics_of(plan)
+    every, cones = Reaction.of(plan, each), Reaction.of(plan, each, cones_alone=True)
     ends = [active_along(every, every.scaled(wrench)) for wrench in wrenches]
     along = tuple(_along(every, cones, wrench, end) for wrench, end in zip(wrenches, ends, strict=True))
     axes = (

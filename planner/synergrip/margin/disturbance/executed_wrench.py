@@ -11,12 +11,11 @@ from synergrip.linalg import Array, frozen
 from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.planning.executing import Executor
 from synergrip.planning.outcome import Plan
+from synergrip.planning.walk_so_far import kept_for
 from synergrip.values import Value
 
 SHARE = 0.98
 """Of the wrench at which the first contact slips in the linear model."""
-KEPT = 1e-3
-"""[N], and share of the largest force, up to which a margin below 0 counts as kept: the digits of a true plan."""
 
 
 @made_by("disturbances(plan).executed")
@@ -59,6 +58,6 @@ def executed_wrench(plan: Plan, slip: Withstood) -> ExecutedWrench | None:
         return ExecutedWrench(wrench, SHARE, None, "", None, holds=False, why=found.why)
     margins = found.margins
     k, i = (int(place) for place in np.unravel_index(np.argmin(margins), margins.shape))
-    room = KEPT * max(1.0, plan.analysis.response.scale.largest_force(found.states.forces))
+    room = kept_for(plan.analysis.response.scale.largest_force(found.states.forces))
     worst = float(margins[k, i])
     return ExecutedWrench(wrench, SHARE, worst, plan.grasp.contacts[i].name, float(plan.time[k]), worst >= -room)

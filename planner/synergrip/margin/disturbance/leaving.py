@@ -98,11 +98,6 @@ def balls(start: Array, change: Array) -> Balls:
     return Balls(frozen(lower), frozen(upper), frozen(towards), frozen(sigma))
 
 
-def inside_by(value: Array) -> Array:
-    """Return by how much (...) values (..., d) are inside their cones."""
-    return np.asarray(value[..., 0] - np.linalg.norm(value[..., 1:], axis=-1))
-
-
 def quadratic(start: Array, change: Array) -> tuple[Array, Array, Array]:
     """Return M (N, n, n), m (N, n) and c (N,) of ``q(w) = s_0^2 - ||s_1..||^2``."""
     head, tail, b, T = start[:, 0], start[:, 1:], change[:, 0], change[:, 1:]

@@ -17,11 +17,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.changes.at_a_value import solved
+from synergrip.conic.cones import outside
 from synergrip.conic.relaxed import relaxed
 from synergrip.conic.rows import Kind
 from synergrip.conic.semidefinite import Semidefinite, solve_semidefinite
 from synergrip.linalg import Array
-from synergrip.margin.disturbance.leaving import balls, inside_by, proven
+from synergrip.margin.disturbance.leaving import balls, proven
 from synergrip.margin.disturbance.reaction import Cones, Reaction
 from synergrip.values import Value
 
@@ -87,7 +88,7 @@ class Answering(Value):
             start = each.start + (moved @ shift[each.knots][..., None])[..., 0]
             part = start, each.change + moved @ slope[each.knots]
             found = balls(*part)
-            np.minimum.at(radius, each.knots, np.where(inside_by(start) >= -KEPT, found.lower, 0.0))
+            np.minimum.at(radius, each.knots, np.where(outside(each.block, start) <= KEPT, found.lower, 0.0))
             parts.append((each.knots, *part, found.sigma))
         for knots, start, change, sigma in parts:
             holds = proven(start, change, sigma, radius[knots])

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.conic.build import build
+from synergrip.conic.cones import outside
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.friction_cone import FrictionCone
 from synergrip.conic.limits.friction_reserve import FrictionReserve
@@ -20,9 +21,9 @@ from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Kind
 from synergrip.grasps.scale import Scale
 from synergrip.linalg import Array, Places, frozen
-from synergrip.margin.disturbance.leaving import inside_by
-from synergrip.margin.disturbance.reacting import Reacting, statics_of
+from synergrip.margin.disturbance.reacting import Reacting
 from synergrip.planning.outcome import Plan
+from synergrip.statics.each import Each
 from synergrip.values import Value
 
 
@@ -40,13 +41,13 @@ class Cones(Value):
 
     def place(self, index: int) -> tuple[int, str, str]:
         """Return knot, limit and item of a cone."""
-        count = len(self.block.items)
-        return self.block.first_knot + index // count, self.block.limit, str(self.block.items[index % count])
+        item = self.block.items[index % len(self.block.items)]
+        return int(self.knots[index]), self.block.limit, str(item)
 
     @property
     def knots(self) -> Places:
         """(N,) the knot of each cone."""
-        return self.block.first_knot + np.arange(len(self.start)) // len(self.block.items)
+        return self.block.instants
 
     def at(self, knot: int) -> Cones:
         """Return those of one knot."""
@@ -101,15 +102,20 @@ class Reaction(Value):
         return cls(times, scale, unit, free, with_room, program, frozen(np.column_stack(columns)))
 
     @classmethod
-    def of(cls, plan: Plan, *, cones_alone: bool = False) -> Reaction:
+    def of(cls, plan: Plan, each: Each | None, *, cones_alone: bool = False) -> Reaction:
         """Return that of a plan: of all limits of the task, or of the friction cones alone, without margin or reserve.
 
         Limits on changes from knot to knot are left out: nothing is said of when the wrench comes.
+
+        Args:
+            plan: of any task.
+            each: the statics at its knots, `statics_of(plan)`.
+            cones_alone: whether the friction cones alone are asked.
         """
         dropped = (FrictionCone, FrictionReserve)
         others = [limit for limit in plan.task.all_limits if not isinstance(limit, dropped) and not limit.couples_knots]
         limits: tuple[Limit, ...] = (FrictionCone(0.0), *(() if cones_alone else others))
-        each, response = statics_of(plan), plan.analysis.response
+        response = plan.analysis.response
 
         def under_wrench(wrench: Array) -> Program:
             return build(Reacting.of(plan, each, wrench), limits, LeastEffort())
@@ -149,11 +155,10 @@ def _room(program: Program) -> Array:
     """Return (m,) what puts values b (m,) that are outside of their cones on the edge of them."""
     found = np.zeros(len(program.b))
     for block, rows in program.slices():
-        values = program.b[rows].reshape(-1, block.dim)
         if block.kind is Kind.ZERO:
             found[rows] = -program.b[rows]
         elif block.rows:
-            found[rows][:: block.dim] = np.maximum(-inside_by(values), 0.0)
+            found[rows][:: block.dim] = np.maximum(outside(block, program.b[rows]), 0.0)
     return found
 
 

@@ -10,7 +10,6 @@ from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix, hand_jacobian
 from synergrip.grasps.placing import moved_to
 from synergrip.linalg import Array, frozen
-from synergrip.vectors import skews
 
 SAME = 1e-9
 """How far J may be from that of the posture, relative to its largest entry: beyond it somebody has set it."""
@@ -51,7 +50,9 @@ def turned(grasp: Grasp, index: int, by: Array) -> Grasp:
 
     Of a grasp given as matrices the contact has force components n, t, o only.
     """
-    contact, own = grasp.contacts[index], _rotation(by)  # in the axes of the contact
+    from scipy.spatial.transform import Rotation
+
+    contact, own = grasp.contacts[index], np.asarray(Rotation.from_rotvec(by).as_matrix())  # in the contact's axes
     new = replace(contact, frame=frozen(contact.frame @ own))
     if grasp.held is not None:
         return _with(grasp, index, new)
@@ -61,15 +62,6 @@ def turned(grasp: Grasp, index: int, by: Array) -> Grasp:
     if start is not None:
         start[rows] = own.T @ start[rows]
     return replace(grasp, contacts=_replaced(grasp, index, new), G=G, J=J, lambda_0=start)
-
-
-def _rotation(by: Array) -> Array:
-    """Return the rotation matrix of a rotation vector (3,), by Rodrigues' formula."""
-    angle = float(np.linalg.norm(by))
-    if angle == 0:
-        return np.eye(3)
-    axis = skews(by / angle)
-    return np.asarray(np.eye(3) + np.sin(angle) * axis + (1 - np.cos(angle)) * axis @ axis)
 
 
 def _with(grasp: Grasp, index: int, contact: Contact) -> Grasp:

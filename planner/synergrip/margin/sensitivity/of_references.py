@@ -86,11 +86,10 @@ class References(Value):
             asked = parameter.turned(change * parameter.scale)
             timed = self.plan.task if parameter.same_task else asked.timed
             grasp = at_start(asked.grasp, timed.wrench[0])
-            if parameter.same_task or parameter.name != "friction":
-                return grasp, self._forces(grasp, timed.wrench)
+            same = parameter.same_task and parameter.same_statics
+            return grasp, self.forces if same else self._forces(grasp, timed.wrench)
         except SynergripError:
             return None
-        return grasp, self.forces
 
     def _forces(self, grasp: Grasp, wrench: Array) -> Array:
         plan = self.plan

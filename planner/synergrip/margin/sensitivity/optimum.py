@@ -11,7 +11,7 @@ from scipy import sparse
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import solved
 from synergrip.conic.certificate import Certificate, judge_optimal
-from synergrip.conic.cones import row_sizes
+from synergrip.conic.cones import outside, row_sizes
 from synergrip.conic.decide import Decision
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -101,9 +101,7 @@ def _what_counts(posed: Posed, program: Program, x: Array, z: Array) -> Optimum:
 
 def _reached(block: Block, slack: Array) -> bool:
     """Return whether a slack is on the boundary of any of its cones."""
-    parts = slack.reshape(-1, block.dim)
-    room = parts[:, 0] - np.linalg.norm(parts[:, 1:], axis=1)
-    return block.kind is Kind.ZERO or bool(np.any(room <= ACTIVE))
+    return block.kind is Kind.ZERO or bool(np.any(outside(block, slack) >= -ACTIVE))
 
 
 def _sharpest(decision: Decision) -> tuple[Array, Array]:
@@ -125,7 +123,7 @@ def posed_with(parameter: Parameter, change: float, of: Optimum) -> Posed | str:
     known, units = of.posed.analysis, of.posed.formulation.units
     try:
         asked = parameter.turned(change * parameter.scale)
-        if parameter.same_task:
+        if parameter.same_task and not parameter.same_statics:
             other: Posed | None = _posed_again(asked, of)
         else:
             other = asked.posed(known if parameter.same_statics else None, units)

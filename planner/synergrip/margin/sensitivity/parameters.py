@@ -105,21 +105,22 @@ def left_out(asked: Asked) -> Mapping[str, str]:
     return missing
 
 
-def _of_dial(dial: Dial[Asked], name: str, of: str, *, of_plan: bool = True) -> Parameter:
+def _of_dial(
+    dial: Dial[Asked], name: str, of: str, *, same_task: bool = False, of_plan: bool = True
+) -> Parameter:  # fmt: skip
     value = dial.value
     return Parameter(
         name, of, "", value, PER_CENT, 1.0, lambda share: dial.turned(value * (1 + share)), same_statics=True,
-        of_plan=of_plan,
+        same_task=same_task, of_plan=of_plan,
     )  # fmt: skip
 
 
 def _frictions(asked: Asked) -> Iterator[Parameter]:
     common, each = friction_dial(asked), contact_dials(asked)
     if common is not None and len(each) > 1:
-        yield replace(_of_dial(common, "friction", "all contacts"), at=None)
-    rough = [contact for contact in asked.grasp.contacts if contact.friction > 0]
-    for contact, dial in zip(rough, each, strict=True):
-        yield _of_dial(dial, "friction", contact.name)
+        yield replace(_of_dial(common, "friction", "all contacts", same_task=True), at=None)
+    for contact, dial in each.items():
+        yield _of_dial(dial, "friction", contact, same_task=True)
 
 
 def _loads(asked: Asked, timed: TimedTask) -> Iterator[Parameter]:
@@ -143,10 +144,13 @@ def _compliances(asked: Asked) -> Iterator[Parameter]:
     contacts = [(contact.name, rows) for contact, rows in zip(grasp.contacts, grasp.rows, strict=True)]
     joints = [(name, slice(i, i + 1)) for i, name in enumerate(grasp.joints)]
     synergies = [(name, slice(i, i + 1)) for i, name in enumerate(grasp.synergies)]
-    of = (("contact", "C_s", contacts), ("joint", "C_q", joints), ("synergy", "C_z", synergies))
-    for what, matrix, parts in of:
+    of = (
+        ("contact", "contacts", "C_s", contacts), ("joint", "joints", "C_q", joints),
+        ("synergy", "synergies", "C_z", synergies),
+    )  # fmt: skip
+    for what, several, matrix, parts in of:
         soft = [(name, rows) for name, rows in parts if np.any(getattr(grasp, matrix)[rows])]
-        everything = [(f"all {what.replace('synergy', 'synergie')}s", slice(None))] if len(soft) > 1 else []
+        everything = [(f"all {several}", slice(None))] if len(soft) > 1 else []
         for name, rows in (*everything, *soft):
             yield Parameter(
                 f"{what} stiffness", name, "", None, PER_CENT, 1.0, _stiffer(asked, matrix, rows), same_task=True

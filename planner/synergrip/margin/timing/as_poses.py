@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from synergrip.linalg import Array, frozen
-from synergrip.margin.timing.by_length import Leg
+from synergrip.margin.timing.by_length import Leg, seconds_of
 from synergrip.tasks.palm_path import PalmPath
 
 LEAST_LINES = 12
@@ -28,7 +28,7 @@ def as_poses(path: tuple[Leg, ...], b: Array, fewest: int) -> tuple[PalmPath, Ar
         fewest: lines of the whole path; more where the palm turns far.
     """
     speeds, first = np.sqrt(b), 0
-    seconds = 2 * np.concatenate([np.diff(leg.at) for leg in path]) / (speeds[:-1] + speeds[1:])
+    seconds = seconds_of(np.concatenate([np.diff(leg.at) for leg in path]), b)
     count = _lines(path, fewest)
     times, poses, passed = [np.zeros(1)], [_poses(path[0], np.zeros(1))], [np.zeros(1)]
     for leg in path:

@@ -64,6 +64,12 @@ def legs(load: Palm | PalmPath, start: float, end: float, unit: float, parts: in
     return tuple(replace(leg, palm=replace(leg.palm, upright=upright)) for leg in found)
 
 
+def seconds_of(parts: Array, b: Array) -> Array:
+    """Return (n,) how long each part takes [s]: lengths (n,) [m], squares of the speed (n + 1,) at their ends."""
+    speeds = np.sqrt(b)
+    return np.asarray(2 * parts / (speeds[:-1] + speeds[1:]))
+
+
 def passed_as_given(load: Palm | PalmPath, start: float, end: float, unit: float, parts: int) -> Array:
     """Return (parts + 1,) which share of the way is passed after equal parts of the time that the task takes as asked.
 

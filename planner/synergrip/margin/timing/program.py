@@ -17,6 +17,7 @@ from synergrip.conic.relaxed import heads
 from synergrip.conic.rows import Item, Kind
 from synergrip.conic.variable_bounds import LARGEST
 from synergrip.linalg import Array, Places, frozen
+from synergrip.margin.timing.by_length import seconds_of
 from synergrip.margin.timing.matrices import Sparse, below, beside, empty, ends, eye, interleaved, scaled
 from synergrip.margin.timing.question import TimingQuestion
 from synergrip.values import Value
@@ -112,5 +113,4 @@ class TimingProgram(Value):
 
 def duration(question: TimingQuestion, b: Array) -> float:
     """Return how long the way takes with squares of the speed b (n + 1,) at the grid points [s]."""
-    speeds = np.sqrt(b)
-    return float((2 * question.parts / (speeds[:-1] + speeds[1:])).sum())
+    return float(seconds_of(question.parts, b).sum())

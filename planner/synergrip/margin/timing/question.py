@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from synergrip.conic.cones import outside
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
@@ -124,10 +125,7 @@ class Rows(Value):
     @cached_property
     def instant(self) -> Places:
         """(m,) of which instant each row speaks."""
-        found = [
-            block.first_knot + np.repeat(np.arange(block.knots), len(block.items) * block.dim)
-            for block in self.at_rest.blocks
-        ]
+        found = [np.repeat(block.instants, block.dim) for block in self.at_rest.blocks]
         return np.concatenate([np.zeros(0, dtype=np.int64), *found])
 
 
@@ -188,8 +186,5 @@ def _outside(program: Program, slack: Array) -> Array:
     """Return how far the slack (m,) is outside the cones of each instant (T,), 0 inside."""
     worst = np.zeros(program.knots)
     for block, rows in program.slices():
-        cones = slack[rows].reshape(block.knots, len(block.items), block.dim)
-        outside = np.linalg.norm(cones[:, :, 1:], axis=2) - cones[:, :, 0]
-        own = worst[block.first_knot : block.first_knot + block.knots]
-        np.maximum(own, outside.max(axis=1, initial=0.0), out=own)
+        np.maximum.at(worst, block.instants, outside(block, slack[rows]))
     return worst

@@ -17,6 +17,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.linalg import Array, frozen
+from synergrip.margin.timing.by_length import seconds_of
 from synergrip.margin.timing.matrices import Sparse, below, beside, empty, ends, eye, scaled
 from synergrip.margin.timing.program import TimingProgram
 
@@ -59,9 +60,9 @@ def kept_by(timing: TimingProgram, rates: Sequence[SynergyRate], v: Array, b: Ar
     """Return whether references keep their rates in every part of a timing."""
     if not rates:
         return True
-    speeds, question = np.sqrt(b), timing.question
-    seconds = 2 * question.parts / (speeds[:-1] + speeds[1:])
-    moved = np.abs(np.diff(v @ question.formulation.reference.matrix.T, axis=0)) / seconds[:, None]
+    question = timing.question
+    seconds = seconds_of(question.parts, b)[:, None]
+    moved = np.abs(np.diff(v @ question.formulation.reference.matrix.T, axis=0)) / seconds
     return all(bool(np.all(moved <= rate.on(question.grasp).limit * (1 + ROUNDING))) for rate in rates)
 
 

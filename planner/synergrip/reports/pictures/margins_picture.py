@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.linalg import Array
-from synergrip.margin.disturbance.withstood_in_plane import withstood_in_plane
+from synergrip.margin.disturbance.withstood_in_planes import withstood_in_planes
 from synergrip.margin.found import Margins
 from synergrip.margin.measures import Measure
 from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
@@ -96,7 +96,7 @@ def _legend(axes: Any) -> None:
 
 def _withstood(plan: Plan, of: str) -> Strip:
     """Return the extra forces at which a contact slips first, in three planes."""
-    planes = [withstood_in_plane(plan, plane) for plane in PLANES]
+    planes = withstood_in_planes(plan, PLANES)
     largest = max((float(np.nanmax(np.abs(forces))) for forces in planes if not np.all(np.isnan(forces))), default=0.0)
     span = 2.4 * largest or 1.0
 

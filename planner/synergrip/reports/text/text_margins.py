@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from shlex import quote
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_cases import case_table
 from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
-from synergrip.reports.text.text_on_request import several_lines
+from synergrip.reports.text.text_on_request import attained_cells, several_lines
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 from synergrip.reports.text.text_sensitivities import sensitivity_lines
@@ -116,11 +115,7 @@ def _numbers(found: Margins) -> Iterator[str]:
 
 
 def _row(number: DirectNumber) -> tuple[str, ...]:
-    assert number.value is not None
-    grows = number.value == number.lower
-    end = number.upper if grows else number.lower
-    told = "-" if end is None else f"{'below' if grows else 'above'} {_with_unit(number, end)}"
-    return ASKS[number.name][0], _with_unit(number, number.value), told, f"--set {quote(number.setting)}"
+    return attained_cells(ASKS[number.name][0], number, lambda value: _with_unit(number, value))
 
 
 def _with_unit(number: DirectNumber, value: float) -> str:

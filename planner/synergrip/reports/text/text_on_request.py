@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from shlex import quote
 
 import numpy as np
@@ -29,13 +29,25 @@ def several_lines(name: str, numbers: Mapping[str, DirectNumber]) -> Iterator[st
         yield from wrapped("         ", f"{', '.join(of for of, each in numbers.items() if each.why == why)}: {why}")
 
 
-def _row(of: str, number: DirectNumber) -> tuple[str, ...]:
+def attained_cells(of: str, number: DirectNumber, told: Callable[[float], str], *more: str) -> tuple[str, ...]:
+    """Return the row of a number that is attained: what it is, its value, its other end, more, and how to ask for it.
+
+    Args:
+        of: what it is.
+        number: that has a value.
+        told: returns a value of it with its unit.
+        more: further cells.
+    """
     assert number.value is not None
     grows = number.value == number.lower
     end = number.upper if grows else number.lower
-    told = "-" if end is None else f"{'below' if grows else 'above'} {_told(number, end)}"
+    other = "-" if end is None else f"{'below' if grows else 'above'} {told(end)}"
+    return of, told(number.value), other, *more, f"--set {quote(number.setting)}"
+
+
+def _row(of: str, number: DirectNumber) -> tuple[str, ...]:
     moved = () if number.displacement is None else (_moved(number.displacement),)
-    return of, _told(number, number.value), told, *moved, f"--set {quote(number.setting)}"
+    return attained_cells(of, number, lambda value: _told(number, value), *moved)
 
 
 def _told(number: DirectNumber, value: float) -> str:

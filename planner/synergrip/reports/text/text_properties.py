@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.documents.words import listed
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, Array
 from synergrip.planning.free import free_dimensions
 from synergrip.reports.text.tables import table, wrapped
@@ -35,7 +36,7 @@ def _classes(found: GraspProperties) -> Iterator[str]:
         for joints, synergies in zip(found.of_joints.values(), found.of_synergies.values(), strict=True)
     ]  # fmt: skip
     names = [row[0] for row in rows if row[4] != "0"]
-    yield f"the grasp, as its synergies drive it, is {_listed(names) if names else 'none of these'}: dimensions above 0"
+    yield f"the grasp, as its synergies drive it, is {listed(names) if names else 'none of these'}: dimensions above 0"
     yield table(("", "all joints", "dim", "synergies", "dim", "which are"), rows, right=(2, 4))
     if found.ambiguous:
         yield f"ambiguous: a singular value lies between {GREY_FLOOR:.0e} and {GREY_CEILING:.0e} of the largest"
@@ -117,7 +118,3 @@ def _sources(found: GraspProperties) -> Iterator[str]:
     for name, named in groups:
         for source in dict.fromkeys(named):
             yield from wrapped(f"  {name:12}", source, WIDTH)
-
-
-def _listed(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
