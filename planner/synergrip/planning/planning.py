@@ -68,11 +68,11 @@ def planned_with(
 ) -> Outcome:
     """Return the answer that an effort along the motion comes to; other arguments as of `plan`."""
     answers = answerer(solver, "solver")
-    return _on_the_hand(plan_of_start_posture(grasp, task, answers), answers, effort)
+    return planned_along(plan_of_start_posture(grasp, task, answers), answers, effort)
 
 
-def _on_the_hand(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
-    """Return the answer about the hand that moves, where there is one."""
+def planned_along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
+    """Return the answer about the hand that moves, where there is one, of that of the start posture."""
     analysis = outcome.analysis
     if outcome.grasp.held is None or not (analysis is None or analysis.response.restrained):
         return outcome  # an object that is free to move has no stiffness there, and no true equilibrium to look for

@@ -131,7 +131,7 @@ class AllowTable(Table):
         Interval | dict[str, Interval] | None,
         Written(_friction, _or_by_name(array_of({"type": "number", "exclusiveMinimum": 0}, 2))),
     ] = Field(default=None, description="[least, largest] coefficient of friction, of all contacts or of those named")
-    friction_share: Annotated[float, Written(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})] = Field(
+    friction_share: Share = Field(
         default=0.0, description="share by which all friction may be less or more, spin friction too"
     )
     mass: Annotated[Interval | None, Written(_masses, array_of(unit_schema("mass"), 2))] = Field(

@@ -117,10 +117,13 @@ def _masses(allow: Allowances, grasp: Grasp) -> list[tuple[str, float]]:
 def _wrenches(allow: Allowances) -> list[Array]:
     """Return the extreme wrenches (6,): the listed ones and none, at every corner of the box."""
     listed = [np.zeros(6), *np.asarray(allow.load)] if len(allow.load) else [np.zeros(6)]
-    sides = [(-half, half) if half else (0.0,) for half in np.asarray(allow.load_box).tolist()]
-    if 2 ** sum(len(side) > 1 for side in sides) > MOST_CASES:
-        return [np.zeros(6)] * (MOST_CASES + 1)
-    return [each + np.array(corner) for each in listed for corner in product(*sides)]
+    box = box_corners(np.asarray(allow.load_box))
+    return [each + corner for each in listed for corner in box]
+
+
+def box_corners(half_widths: Array) -> Array:
+    """Return the corners (2^k, n) of a box with half-widths (n,), k of which are not 0."""
+    return frozen(list(product(*((-half, half) if half else (0.0,) for half in half_widths.tolist()))))
 
 
 def _said(wrench: Array) -> str:

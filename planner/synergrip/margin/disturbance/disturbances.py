@@ -18,12 +18,13 @@ from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.margin.disturbance.active import End, active_along, active_box, as_radius, nearest_end
 from synergrip.margin.disturbance.executed_wrench import ExecutedWrench, executed_wrench
-from synergrip.margin.disturbance.passive import corners, passive_along, passive_ball
+from synergrip.margin.disturbance.passive import passive_along, passive_ball
 from synergrip.margin.disturbance.policy import largest_answered
 from synergrip.margin.disturbance.reacting import statics_of
 from synergrip.margin.disturbance.reaction import Reaction
 from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.planning.outcome import Plan
+from synergrip.tasks.corners import box_corners
 from synergrip.values import Value
 
 AXES = tuple(tuple(sign * float(i == j) for j in range(6)) for i in range(6) for sign in (1.0, -1.0))
@@ -152,7 +153,7 @@ def _along(every: Reaction, cones: Reaction, wrench: Array, end: End) -> Withsto
 
 
 def _box(every: Reaction, cones: Reaction, widths: Array) -> WithstoodAlong:
-    ends = every.scaled(corners(widths))
+    ends = every.scaled(box_corners(widths))
     passive, slip = (passive_along(each, ends) for each in (every, cones))
     active = active_box(every, ends)
     return WithstoodAlong(widths, "", passive, slip, replace(active, lower=max(active.lower, passive.lower)))

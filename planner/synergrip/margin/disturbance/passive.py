@@ -6,12 +6,10 @@ largest ball, the largest multiple of a box and the way along a ray are known (`
 
 from __future__ import annotations
 
-from itertools import product
-
 import numpy as np
 
 from synergrip.conic.rows import Kind
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.margin.disturbance.leaving import SHORT, Balls, along, balls, proven
 from synergrip.margin.disturbance.reaction import Cones, Reaction
 from synergrip.margin.disturbance.withstood import NO_END, Withstood, none_of_it, scaled
@@ -61,12 +59,6 @@ def passive_along(reaction: Reaction, directions: Array) -> Withstood:
         return NO_END
     cones, worst, direction = ended
     return _ended(reaction, cones, worst, best * (1 - SHORT), best, direction, holds=True)
-
-
-def corners(half_widths: Array) -> Array:
-    """Return the corners (2^k, 6) of a box with half-widths (6,), k of which are not 0."""
-    ends = [(-width, width) if width else (0.0,) for width in half_widths]
-    return frozen(list(product(*ends)))
 
 
 def _balls(cones: Cones) -> Balls:

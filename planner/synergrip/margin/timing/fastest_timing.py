@@ -23,7 +23,8 @@ from synergrip.margin.timing.question import timing_question
 from synergrip.margin.timing.timeless import timeless
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import WHOLE
-from synergrip.planning.planning import plan_of_start_posture, planned_with
+from synergrip.planning.planning import plan_of_start_posture, planned_along
+from synergrip.planning.solvers import SOLVERS
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
@@ -217,9 +218,10 @@ def _posed(
 
 def _planned(grasp: Grasp, task: Task) -> Plan | None:
     """Return the plan along the hand that moves, if there is one; not where the start posture has none already."""
-    if not isinstance(plan_of_start_posture(grasp, task), Plan):
+    begun = plan_of_start_posture(grasp, task)
+    if not isinstance(begun, Plan):
         return None
-    outcome = planned_with(WHOLE, grasp, task)
+    outcome = planned_along(begun, SOLVERS["clarabel"], WHOLE)
     if isinstance(outcome, Plan) and outcome.interrupted:
         raise KeyboardInterrupt
     return outcome if isinstance(outcome, Plan) else None

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5230", "#333333")
+from synergrip.reports.pictures.sheet import BLUE, GREEN, VERMILION
+
+COLORS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9", "#7a5230", "#333333")
 """Colours that stay apart for the colour-blind (Okabe and Ito; its yellow, which white paper swallows, is brown)."""
 
 
