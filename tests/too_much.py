@@ -100,7 +100,10 @@ def some_plan(rng: np.random.Generator, grasp: Grasp, task: TimedTask) -> Course
     model = LeastChanges(grasp, replace(task, limits=()))
     near = cp.sum_squares(model.y - rng.normal(size=model.y.shape))
     program = cp.Problem(cp.Minimize(cp.sum_squares(model.force_at / model.force) + 0.1 * near), model.asked)
-    program.solve(solver=cp.CLARABEL)
+    try:
+        program.solve(solver=cp.CLARABEL)
+    except cp.SolverError:  # another one is drawn
+        return None
     if program.status != "optimal":
         return None
     held = grasp if grasp.held is None else replace(grasp, w_0=frozen(task.wrench[0]), lambda_0=None)

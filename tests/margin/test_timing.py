@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 
 import synergrip as sg
 from synergrip.grasps.scale import scale_of
-from synergrip.margin.timing import fastest_program
+from synergrip.margin.timing import attained, fastest_program
 from synergrip.margin.timing.by_length import Leg, legs
 from synergrip.margin.timing.fastest_program import Timing, Usual, fastest
 from synergrip.margin.timing.loads import load_along
@@ -252,3 +252,28 @@ def test_neither_the_frame_of_a_path_nor_its_timing_change_the_least_time() -> N
     assert one is not None
     assert again == pytest.approx(one, rel=2e-5)
     assert asked(grasp, carried(dense, limits=(*LIMITS[:1], sg.NormalForce(upper=19.0)))).least > 1.01 * one  # type: ignore[operator]
+
+
+def test_where_the_hand_does_not_follow_the_fastest_timing_the_one_that_is_asked_is_made_faster(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = sg.load_problem("barrett-ball-carry")
+    monkeypatch.setattr(attained, "SLOWER", (1.001,))  # the hand needs 3 % more
+    monkeypatch.setattr(attained, "HALVES_AS_ASKED", 1)
+    found = sg.fastest_timing(problem.grasp, problem.task)
+    assert found.lower is not None
+    assert found.value is not None
+    assert found.lower < found.value < found.given_s
+    assert "with one factor on the times that are given" in found.why
+    assert found.plan is not None
+    assert found.path is not None
+    assert found.share is not None
+    assert found.given_share is not None
+    even = np.linspace(0.0, 1.0, len(found.given_share))
+    passed = np.interp(np.asarray(found.path.times) / found.value, even, found.given_share)
+    np.testing.assert_allclose(found.share, passed, atol=1e-12)
+    # a spline through 61 poses has the accelerations of the timing asked for but for a hundredth of the load
+    asked = problem.task.replace(time_factor=found.value / found.given_s, knots=len(found.share))
+    other = sg.plan(problem.grasp, asked)
+    assert isinstance(other, sg.Plan)
+    np.testing.assert_allclose(other.task.wrench, found.plan.task.wrench, atol=0.03)

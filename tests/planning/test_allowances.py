@@ -14,6 +14,8 @@ from command_line import run
 from small_grasps import pinch, tripod
 
 import synergrip as sg
+from synergrip.changes.allowance_dials import allowance_dials
+from synergrip.changes.asked import Asked
 from synergrip.conic.departure import off_place
 from synergrip.conic.limits.limit import Limit
 from synergrip.grasps.grasp import Grasp
@@ -169,6 +171,15 @@ def test_a_no_is_proven_and_says_which_allowance_would_help() -> None:
         3 / (2 * (4.0 - 4 * 1e-5 / 2e-3)), rel=1e-3
     )  # both ways: of the cap, too
     assert no.explain().cause in ("friction", "force_cap")
+
+
+@pytest.mark.parametrize(
+    ("load", "unit"), [((0, 9, 0, 0, 0, 0), "N"), ((0, 0, 0, 0, 0, 9), "N m"), ((0, 0, 9, 0, 0.1, 0), "")]
+)
+def test_a_load_that_is_allowed_for_is_told_in_its_unit(load: tuple[float, ...], unit: str) -> None:
+    grasp, task = tripod(), sg.Task(limits=[sg.NormalForce(upper=5.0)], knots=1, allow=sg.Allowances(load=[load]))
+    dials = {dial.key: dial for dial in allowance_dials(Asked.of(grasp, task, task.timed(grasp)))}
+    assert (dials["allow.load"].value, dials["allow.load"].unit) == (9.0, unit)
 
 
 def test_a_reserve_proves_nothing_and_corners_decide() -> None:

@@ -72,10 +72,12 @@ class _Dials:
         return replace(found, end=own, written=lambda v: f'["{low:.10g} kg", "{max(v, low):.10g} kg"]')
 
     def _wrenches(self, key: str, values: Array, largest: float) -> Dial[Asked]:
-        """Return all wrenches by one factor, told by their largest entry."""
+        """Return all wrenches by one factor, told by their largest entry, in its unit where all have the same."""
 
         def written(value: float) -> str:
             scaled = np.array([float(f"{each * (value / largest):.10g}") for each in values.ravel()])
             return json.dumps(scaled.reshape(values.shape).tolist())
 
-        return replace(self._less("load", key, largest, "", lambda v: values * (v / largest)), written=written)
+        forces, moments = np.any(values[..., :3]), np.any(values[..., 3:])
+        unit = "" if forces and moments else "N" if forces else "N m"
+        return replace(self._less("load", key, largest, unit, lambda v: values * (v / largest)), written=written)

@@ -11,8 +11,8 @@ from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
 
-Answer = Callable[[Formulation], Outcome]
-"""Plans in a formulation."""
+Answer = Callable[[TimedTask, Formulation], Outcome]
+"""Plans a task in a formulation."""
 
 
 def held(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: Answer) -> Outcome:
@@ -26,7 +26,7 @@ def held(task: TimedTask, analysis: Analysis, formulation: Formulation, answer: 
         task: with what is to happen between its knots.
         analysis: of the grasp.
         formulation: at the knots.
-        answer: plans in a formulation.
+        answer: plans a task in a formulation.
     """
     outcome, allowed = _between(task, analysis, formulation, answer), formulation.allowed
     if allowed is None or not allowed.asks_more or not isinstance(outcome, Infeasible):
@@ -52,13 +52,17 @@ def _between(task: TimedTask, analysis: Analysis, formulation: Formulation, answ
 
     At the knots and the corners between them limits are asked for as they are. Where a load is curved, a reserve at
     both ends of a piece keeps them in between; it asks for more than is needed, so that "infeasible" with it proves
-    nothing. Then the limits are asked for without it, at every instant looked at: what is infeasible there, is.
+    nothing. Then the limits are asked for without it, at the knots and, where there is a plan of these, at every
+    instant looked at: what is infeasible there, is.
     """
     intersample = intersample_of(task, analysis) if task.between == "hold" else None
-    outcome = answer(replace(formulation, intersample=intersample))
+    outcome = answer(task, replace(formulation, intersample=intersample))
     if intersample is None or intersample.exact or not isinstance(outcome, Infeasible):
         return outcome
-    without = answer(replace(formulation, intersample=intersample.every()))
+    at_knots = answer(replace(task, between="report"), formulation)  # many times smaller
+    if isinstance(at_knots, Infeasible):
+        return replace(at_knots, task=task)
+    without = answer(task, replace(formulation, intersample=intersample.every()))
     if isinstance(without, Infeasible | Unknown):
         return without
     why = (

@@ -124,8 +124,8 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
     refuse_malformed(task.limits, task.goals, formulation)
     planners: list[Planner] = []
 
-    def answer(each: Formulation) -> Outcome:
-        planners.append(Planner(task, analysis, each, solver))
+    def answer(asked: TimedTask, each: Formulation) -> Outcome:
+        planners.append(Planner(asked, analysis, each, solver))
         return planners[-1].outcome()
 
     try:

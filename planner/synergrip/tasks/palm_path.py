@@ -179,6 +179,13 @@ def rotations_of(poses: Array) -> Rotation:
     return Rotation.from_rotvec(poses[:, 3:].copy())  # it refuses arrays that are read-only
 
 
+def as_rows(poses: Array) -> Array:
+    """Return poses (K, 6), positions and rotation vectors, of poses (K, 7), positions and quaternions."""
+    from scipy.spatial.transform import Rotation
+
+    return np.hstack([poses[:, :3], Rotation.from_quat(poses[:, 3:]).as_rotvec()])
+
+
 def _quaternions(rotations: Rotation) -> Array:
     """Return quaternions (K, 4), vector first; of p and -p, the same rotation, each time the nearer to the last one."""
     found = rotations.as_quat()

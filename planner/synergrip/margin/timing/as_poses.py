@@ -6,7 +6,7 @@ import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.margin.timing.by_length import Leg, seconds_of
-from synergrip.tasks.palm_path import PalmPath
+from synergrip.tasks.palm_path import PalmPath, as_rows
 
 LEAST_LINES = 12
 """Of a leg."""
@@ -68,7 +68,4 @@ def _smooth(times: Array, speeds: Array, length: float, count: int) -> tuple[Arr
 
 
 def _poses(leg: Leg, at: Array) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    found = np.asarray(leg.palm.poses(at))
-    return np.hstack([found[:, :3], Rotation.from_quat(found[:, 3:]).as_rotvec()])
+    return as_rows(np.asarray(leg.palm.poses(at)))

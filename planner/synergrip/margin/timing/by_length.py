@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.palm_motion import Palm, PalmMotion
-from synergrip.tasks.palm_path import PalmPath, PalmSpline, rotations_of, spline
+from synergrip.tasks.palm_path import PalmPath, PalmSpline, as_rows, rotations_of, spline
 from synergrip.values import Value
 
 LOOKS = 4000
@@ -125,16 +125,10 @@ def _leg(points: Array, unit: float, parts: int) -> Leg:
     first = CubicSpline(lengths, points) if len(points) > 2 else lambda at: _straight(points, lengths, at)
     at = np.linspace(0.0, float(lengths[-1]), parts + 1)
     even = np.asarray(first(at))
-    poses = np.hstack([even[:, :3], _rotation_vectors(even[:, 3:] / (2 * unit))])
+    poses = as_rows(np.hstack([even[:, :3], even[:, 3:] / (2 * unit)]))
     return Leg(spline(at, poses, 0.0, float(at[-1])), frozen(at))
 
 
 def _straight(points: Array, lengths: Array, at: Array) -> Array:
     share = (at / lengths[-1])[:, None]
     return np.asarray((1 - share) * points[0] + share * points[-1])
-
-
-def _rotation_vectors(quaternions: Array) -> Array:
-    from scipy.spatial.transform import Rotation
-
-    return np.asarray(Rotation.from_quat(quaternions).as_rotvec())

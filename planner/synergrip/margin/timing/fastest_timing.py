@@ -15,16 +15,13 @@ from synergrip.errors import InputError, OutputError, Refusal
 from synergrip.files import atomic_path
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import scale_of
-from synergrip.linalg import Array, frozen
-from synergrip.margin.timing.as_poses import as_poses
-from synergrip.margin.timing.by_length import Leg, legs, passed_as_given
+from synergrip.linalg import Array
+from synergrip.margin.timing.attained import SLOWER, Attained, attained, given_share
+from synergrip.margin.timing.by_length import Leg, legs
 from synergrip.margin.timing.fastest_program import Timing, fastest
 from synergrip.margin.timing.question import timing_question
 from synergrip.margin.timing.timeless import timeless
 from synergrip.planning.outcome import Plan
-from synergrip.planning.pace import WHOLE
-from synergrip.planning.planning import plan_of_start_posture, planned_along
-from synergrip.planning.solvers import SOLVERS
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
@@ -37,17 +34,6 @@ PARTS = (128, 256, 512)
 """Into how many the path is divided: into more where limits need a reserve between the points."""
 SMALL = 5e-3
 """A reserve, as a share of the load, that is not worth more points."""
-SLOWER = (1.001, 1.01, 1.03, 1.1, 1.3, 2.0)
-"""Factors of the time of the linear model that are tried until there is a plan of the hand that moves; the first one is
-room for the poses, which are the timing but for the corners of its speed."""
-DRAWN = 200
-"""Parts of the time at which the timing that was asked for is told beside."""
-LINES = (60, 120, 240)
-"""How many poses the path is told by: more where the linear model has no plan between those."""
-MUCH = 1.05
-"""Factor from which on the fastest timing of the linear model says little about the hand that moves."""
-HALVES = 2
-"""How often what lies between a factor with a plan and one without is halved."""
 
 
 @made_by("fastest_timing(grasp, task)")
@@ -124,7 +110,8 @@ def fastest_timing(grasp: Grasp, task: Task) -> FastestTiming:
     least time a second-order cone program (Verscheure et al. 2009, "Time-optimal path tracking for robots: a convex
     optimization approach"). b is 0 at both ends and at corners; the references have no jumps, and where the
     acceleration jumps the limits hold on both sides. This is the linear model of the start posture. Its timing is then
-    planned along the hand that moves, slowed down by a common factor until there is a plan.
+    planned along the hand that moves, slowed down by a common factor until there is a plan; where that takes much, the
+    timing that is asked for is looked at, too, with one factor on its times.
 
     Args:
         grasp: on a hand, with an object that has a mass.
@@ -173,79 +160,25 @@ def _attained(
     grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, given: float
 ) -> FastestTiming:
     """Return the timing as it is planned along the hand that moves."""
-    posed, passed = _posed(grasp, task, palm, path, found)
-
-    def planned(factor: float) -> Plan | None:
-        return _planned(grasp, _along(task, palm, _slowed(posed, factor)))
-
-    best, good, bad = None, SLOWER[-1], 0.0
-    for factor in SLOWER:
-        best, good = planned(factor), factor
-        if best is not None:
-            break
-        bad = factor
+    best = attained(grasp, task, palm, path, found)
     if best is None:
         why = f"no plan verified up to {SLOWER[-1]:g} times the time of the linear model, {found.seconds:.4g} s"
-        return _none(given, why, found.least)
-    for _ in range(HALVES if bad else 0):
-        middle = (good + bad) / 2
-        nearer = planned(middle)
-        best, good, bad = (best, good, middle) if nearer is None else (nearer, middle, bad)
-    slowed = _slowed(posed, good)
-    seconds = float(np.asarray(slowed.times)[-1])
+        return _none(given, f"{why}, nor of the timing that is asked for", found.least)
     return FastestTiming(
-        seconds, found.least, seconds, found.least is not None, found.local, given,
-        _claim(found, good, best.executed is not None), slowed, frozen(passed / passed[-1]),
-        _as_given(grasp, task, palm), best,
+        best.seconds, found.least, best.seconds, found.least is not None, found.local, given,
+        _claim(found, best), best.path, best.share, given_share(grasp, task, palm), best.plan,
     )  # fmt: skip
 
 
-def _as_given(grasp: Grasp, task: Task, palm: Palm | PalmPath) -> Array:
-    times = task.timed(grasp).times
-    return passed_as_given(palm, float(times[0]), float(times[-1]), scale_of(grasp).length, DRAWN)
-
-
-def _posed(
-    grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing
-) -> tuple[PalmPath, Array]:
-    """Return the timing as poses, as few as will do for the linear model, and the length passed at each of them."""
-    for lines in LINES:
-        posed, passed = as_poses(path, found.b, lines)
-        if isinstance(plan_of_start_posture(grasp, _along(task, palm, _slowed(posed, SLOWER[0]))), Plan):
-            break
-    return posed, passed
-
-
-def _planned(grasp: Grasp, task: Task) -> Plan | None:
-    """Return the plan along the hand that moves, if there is one; not where the start posture has none already."""
-    begun = plan_of_start_posture(grasp, task)
-    if not isinstance(begun, Plan):
-        return None
-    outcome = planned_along(begun, SOLVERS["clarabel"], WHOLE)
-    if isinstance(outcome, Plan) and outcome.interrupted:
-        raise KeyboardInterrupt
-    return outcome if isinstance(outcome, Plan) else None
-
-
-def _along(task: Task, palm: Palm | PalmPath, path: PalmPath) -> Task:
-    """Return the task with another path in place of the palm's own motion, at its lines."""
-    loads = tuple(path if load is palm else load for load in task.loads)
-    return task.replace(loads=loads, duration=None, knots=None)
-
-
-def _slowed(path: PalmPath, factor: float) -> PalmPath:
-    return PalmPath(np.asarray(path.times) * factor, path.poses, inertia=True)
-
-
-def _claim(found: Timing, factor: float, moves: bool) -> str:
+def _claim(found: Timing, best: Attained) -> str:
     """Return what is attained, and what is proven of what."""
-    who = "the hand that moves" if moves else "the linear model of the start posture"
-    slower = f", {100 * (factor - 1):.2g} % slower than the linear model of the start posture is"
-    if factor > MUCH:
-        slower += " (one factor on the times that are given, shortest_duration_s, may be less)"
+    who = "the hand that moves" if best.plan.executed is not None else "the linear model of the start posture"
+    slower = f"{100 * (best.seconds / found.seconds - 1):.2g} % slower than the linear model of the start posture is"
+    if best.as_asked:
+        slower = f"with one factor on the times that are given, {slower}"
     local = "; with limits on rates it is the best of those near it only" if found.local else ""
     proof = (
         "; less is proven impossible of the program of the linear model of the start posture, on a grid of the path"
         if found.least is not None else "; nothing is proven"
     )  # fmt: skip
-    return f"attained by a plan of {who}{slower}{local}{proof}"
+    return f"attained by a plan of {who}, {slower}{local}{proof}"
