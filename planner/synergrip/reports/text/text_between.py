@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from synergrip.conic.limits.limit import Usage
+from synergrip.documents.quantities import SHOWN_IN
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
 from synergrip.planning.verified import LIMIT
 from synergrip.reports.text.tables import wrapped
 from synergrip.reports.text.text_problem import many
+
+FINE = {"N": (1e3, "mN"), "m": (1e6, "um")}
+"""What small forces and lengths are told in."""
 
 
 def between_lines(plan: Plan) -> Iterator[str]:
@@ -51,7 +56,8 @@ def _departures(between: Between) -> Iterator[str]:
 def _limits(between: Between, asked: str | None) -> str:
     if between.excess <= LIMIT:
         exact = between.exact and not between.straight
-        return "all limits hold there too, and so at all times" if exact else "all limits hold there too"
+        hold = f"all limits hold there too{to_within(between.usages)}"
+        return f"{hold}, and so at all times" if exact else hold
     worst = max(between.usages, key=lambda usage: usage.violation)
     k, i = worst.worst()
     reached, limit = nearest(worst)
@@ -64,3 +70,19 @@ def _limits(between: Between, asked: str | None) -> str:
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
         f"past its limit of {limit}{advice}"
     )
+
+
+def to_within(usages: Sequence[Usage]) -> str:
+    """Return to within what limits hold that are missed by less than what counts as kept; nothing where none is."""
+    missed = dict[str, Usage]()
+    for usage in usages:  # of several of a name, as of several cases, the worst
+        if usage.violation > max(LIMIT, missed[usage.title].violation if usage.title in missed else 0.0):
+            missed[usage.title] = usage
+    if not missed:
+        return ""
+    return f" ({', '.join(f'{usage.title} to within {_size(usage)}' for usage in missed.values())})"
+
+
+def _size(usage: Usage) -> str:
+    factor, unit = FINE.get(usage.unit, SHOWN_IN.get(usage.unit, (1.0, usage.unit)))
+    return f"{factor * float(usage.excess.max()):.2g} {unit}".rstrip()

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import wrapped
+from synergrip.reports.text.text_between import to_within
 from synergrip.reports.text.text_problem import many
 
 OTHERS = 3
@@ -17,7 +18,8 @@ def case_lines(plan: Plan) -> Iterator[str]:
     """Yield the lines of ``allow``: in how many cases limits hold, and where the slip margin is smallest."""
     if plan.cases:
         who = "of the linear model" if plan.executed is None else "executed on the hand that moves"
-        told = f"all limits hold in {many(len(plan.cases), 'case')} {who}; {_least(plan.cases)}"
+        within = to_within([usage for case in plan.cases for usage in case.usages])
+        told = f"all limits hold in {many(len(plan.cases), 'case')} {who}{within}; {_least(plan.cases)}"
         gaps = plan.task.allowed is not None and plan.task.allowed.gaps.any()
         off = "; contacts that are off by the maps of each knot" if gaps and plan.executed is not None else ""
         yield from wrapped("allow    ", told + off + _share(plan))
