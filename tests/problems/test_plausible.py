@@ -17,7 +17,17 @@ from synergrip.hands.hand import Joint
 from synergrip.hands.posture_units import posture_doubt
 from synergrip.problems.problem import load_problem
 
-WORDS = ("coefficient of friction", "far from 9.81", "is larger than", "whole one", "from an edge", "is meant in")
+WORDS = (
+    "coefficient of friction",
+    "far from 9.81",
+    "is larger than",
+    "whole one",
+    "from an edge",
+    "is meant in",
+    "hands hold is so",
+    "gives by",
+    "more than any arm",
+)
 """One of each doubt."""
 
 
@@ -32,6 +42,14 @@ NOTED = [
     ("task.gravity=[0, -9.81, -9.81]", "task.gravity", "gravity of 13.87 m/s^2"),
     ('task.move=[{axis="z", lift="61 mm"}]', "task.move", "motion of 61 mm is larger than the box 40 x 30 x 60 mm (60"),
     ('task.move=[{axis="z", roll="361 deg"}]', "task.move", "a turn by 361 deg is more than a whole one"),
+    ('object.mass="200 kg"', "object.mass", "2e+05 g in the box around the box 40 x 30 x 60 mm are 2.78e+06 kg/m^3"),
+    ('object.mass="0.05 g"', "object.mass", "less than 1, as air"),
+    (
+        'contacts.stiffness="0.1 N/mm"',
+        "contacts.stiffness",
+        "contact 'left/tip' gives by 19.62 mm under the object's weight",
+    ),
+    ('task.palm={shift=["300 m", "0 m", "0 m"], inertia=true}', "task.palm", "the palm moves by 300 m"),
     (
         "object.position=['0 mm', '4 mm', '90.8 mm']",
         "contacts.at[0]",
@@ -40,6 +58,7 @@ NOTED = [
 ]
 NOT_NOTED = (
     "contacts.friction=2.0", "task.gravity=[0, 0, -9.78]", "task.gravity=[0, 6.937, -6.937]",
+    'object.mass="1.7 kg"', 'object.mass="0.1 g"', 'contacts.stiffness="0.17 N/mm"',
     'task.move=[{axis="z", lift="59 mm"}]', "object.position=['0 mm', '4 mm', '91.5 mm']",
 )  # fmt: skip
 

@@ -9,6 +9,7 @@ import numpy as np
 from synergrip.errors import Issue
 from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.objects import Object
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.hands.posture_units import posture_doubt
 from synergrip.linalg import Array
@@ -17,6 +18,12 @@ MOST_FRICTION = 2.0
 """Coefficient of friction that hardly any pair of dry surfaces exceeds."""
 NEAR = 1e-3
 """Nearer than this to an edge a contact is on it, as far as hands are placed [m]."""
+LIGHTEST, HEAVIEST = 1.0, 25000.0
+"""Densities that objects have [kg/m^3]: more than air has, and less than osmium and iridium have."""
+EARTH = 9.81
+"""[m/s^2]"""
+MUCH = 0.2
+"""Share of an object by which no contact gives under its weight."""
 STEPS, WAYS = 10, 16
 """Distances and directions in which an edge is looked for."""
 BEND = np.cos(np.radians(30))
@@ -33,6 +40,7 @@ def grasp_doubts(grasp: Grasp, friction_at: Callable[[int, str], str] = lambda p
     yield from _too_much_friction(grasp, friction_at)
     if grasp.held is not None:
         yield from _on_edges(grasp)
+        yield from list(_unlikely_mass(grasp.held.body)) or _soft_contacts(grasp, grasp.held.body)
         if said := posture_doubt(grasp.held.hand.joints, grasp.held.q):
             yield Issue(said, key="posture")
 
@@ -66,6 +74,39 @@ def _on_edges(grasp: Grasp) -> Iterator[Issue]:
                 f"{held.body.shape.title}: a pad that is placed a little otherwise touches another face, or none"
             )
             yield Issue(message, key=touch.key or "contacts")
+
+
+def _unlikely_mass(body: Object) -> Iterator[Issue]:
+    """Yield a mass that no solid of this shape has, by the box around it."""
+    if body.shape is None or not body.mass:
+        return
+    density = body.mass / float(np.prod(extents(body.shape)))
+    if not LIGHTEST < density < HEAVIEST:
+        than = f"more than {HEAVIEST:g}: no solid" if density > 1 else f"less than {LIGHTEST:g}, as air: nothing"
+        message = (
+            f"{1e3 * body.mass:.4g} g in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
+            "that hands hold is so; is it in another unit?"
+        )
+        yield Issue(message, key="object.mass")
+
+
+def _soft_contacts(grasp: Grasp, body: Object) -> Iterator[Issue]:
+    """Yield contacts that give by much of the object under its weight alone."""
+    if body.shape is None or not body.mass:
+        return
+    gives = np.diag(grasp.C_s)[np.asarray(grasp.normal_rows)] * body.mass * EARTH
+    size, most = float(extents(body.shape).max()), int(np.argmax(gives))
+    if gives[most] > MUCH * size:
+        message = (
+            f"contact '{grasp.contacts[most].name}' gives by {1e3 * gives[most]:.4g} mm under the object's weight, "
+            f'and that is {1e3 * size:.4g} mm large: stiffness is in N/m, or with its unit, as "8 N/mm"'
+        )
+        yield Issue(message, key="contacts.stiffness")
+
+
+def extents(shape: Shape) -> Array:
+    """Return the sizes (3,) of a shape along the axes of B [m]."""
+    return np.array([float((shape.farthest(axis) - shape.farthest(-axis)) @ axis) for axis in np.eye(3)])
 
 
 def edge_distance(shape: Shape, point: Array) -> float | None:

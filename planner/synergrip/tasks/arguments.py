@@ -41,8 +41,8 @@ class TaskArguments(Judge):
         """Return an angle [rad] of at most `MOST_TURNS`; NaN after noting that it is none, or likely in degrees."""
         found = self.real(name, value, unit="rad")
         if abs(found) > MOST_TURNS * 2 * math.pi:
-            what = f"more than {MOST_TURNS} turns; angles are in radians: np.radians(90) = 1.57"
-            self.refuse(name, f"{found:g} rad are {what}")
+            what = f"more than {MOST_TURNS} turns; degrees are '{found:g} deg' in a file, in code in radians: "
+            self.refuse(name, f"{found:g} rad are {what}np.radians(90) = 1.57")
         return found
 
     def turns(self, name: str, vectors: Array) -> None:

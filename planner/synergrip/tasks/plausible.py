@@ -8,17 +8,19 @@ import numpy as np
 
 from synergrip.errors import Issue
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.plausible import EARTH, extents
 from synergrip.grasps.scale import scale_of
-from synergrip.grasps.shapes.shape import Shape
 from synergrip.tasks.gravity import Gravity
+from synergrip.tasks.palm_motion import Palm
+from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 
-EARTH = 9.81
-"""[m/s^2]"""
 FAR = 0.05
 """Share of it by which gravity on the ground never differs."""
 TURN = 2 * np.pi
+ROOM = 10.0
+"""[m] By more than this no arm moves a palm."""
 
 
 def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
@@ -38,6 +40,10 @@ def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Itera
                     "the acceleration in m/s^2, neither a weight nor a multiple of g"
                 )
                 yield Issue(message, key=f"Task.loads[{place}]")
+        shift = _shift_of(load)
+        if shift > ROOM:
+            message = f"the palm moves by {shift:.4g} m, more than any arm does: lengths are in m, or with their unit"
+            yield Issue(message, key=f"Task.loads[{place}]")
     yield from _large_motion(timed, grasp)
 
 
@@ -49,7 +55,7 @@ def _large_motion(timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
     motion = timed.target.kind == "motion"
     shift = float(np.linalg.norm(values[:, :3] if motion else values, axis=1).max())
     shape = grasp.held.body.shape if grasp.held is not None else None
-    size = extent(shape) if shape is not None else 2 * scale_of(grasp).length
+    size = float(extents(shape).max()) if shape is not None else 2 * scale_of(grasp).length
     whose = f"the {shape.title}" if shape is not None else "the grasp"
     if shift > size:
         message = (
@@ -62,6 +68,10 @@ def _large_motion(timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
         yield Issue(message, key="Task.target")
 
 
-def extent(shape: Shape) -> float:
-    """Return the largest extent of a shape along the axes of B [m]."""
-    return max(float((shape.farthest(axis) - shape.farthest(-axis)) @ axis) for axis in np.eye(3))
+def _shift_of(load: object) -> float:
+    """Return how far a load moves the palm [m]."""
+    if isinstance(load, Palm):
+        return 0.0 if load.shift is None else float(np.linalg.norm(load.shift))
+    if isinstance(load, PalmPath):
+        return float(np.linalg.norm(np.ptp(np.asarray(load.poses)[:, :3], axis=0)))
+    return 0.0
