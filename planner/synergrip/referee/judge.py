@@ -138,8 +138,8 @@ def solve(question: Question, program: Program, settings: Settings) -> Solution:
     """
     formulation = question.formulation
     if formulation.allowed is not None:
-        message = "the second formulation writes down what a task states, and nothing that it allows for beside that"
-        raise InputError.at("solver", f"{message}; leave the solver out, or Task.allow")
+        message = "the solver 'cvxpy' writes down what a task states, and nothing that it allows for beside that"
+        raise InputError.at("Task.allow", f"{message}; leave one of them out")
     knots = Looks(formulation.times, formulation.wrench, formulation.target)
     model = _written(formulation, knots, _references(formulation))
     objective, limits, inside = cones_of(question, model, partial(_written, formulation))
