@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from synergrip.errors import Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import EARTH, extents
 from synergrip.grasps.scale import scale_of
+from synergrip.tasks.allowances import Allowances
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
@@ -44,6 +45,8 @@ def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Itera
         if shift > ROOM:
             message = f"the palm moves by {shift:.4g} m, more than any arm does: lengths are in m, or with their unit"
             yield Issue(message, key=f"Task.loads[{place}]")
+    if isinstance(task, Task) and task.allow is not None:
+        yield from _beside_what_is_stated(task.allow, grasp)
     yield from _large_motion(timed, grasp)
 
 
@@ -75,3 +78,19 @@ def _shift_of(load: object) -> float:
     if isinstance(load, PalmPath):
         return float(np.linalg.norm(np.ptp(np.asarray(load.poses)[:, :3], axis=0)))
     return 0.0
+
+
+def _beside_what_is_stated(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
+    """Yield intervals that the value stated lies outside of: it is held for all the same."""
+    mass = grasp.held.body.mass if grasp.held is not None else 0.0
+    if allow.mass is not None and mass and not allow.mass[0] <= mass <= allow.mass[1]:
+        low, high = (f"{1e3 * each:.4g} g" for each in allow.mass)
+        message = f"the object's own mass, {1e3 * mass:.4g} g, is not between {low} and {high}: it is held for, too"
+        yield Issue(message, key="Task.allow.mass")
+    for contact in grasp.contacts:
+        friction = float(getattr(contact.kind, "friction", np.nan))
+        own = allow.friction.get(contact.name) if isinstance(allow.friction, Mapping) else allow.friction
+        if own is not None and not own[0] <= friction <= own[1]:
+            where = f"that of contact '{contact.name}', {friction:.4g}, is not between {own[0]:.4g} and {own[1]:.4g}"
+            yield Issue(f"{where}: it is held for, too", key="Task.allow.friction")
+            return
