@@ -27,6 +27,7 @@ WORDS = (
     "hands hold is so",
     "gives by",
     "more than any arm",
+    "held for, too",
 )
 """One of each doubt."""
 
@@ -50,6 +51,8 @@ NOTED = [
         "contact 'left/tip' gives by 19.62 mm under the object's weight",
     ),
     ('task.palm={shift=["300 m", "0 m", "0 m"], inertia=true}', "task.palm", "the palm moves by 300 m"),
+    ('allow.mass=["250 g", "300 g"]', "allow.mass", "the object's own mass, 200 g, is not between 250 g and 300 g"),
+    ("allow.friction={'left/tip' = [0.7, 0.8]}", "allow.friction", "that of contact 'left/tip', 0.6, is not between"),
     (
         "object.position=['0 mm', '4 mm', '90.8 mm']",
         "contacts.at[0]",
@@ -58,6 +61,7 @@ NOTED = [
 ]
 NOT_NOTED = (
     "contacts.friction=2.0", "task.gravity=[0, 0, -9.78]", "task.gravity=[0, 6.937, -6.937]",
+    'allow.mass=["0.2 kg", "300 g"]', "allow.friction=[0.6, 0.8]",
     'object.mass="1.7 kg"', 'object.mass="0.1 g"', 'contacts.stiffness="0.17 N/mm"',
     'task.move=[{axis="z", lift="59 mm"}]', "object.position=['0 mm', '4 mm', '91.5 mm']",
 )  # fmt: skip
