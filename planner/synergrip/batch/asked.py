@@ -1,0 +1,163 @@
+"""What is asked of `plan_many`: N tasks as arrays, judged before anything is worked out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.object_error import AXES
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.documents.judging import as_numbers, described, is_list
+from synergrip.errors import InputError, kind_of
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.stack import GraspStack
+from synergrip.linalg import Array, frozen
+from synergrip.statics.analysis import Analysis
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
+
+LIMITS = (NormalForce, JointTorque, ActuatorEffort, SynergyReference, JointRange)
+GOALS = (LargestMargin, LeastEffort)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Asked(Value):
+    """N tasks of one knot."""
+
+    grasp: Grasp | Analysis | GraspStack
+    """One for all, or N."""
+    task: TimedTask
+    """What they have in common."""
+    wrench: Array  # (N, 6) [N, N m]
+    friction: Array | None  # (N,) factors
+
+    @property
+    def count(self) -> int:
+        """N."""
+        return len(self.wrench)
+
+    @property
+    def like(self) -> Grasp:
+        """A grasp of the form of all."""
+        return _like(self.grasp)
+
+    def task_at(self, place: int) -> TimedTask:
+        """Return one of the tasks by itself."""
+        return replace(self.task, wrench=self.wrench[place : place + 1], course=None)
+
+    def grasp_at(self, place: int) -> Grasp | Analysis:
+        """Return the grasp of one of the tasks."""
+        if self.friction is None and not isinstance(self.grasp, GraspStack):
+            return self.grasp
+        grasp: Grasp = self.grasp[place] if isinstance(self.grasp, GraspStack) else _like(self.grasp)
+        if self.friction is None or self.friction[place] == 1:
+            return grasp
+        factor = float(self.friction[place])
+        contacts = tuple(replace(contact, kind=contact.kind.slippery(factor)) for contact in grasp.contacts)
+        return replace(grasp, contacts=contacts)
+
+
+def _like(grasp: Grasp | Analysis | GraspStack) -> Grasp:
+    if isinstance(grasp, GraspStack):
+        return grasp.like
+    return grasp.grasp if isinstance(grasp, Analysis) else grasp
+
+
+def asked(grasp: Any, task: Any, wrenches: Any, frictions: Any, masses: Any) -> Asked:
+    """Return what is asked, or refuse it; arguments as of `plan_many`."""
+    whose = _grasps(grasp)
+    timed = _task(task, _like(whose))
+    factors = None if frictions is None else _numbers("frictions", frictions, (), "factors greater than 0", above=True)
+    loads = _loads(whose, task, timed, wrenches, masses)
+    counts = {"wrenches" if masses is None else "masses": len(loads)} if loads is not None else {}
+    counts |= {} if factors is None else {"frictions": len(factors)}
+    counts |= {"grasps": len(whose)} if isinstance(whose, GraspStack) else {}
+    if len(set(counts.values())) > 1:
+        told = ", ".join(f"{count} {name}" for name, count in counts.items())
+        raise InputError.at(next(iter(counts)), f"expected as many of each, got {told}")
+    count = next(iter(counts.values()), 1)
+    if loads is None:
+        loads = np.broadcast_to(timed.wrench, (count, 6))
+        if isinstance(whose, GraspStack) and isinstance(task, Task) and not task.loads:
+            loads = task.load_factor * whose.w_0
+    return Asked(whose, timed, frozen(loads), None if factors is None else frozen(factors))
+
+
+def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
+    if isinstance(grasp, Grasp | Analysis):
+        return grasp
+    if not isinstance(grasp, GraspStack) and (not is_list(grasp) or not isinstance(grasp, Sequence)):
+        raise InputError.at("grasp", f"expected a Grasp, an Analysis, a GraspStack or a list, got {kind_of(grasp)}")
+    stack = GraspStack.of(grasp)
+    first = stack.like
+    for place, each in enumerate(stack.given):
+        alike = each.joints == first.joints and (each.held is None) == (first.held is None)
+        if not alike or (each.held is not None and first.held is not None and each.held.hand is not first.held.hand):
+            message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
+            raise InputError.at(f"grasp[{place}]", message)
+    return stack
+
+
+def _task(task: Any, grasp: Grasp) -> TimedTask:
+    """Return the task at its one knot, or say what of it is not covered."""
+    if not isinstance(task, Task | TimedTask):
+        raise InputError.at("task", f"expected a Task, got {kind_of(task)}")
+    timed = task.timed(grasp) if isinstance(task, Task) else task.on(grasp)
+    hint = "; plan such tasks one by one with plan(...)"
+    wrong = {
+        "Task.knots": len(timed.times) != 1 and f"expected 1 knot, got {len(timed.times)}",
+        "Task.target": np.any(timed.target.values) and "expected Hold(): nothing moves in a task of one knot",
+        "Task.tracking": timed.tracking != "rigid" and "expected 'rigid'",
+        "Task.axes": len(timed.axes) < len(AXES) and "expected all six axes",
+        "Task.control": timed.control is not None and "is not covered",
+        "Task.allow": timed.allowed is not None and "is not covered",
+    }
+    for key, message in wrong.items():
+        if message:
+            raise InputError.at(key, f"{message}{hint}")
+    if grasp.held is not None and timed.linearise != "once":
+        message = "plan_many answers the linear model at the start posture: write Task(..., linearise='once'); along "
+        raise InputError.at("Task.linearise", f"{message}the motion, or the hand that really moves, is for plan(...)")
+    for limit in timed.limits:
+        if type(limit) not in LIMITS:
+            names = ", ".join(("SlipMargin", *(each.__name__ for each in LIMITS)))
+            raise InputError.at("Task.limits", f"expected limits of {names}; got {type(limit).__name__}{hint}")
+    if len(timed.goals) != 1 or type(timed.goals[0]) not in GOALS:
+        names = " or ".join(f"[{each.__name__}()]" for each in GOALS)
+        raise InputError.at("Task.goals", f"expected {names}, got {described(list(timed.goals))}{hint}")
+    return timed
+
+
+def _loads(whose: Any, task: Any, timed: TimedTask, wrenches: Any, masses: Any) -> Array | None:
+    """Return the loads (N, 6) that are given, those of masses, or None."""
+    if masses is None:
+        return None if wrenches is None else _numbers("wrenches", wrenches, (6,), "3 forces [N] and 3 moments [N m]")
+    if wrenches is not None:
+        raise InputError.at("masses", "wrenches say the whole load already; give one of the two")
+    found = _numbers("masses", masses, (), "masses [kg] greater than 0", above=True)
+    if isinstance(whose, GraspStack) or not isinstance(task, Task) or _like(whose).held is None:
+        raise InputError.at("masses", "needs one grasp on an object that has a mass, and a Task; give wrenches instead")
+    one, two = (task.timed(_like(whose).replace(mass=mass)).wrench[0] for mass in (1.0, 2.0))
+    return np.asarray(one + (found[:, None] - 1.0) * (two - one))  # the load is affine in the mass
+
+
+def _numbers(name: str, value: Any, shape: tuple[int, ...], what: str, *, above: bool = False) -> Array:
+    found = as_numbers(value)
+    wanted = f"expected {what}, shape ({', '.join(map(str, ('N', *shape)))}{',' * (not shape)})"
+    if found is None or found.ndim != 1 + len(shape) or found.shape[1:] != shape or not len(found):
+        raise InputError.at(name, f"{wanted}; got {described(value)}")
+    wrong = ~np.isfinite(found) | (found <= 0 if above else False)
+    if np.any(wrong):
+        place = int(np.flatnonzero(wrong.reshape(len(found), -1).any(axis=1))[0])
+        raise InputError.at(f"{name}[{place}]", f"{wanted}; got {float(found[wrong].ravel()[0]):g}")
+    return found

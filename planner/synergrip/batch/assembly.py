@@ -1,0 +1,172 @@
+"""Stated tasks as arrays of cone programs, in the units that a plan of each alone would have.
+
+Problem i has the unknowns ``v_i = (alpha / u_i, gamma)`` with u_i what its task asks of the contacts. Rows of forces are
+divided by u_i, others by the limit, as `conic` does; the margin's scalar comes last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.batch.cone_problems import ConeProblems
+from synergrip.batch.stacked_cones import Cones, stacked_cones
+from synergrip.batch.stated import Stated, lengths
+from synergrip.conic.goals.least_effort import Effort
+from synergrip.conic.limits.joint_range import JointRange
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
+from synergrip.conic.limits.slip_margin import SlipMargin
+from synergrip.conic.rows import Rows, within
+from synergrip.conic.variable_bounds import LARGEST, variable_bounds
+from synergrip.linalg import Array
+from synergrip.values import Value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Assembled(Value):
+    """N programs as arrays: ``M v + constant - head s`` lies in the cones, s the margin over the unit."""
+
+    stated: Stated
+    cones: tuple[Cones, ...]
+    unit: Array  # (N,) [N]
+    M: Array  # (N, m, n)
+    constant: Array  # (N, m) at a margin of 0
+    head: Array  # (N, m) what a margin of one unit takes from each row
+    sizes: tuple[int, ...]
+    bounds: Array  # (N, n) that every |v| keeps, which the limits imply or no plan exceeds
+
+    def largest_margin(self) -> ConeProblems:
+        """Return: maximise s, the last unknown."""
+        N, n = self.M.shape[0], self.M.shape[2]
+        q = np.zeros((1, n + 1))
+        q[0, -1] = -1.0
+        A = np.concatenate([-self.M, self.head[:, :, None]], axis=2)
+        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, A, self.constant, self.sizes) if N else _none(self)
+
+    def least_effort(self, of: Effort, margin: float) -> tuple[ConeProblems, Array]:
+        """Return: the least effort at a margin [N]; and the constant (N,) of its objective."""
+        F, f = self._effort(of)
+        b = self.constant - self.head * (margin / self.unit)[:, None]
+        problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], -self.M, b, self.sizes)
+        return problems, (f**2).sum(axis=-1) / 2
+
+    def _effort(self, of: Effort) -> tuple[Array, Array]:
+        """Return F (N, p, n) and f (N, p) of the squares ``||F v + f||^2 / 2``, in units of the load."""
+        stated, formulation = self.stated, self.stated.formulation
+        value = {"contact": formulation.force, "torque": formulation.torque, "actuator": formulation.effort}[of]
+        weights = stated.metric.force if of == "contact" else 1 / lengths(stated.metric)[..., None]
+        F = weights[..., None] * value.matrix * (self._columns() / self.unit[:, None])[:, None, :]
+        return F, value.constant * weights / self.unit[:, None]
+
+    def _columns(self) -> Array:
+        return columns(self.stated, self.unit)
+
+
+def _none(assembled: Assembled) -> ConeProblems:
+    n = assembled.M.shape[2] + 1
+    return ConeProblems(
+        np.zeros((1, n, n)), np.zeros((1, n)), np.zeros((1, sum(assembled.sizes), n)), assembled.constant,
+        assembled.sizes,
+    )  # fmt: skip
+
+
+def columns(stated: Stated, unit: Array) -> Array:
+    """Return (N, n) what each unknown is a multiple of."""
+    result = np.ones((stated.count, stated.formulation.n_v))
+    result[:, : stated.n_alpha] = unit[:, None]
+    return result
+
+
+def assembled(stated: Stated) -> Assembled:
+    """Return stated tasks as arrays."""
+    cones, unit = stacked_cones(stated.grasps, stated.friction), stated.unit
+    parts = sorted(_parts(stated, cones, unit), key=lambda part: part[0])  # half-lines first
+    N, scale = stated.count, columns(stated, unit)
+    sizes = tuple(size for size, matrix, *_ in parts for _ in range(matrix.shape[-2] // size))
+    total = sum(matrix.shape[-2] for _, matrix, *_ in parts)
+    M, constant = np.empty((N, total, scale.shape[1])), np.empty((N, total))
+    head, at = np.zeros((N, total)), 0
+    for _, matrix, value, divisor, takes in parts:
+        rows = slice(at, at + matrix.shape[-2])
+        np.divide(matrix * scale[:, None, :], divisor[..., None], out=M[:, rows])
+        constant[:, rows] = value / divisor
+        head[:, rows] = takes
+        at = rows.stop
+    return Assembled(stated, cones, unit, M, constant, head, sizes, _bounds(stated, cones, unit, scale))
+
+
+def _parts(
+    stated: Stated, cones: tuple[Cones, ...], unit: Array
+) -> Iterator[tuple[int, Array, Array, Array, Array | float]]:
+    """Yield size of cones, matrix, constant, what rows are divided by, and what a margin of one unit takes from them."""
+    force = stated.formulation.force
+    for each in cones:
+        value = force.after(each.W)
+        own = np.repeat(each.unit, each.size, axis=-1)
+        first = np.tile(np.eye(each.size)[0], len(each.contacts)) / own
+        yield each.size, value.matrix, value.constant, own * unit[:, None], first
+    for limit in stated.task.limits:
+        for rows in _rows(stated, limit):
+            yield rows.dim, rows.matrix, rows.constant, _divisor(limit, rows, unit), 0.0
+
+
+def _rows(stated: Stated, limit: Limit) -> list[Rows]:
+    """Return the rows of a limit; joint ranges from the posture of each grasp."""
+    formulation = stated.formulation
+    if not isinstance(limit, JointRange):
+        return list(limit.rows(formulation))
+    if limit.lets_go:
+        return []
+    own = limit.on(stated.grasps[0])
+    start = np.broadcast_to(own.start, (stated.count, len(own.start)))
+    if len(stated.grasps) > 1:
+        start = np.array([limit.on(grasp).start for grasp in stated.grasps])
+    half = (own.upper - own.lower) / 2
+    size = np.where(np.isfinite(half) & (half > 0), half, 1.0)
+    value = formulation.joint.plus(start)
+    return within(limit.key, formulation.response.grasp.joints, value, own.lower, own.upper, size)
+
+
+def _divisor(limit: Limit, rows: Rows, unit: Array) -> Array:
+    """Return (N, 1) by what the rows of a limit are divided beyond what the limit itself does in newtons."""
+    if not isinstance(limit, NormalForce):
+        return np.ones((len(unit), 1))
+    bound = limit.lower if rows.items[0].side == "lowest" else limit.upper
+    far = np.isfinite(bound) & (abs(bound) > FAR * unit)
+    return np.where(far, abs(bound), unit)[:, None] / bound_unit(bound, 1.0)
+
+
+def _bounds(stated: Stated, cones: tuple[Cones, ...], unit: Array, scale: Array) -> Array:
+    """Return (N, n) bounds on |v|: more friction lets contacts carry more along their tangents."""
+    formulation, limits = stated.formulation, stated.task.limits
+    most = 1.0
+    if stated.friction is not None:
+        most = max(1.0, float(stated.friction.max()))
+    if len(stated.grasps) > 1:
+        most *= _larger(stated)
+    wider = [_wider(limit, most) for limit in limits]
+    known = np.broadcast_to(variable_bounds(formulation, [SlipMargin(stated.task.margin), *wider]), scale.shape)
+    least = min(float(each.unit.min()) for each in cones)
+    far = LARGEST / least
+    return np.where(known >= LARGEST, far, np.minimum(known / scale, far))
+
+
+def _wider(limit: Limit, most: float) -> Limit:
+    """Return a limit on normal forces with what contacts carry where friction is larger; others as they are."""
+    return limit.loosened(most - 1.0) if isinstance(limit, NormalForce) and most > 1 else limit
+
+
+def _larger(stated: Stated) -> float:
+    """Return how many times as much as those of the first grasp contacts of the others carry for a normal force."""
+    kinds = [{grasp.contacts[i].kind for grasp in stated.grasps} for i in range(stated.grasps[0].n_c)]
+    ratios = [
+        float((kind.most / grasp.kind.most).max())
+        for grasp, every in zip(stated.grasps[0].contacts, kinds, strict=True)
+        for kind in every
+    ]
+    return max(1.0, *ratios)
+
+

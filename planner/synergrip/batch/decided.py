@@ -1,0 +1,114 @@
+"""From stated tasks to verified answers: largest margin first, so that what is infeasible ends in a proof."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.batch import verifier
+from synergrip.batch.assembly import Assembled, assembled
+from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status
+from synergrip.batch.physical import Physical, judged
+from synergrip.batch.stated import Stated
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
+from synergrip.linalg import Array
+from synergrip.values import Value
+
+TOLERANCE = 2e-9
+"""To which programs are solved: sharper than they are verified, by what the projection on the dual cones costs."""
+ENOUGH = 1e-3
+"""By how much of its unit a margin must exceed the one that is asked for, for a task to be taken as feasible at once."""
+AT_LEAST = 1e-8
+"""By how much of its unit a margin may be missed."""
+Solver = Callable[[ConeProblems, float, Array], ConeSolutions]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Decided(Value):
+    """What verified of N tasks; what is neither feasible nor infeasible is for somebody else."""
+
+    feasible: NDArray[np.bool_]
+    infeasible: NDArray[np.bool_]
+    largest_margin: Array  # (N,) [N]; nan where it was not looked for, or did not verify
+    dz_r: Array  # (N, n_z), nan where there is no plan
+    forces: Array  # (N, n_l)
+    margins: Array  # (N, n_c)
+
+
+def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
+    """Return what verifies of stated tasks.
+
+    Args:
+        stated: N tasks.
+        wrench: (N, 6) their loads.
+        solver: of the programs; it is not believed.
+    """
+    programs, goal, task = assembled(stated), stated.task.goals[0], stated.task
+    N = stated.count
+    none = np.zeros(N, dtype=bool)
+    if not stated.formulation.n_v:
+        return _told(stated, none, none, np.full(N, np.nan), None)
+    asked = task.margin / programs.unit
+    widest = programs.largest_margin()
+    every = isinstance(goal, LargestMargin)
+    found = solver(widest, TOLERANCE, np.full(N, -np.inf) if every else -asked - ENOUGH)
+    bounds = np.hstack([programs.bounds, np.full((N, 1), np.inf)])
+    optimal = verifier.judge_optimal(widest, found.x, found.z, bounds)
+    optimal.verified[found.status == Status.ENOUGH] = False
+    reached = found.x[:, -1]
+    short = optimal.verified & (reached < asked - AT_LEAST)
+    infeasible = short & _proven(programs, widest, found.z, asked)
+    largest = np.where(optimal.verified, reached * programs.unit, np.nan)
+    largest = np.where(np.abs(reached) > AT_LEAST, largest, 0.0 * largest)
+    if every:
+        kept = np.maximum(task.margin, largest)
+        plans = judged(programs, found.x[:, :-1], kept, wrench)
+        return _told(stated, optimal.verified & ~short & plans.holds, infeasible, largest, plans)
+    possible = np.flatnonzero(~short & ((found.status == Status.ENOUGH) | optimal.verified))
+    x, right = _least_effort(programs, goal, possible, solver)
+    plans = judged(programs, x, np.full(N, task.margin), wrench)
+    return _told(stated, right & plans.holds, infeasible, np.where(infeasible, largest, np.nan), plans)
+
+
+def _proven(programs: Assembled, widest: ConeProblems, z: Array, asked: Array) -> NDArray[np.bool_]:
+    """Return (N,) whether the multipliers of the largest margin prove that the one asked for is out of reach."""
+    b = programs.constant - programs.head * asked[:, None]
+    at_margin = ConeProblems(widest.P[:, :-1, :-1], widest.q[:, :-1], -programs.M, b, programs.sizes)
+    return verifier.judge_infeasible(at_margin, z, programs.bounds).verified
+
+
+def _least_effort(
+    programs: Assembled, goal: Goal, possible: Any, solver: Solver
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the best unknowns (N, n) of the tasks that are possible, and which of them verify."""
+    assert isinstance(goal, LeastEffort)
+    N, n = programs.M.shape[0], programs.M.shape[2]
+    x, right = np.full((N, n), np.nan), np.zeros(N, dtype=bool)
+    if not len(possible):
+        return x, right
+    problems, constant = programs.least_effort(goal.of, programs.stated.task.margin)
+    problems = problems.taken(possible)
+    found = solver(problems, TOLERANCE, np.full(len(possible), -np.inf))
+    bounds, own = programs.bounds[possible], constant[possible]
+    x[possible] = found.x
+    right[possible] = verifier.judge_optimal(problems, found.x, found.z, bounds, own).verified
+    return x, right
+
+
+def _told(
+    stated: Stated, feasible: NDArray[np.bool_], infeasible: NDArray[np.bool_], largest: Array, plans: Physical | None
+) -> Decided:
+    """Return it with nan where there is no plan."""
+    N, grasp = stated.count, stated.grasps[0]
+    shapes = {"dz_r": grasp.n_z, "forces": grasp.n_l, "margins": grasp.n_c}
+    arrays = {
+        name: np.where(feasible[:, None], np.nan if plans is None else getattr(plans, name), np.full((N, size), np.nan))
+        for name, size in shapes.items()
+    }
+    return Decided(feasible, infeasible, largest, **arrays)

@@ -1,0 +1,170 @@
+"""Many tasks of one knot planned at once; each answer verified, and what does not verify planned one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.batch.asked import Asked, asked
+from synergrip.batch.decided import Decided, Solver, decided
+from synergrip.batch.kernel import chosen
+from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
+from synergrip.batch.stated import Stated, stated_each, stated_on
+from synergrip.documents.naming import naming_arguments
+from synergrip.errors import Refusal, RigidContactError
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.stack import GraspStack
+from synergrip.linalg import Array
+from synergrip.log import LOG
+from synergrip.planning.accuracy import RELIED_ON, SHOWN
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.planning.planning import plan_of_start_posture
+from synergrip.statics.analyses import AnalysisGroup, analyse_many
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.response import shares
+from synergrip.tasks.task import Task
+from synergrip.tasks.timed_task import TimedTask
+
+CHUNK = 2048
+"""Tasks that are worked out together: enough to make calls cheap, few enough for memory and for an interrupt."""
+
+
+@naming_arguments
+def plan_many(
+    grasp: Grasp | Analysis | GraspStack | list[Grasp],
+    task: Task | TimedTask,
+    *,
+    wrenches: Array | None = None,
+    frictions: Array | None = None,
+    masses: Array | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> ManyPlans:
+    """Plan N tasks of one knot at once, which differ in load, friction, mass of the object, or grasp.
+
+    It answers what ``plan`` does of the linear model at the start posture (`Task(linearise="once")` on a hand), to 1e-6
+    of the load: verdicts, the largest margin or the least effort, forces and references. Among plans of the same
+    largest margin it takes any, and `plan` the one of least effort. What it does not verify is planned one by one.
+
+    Args:
+        grasp: one grasp for all tasks, or its `Analysis`; or a `GraspStack`, or a list, with a grasp for each.
+        task: what the tasks have in common: one knot, the object held, ``LargestMargin()`` or ``LeastEffort()`` as its
+            goal, limits of slip margin, normal force, joint torque, actuator effort, synergy reference and joint range.
+        wrenches: (N, 6) load of each, in place of the task's own: force [N] and moment about B [N m] on the object.
+        frictions: (N,) by which the friction of all contacts is multiplied.
+        masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
+        progress: told what is under way and which share of it is done, after every 2,048 tasks.
+
+    Returns:
+        arrays with a row for each task. An interrupt (Ctrl-C) keeps the rows that are finished.
+
+    Raises:
+        InputError: arguments that do not fit each other, or a task with what is not covered; the goal is unbounded.
+
+    Example:
+        >>> import numpy as np
+        >>> from synergrip import LargestMargin, NormalForce, Task, load_problem
+        >>> grasp = load_problem("tripod").grasp
+        >>> task = Task(knots=1, limits=[NormalForce(upper=20.0)], goals=[LargestMargin()])
+        >>> many = plan_many(grasp, task, wrenches=np.eye(6)[:3] * 5.0)
+        >>> many.verdicts.tolist()
+        ['feasible', 'feasible', 'feasible']
+    """
+    question = asked(grasp, task, wrenches, frictions, masses)
+    like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
+    whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
+    solver = chosen(question.count)
+    LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
+    try:
+        for start in range(0, question.count, CHUNK):
+            _chunk(question, whole, np.arange(start, min(start + CHUNK, question.count)), found, solver)
+            if progress is not None:
+                progress("planning", min(start + CHUNK, question.count) / question.count)
+    except KeyboardInterrupt:
+        LOG.info("interrupted after %d tasks", int(found.flags["finished"].sum()))
+    many = found.told()
+    LOG.info("%r", many)
+    return many
+
+
+def _analysed(grasp: Grasp) -> Analysis | None:
+    """Return the analysis of a grasp; None where `plan` has to say why there is none."""
+    try:
+        return analyse(grasp)
+    except Refusal:
+        return None
+
+
+def _chunk(
+    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp], found: Unfinished, solver: Solver
+) -> None:
+    """Answer the tasks at some places."""
+    open_ = np.ones(len(places), dtype=bool)
+    for within, stated, known in _stated(question, whole, places):
+        here = places[within]
+        answers = decided(stated, question.wrench[here], solver)
+        _fill(found, here, answers, known)
+        open_[within] = ~(known & (answers.feasible | answers.infeasible))
+    for place in places[open_].tolist():
+        _one_by_one(question, place, found)
+    found.flags["finished"][places] = True
+
+
+def _stated(
+    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp]
+) -> Iterator[tuple[NDArray[np.intp], Stated, NDArray[np.bool_]]]:
+    """Yield stated tasks, where among the places they are, and which rest on maps that are known well enough."""
+    friction = None if question.friction is None else question.friction[places]
+    if isinstance(whole, Analysis):
+        doubt = max(each.doubt for each in whole.response.accuracy.values())
+        if doubt <= min(SHOWN, RELIED_ON) and whole.response.restrained:
+            every = np.arange(len(places))
+            known = np.ones(len(places), dtype=bool)
+            yield every, stated_on(whole, question.task, question.wrench[places], friction), known
+        return
+    if whole is None:
+        return
+    part = whole.taken(slice(int(places[0]), int(places[-1]) + 1))
+    for group in analyse_many(part).groups:
+        within = group.places
+        own = None if friction is None else friction[within]
+        wrench = question.wrench[places[within]]
+        grasps = group.response.grasps.given or (part.like,)
+        yield within, stated_each(group, grasps, question.task, wrench, own), _known(group)
+
+
+def _known(group: AnalysisGroup) -> NDArray[np.bool_]:
+    """Return (N,) whether the maps of each grasp are known well enough to be relied on without a word."""
+    figures = group.response.figures
+    return np.asarray(np.all(shares(figures[..., 2:].max(axis=-1), figures) <= SHOWN, axis=-1))
+
+
+def _fill(found: Unfinished, places: NDArray[np.intp], answers: Decided, known: NDArray[np.bool_]) -> None:
+    feasible, infeasible = answers.feasible & known, answers.infeasible & known
+    found.verdicts[places[feasible]], found.verdicts[places[infeasible]] = FEASIBLE, INFEASIBLE
+    right = feasible | infeasible
+    found.flags["verified"][places] = right
+    for name, values in found.numbers.items():
+        values[places[right]] = getattr(answers, name)[right]
+
+
+def _one_by_one(question: Asked, place: int, found: Unfinished) -> None:
+    """Let `plan` answer a task: the same model, one program at a time."""
+    found.flags["one_by_one"][place] = True
+    try:
+        outcome: Any = plan_of_start_posture(question.grasp_at(place), question.task_at(place))
+    except RigidContactError as error:
+        if not isinstance(question.grasp, GraspStack):
+            raise
+        found.refusals[place] = error
+        return
+    found.verdicts[place] = outcome.verdict
+    found.flags["verified"][place] = not isinstance(outcome, Plan) or outcome.decisions[-1].optimal
+    found.flags["verified"][place] &= isinstance(outcome, Plan | Infeasible)
+    if isinstance(outcome, Plan | Infeasible) and outcome.largest_margin is not None:
+        found.numbers["largest_margin"][place] = outcome.largest_margin
+    if isinstance(outcome, Plan):
+        for name in ("margins", "forces", "dz_r"):
+            found.numbers[name][place] = getattr(outcome, name)[0]

@@ -1,0 +1,131 @@
+"""Tasks of one knot on one grasp, or on grasps of like dimensions, stacked: problem k is knot k of one formulation.
+
+Limits and goals write their rows for all knots at once, with one matrix for all or one for each; what they write for the
+knots of a trajectory they so write for many tasks that know nothing of each other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from synergrip.conic.affine import times
+from synergrip.conic.departure import Departure
+from synergrip.conic.formulate import formulate
+from synergrip.conic.formulation import Formulation, Units
+from synergrip.conic.limits.normal_force import least_normal_force
+from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.scale import Metric
+from synergrip.linalg import Array, frozen
+from synergrip.statics.analyses import AnalysisGroup
+from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each, EachGrasp, EachResponse
+from synergrip.statics.motion import forces_at_start
+from synergrip.statics.subspaces import Bases
+from synergrip.tasks.scaling import smallest_cap
+from synergrip.tasks.timed_task import TimedTask
+from synergrip.values import Value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Stated(Value):
+    """N tasks of one knot, in newtons: what differs is load, friction and, of many grasps, everything of the grasp."""
+
+    task: TimedTask
+    """What they have in common."""
+    formulation: Formulation
+    """Knot k is problem k; its unknowns are internal forces in newtons and redundancy in units of the references."""
+    friction: Array | None
+    """(N,) by which friction is multiplied; None for the contacts as they are."""
+    grasps: tuple[Grasp, ...]
+    """One for all, or N."""
+    metric: Metric
+    """Scaled coordinates of the one grasp, or (N, ...) of each."""
+
+    @property
+    def count(self) -> int:
+        """N."""
+        return self.formulation.knots
+
+    @property
+    def n_alpha(self) -> int:
+        """Unknowns that are internal forces; the others are redundancy."""
+        return int(self.formulation.alpha.matrix.shape[0])
+
+    @property
+    def unit(self) -> Array:
+        """(N,) [N] what each task asks of its contacts: forces are measured against it, as in a plan of one task."""
+        load = np.abs(self.at_rest * self.metric.force).max(axis=-1)
+        unit = np.maximum(load, max(self.task.margin, least_normal_force(self.task.limits)))
+        if np.all(unit > 0):
+            return np.asarray(unit)
+        formulation = self.formulation
+        one = Analysis(self.grasps[0], formulation.response, formulation.spaces, formulation.coordinates)
+        return np.where(unit > 0, unit, smallest_cap(one, self.task))
+
+    @property
+    def at_rest(self) -> Array:
+        """(N, n_l) contact forces without references: what the load causes by itself [N, N m]."""
+        return self.formulation.force.constant
+
+
+def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Array | None) -> Stated:
+    """Return the tasks with loads (N, 6) and frictions (N,) on one grasp."""
+    found = _formulated(analysis, task, wrench)
+    return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), analysis.response.scale)
+
+
+def stated_each(
+    group: AnalysisGroup, grasps: tuple[Grasp, ...], task: TimedTask, wrench: Array, friction: Array | None
+) -> Stated:
+    """Return the tasks with loads (N, 6) and frictions (N,) on the N grasps of a group, each on its own."""
+    found = replace(_formulated(group.at(0), task, wrench), each=_each(group, grasps))
+    return Stated(task, _held_at_start(found, wrench), friction, grasps, group.response.grasps.metric)
+
+
+def _formulated(analysis: Analysis, task: TimedTask, wrench: Array) -> Formulation:
+    N, held = len(wrench), np.zeros((len(wrench), analysis.spaces.dimensions[1]))
+    finite = [limit.limit[np.isfinite(limit.limit)] for limit in task.limits if isinstance(limit, SynergyReference)]
+    reference = max((float(each.max()) for each in finite if each.size), default=1.0)
+    return formulate(
+        analysis.response, analysis.spaces, analysis.coordinates, times=np.arange(N, dtype=float), wrench=wrench,
+        beta=held, units=Units(1.0, reference), redundancy=task.watches_references,
+    )  # fmt: skip
+
+
+def _held_at_start(formulation: Formulation, wrench: Array) -> Formulation:
+    """Return it with the load held when the task begins, where that is a hand's: it displaces nothing any more."""
+    grasp = formulation.response.grasp
+    if grasp.held is None:
+        return formulation
+    N = len(wrench)
+    force = times(formulation.map_of(lambda at: at.response.dlambda_dw), wrench)
+    torque = times(formulation.map_of(lambda at: at.response.grasp.J.mT), force)
+    begun = Departure(frozen(force), frozen(torque), frozen(np.zeros((N, grasp.n_q))), frozen(np.zeros((N, 6))))
+    without = replace(formulation, wrench=frozen(np.broadcast_to(grasp.w_0, (N, 6))), departure=begun)
+    if formulation.each is not None:
+        return without
+    at_start = replace(formulation.response, grasp=replace(grasp, w_0=frozen(np.zeros(6))))
+    return replace(without, response=at_start, wrench=frozen(np.zeros((N, 6))))
+
+
+def _each(group: AnalysisGroup, grasps: tuple[Grasp, ...]) -> Each:
+    """Return the statics of a group as those at the knots of a motion; what hands hold at the start is told apart."""
+    matrices, w_0 = group.response.grasps.matrices, group.response.grasps.w_0
+    if grasps[0].held is not None:
+        w_0 = np.broadcast_to(grasps[0].w_0, w_0.shape)
+        begun = np.zeros((len(w_0), matrices.G.shape[-1]))
+    elif all(grasp.lambda_0 is None for grasp in grasps):
+        begun = (group.response.dlambda_dw @ w_0[:, :, None])[:, :, 0]
+    else:
+        begun = np.array([forces_at_start(group.response.at(k)) for k in range(len(grasps))])
+    grasp = EachGrasp(matrices.G, matrices.J, matrices.S, frozen(begun), frozen(w_0))
+    bases = Bases(**{each.name: getattr(group.spaces, each.name) for each in fields(Bases)})
+    return Each(EachResponse.of(group.response, grasp), bases, group.coordinates, group.response.grasps.metric)
+
+
+def lengths(metric: Metric) -> Array:
+    """Return the characteristic length of a grasp, or (N,) of each [m]."""
+    return metric.motion_sizes[..., 3]
