@@ -98,3 +98,12 @@ class ConeSolutions(Value):
     z: Array  # (N, m) multipliers
     status: NDArray[np.int8]  # (N,) of `Status`
     iterations: NDArray[np.int32]  # (N,)
+
+
+class Tolerance(NamedTuple):
+    """To which a kernel solves."""
+
+    residual: float = 1e-8
+    """Of ``P x + q + A'z``, relative to its terms, and of ``A x + s - b``."""
+    gap: float = 1e-8
+    """``s'z``, relative to the objective or to 1."""

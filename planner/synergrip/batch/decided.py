@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from synergrip.batch import verifier
 from synergrip.batch.assembly import Assembled, assembled
-from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status
+from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status, Tolerance
 from synergrip.batch.physical import Physical, judged
 from synergrip.batch.stated import Stated
 from synergrip.conic.goals.goal import Goal
@@ -20,13 +20,15 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.linalg import Array
 from synergrip.values import Value
 
-TOLERANCE = 2e-9
-"""To which programs are solved: sharper than they are verified, by what the projection on the dual cones costs."""
+OF_MARGIN = Tolerance(5e-9, 2e-9)
+"""To which the largest margin is found: sharper than it is verified, by what the projection on the dual cones costs."""
+OF_EFFORT = Tolerance(1e-8, 1e-11)
+"""To which the least effort is found: forces are known to the root of the gap."""
 ENOUGH = 1e-3
 """By how much of its unit a margin must exceed the one that is asked for, for a task to be taken as feasible at once."""
 AT_LEAST = 1e-8
 """By how much of its unit a margin may be missed."""
-Solver = Callable[[ConeProblems, float, Array], ConeSolutions]
+Solver = Callable[[ConeProblems, Tolerance, Array], ConeSolutions]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,7 +59,7 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
     asked = task.margin / programs.unit
     widest = programs.largest_margin()
     every = isinstance(goal, LargestMargin)
-    found = solver(widest, TOLERANCE, np.full(N, -np.inf) if every else -asked - ENOUGH)
+    found = solver(widest, OF_MARGIN, np.full(N, -np.inf) if every else -asked - ENOUGH)
     bounds = np.hstack([programs.bounds, np.full((N, 1), np.inf)])
     optimal = verifier.judge_optimal(widest, found.x, found.z, bounds)
     optimal.verified[found.status == Status.ENOUGH] = False
@@ -94,7 +96,7 @@ def _least_effort(
         return x, right
     problems, constant = programs.least_effort(goal.of, programs.stated.task.margin)
     problems = problems.taken(possible)
-    found = solver(problems, TOLERANCE, np.full(len(possible), -np.inf))
+    found = solver(problems, OF_EFFORT, np.full(len(possible), -np.inf))
     bounds, own = programs.bounds[possible], constant[possible]
     x[possible] = found.x
     right[possible] = verifier.judge_optimal(problems, found.x, found.z, bounds, own).verified

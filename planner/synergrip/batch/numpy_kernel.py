@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status
+from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status, Tolerance
 from synergrip.batch.scaling import Scaling, heads
 from synergrip.linalg import Array
 
@@ -40,10 +40,13 @@ class _State:
     places: NDArray[np.intp]  # (N,) among all
     enough: Array  # (N,)
     x: Array
+    s: Array
+    z: Array
     W: Scaling
+    """That of s and z, carried on by itself: made anew from these it would lose half of the digits."""
 
     def taken(self, places: NDArray[np.bool_]) -> _State:
-        parts = (each[places] for each in (self.places, self.enough, self.x))
+        parts = (each[places] for each in (self.places, self.enough, self.x, self.s, self.z))
         return _State(self.problems.taken(places), *parts, self.W.taken(places))
 
 
@@ -51,19 +54,16 @@ class _State:
 class _Residuals:
     of_x: Array  # (N, n)
     of_s: Array  # (N, m)
-    s: Array
-    z: Array
     gap: Array  # (N,)
     done: NDArray[np.int8]  # (N,) of `Status`
-    sizes: tuple[Array, Array, Array]
 
 
-def solve(problems: ConeProblems, tolerance: float, enough: Array) -> ConeSolutions:
+def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSolutions:
     """Solve problems side by side.
 
     Args:
         problems: of one shape.
-        tolerance: of residuals and gap, relative to the problem's numbers or to 1.
+        tolerance: of residuals and gap.
         enough: (N,) a value of the objective with which a point that keeps all cones is taken; minus infinity for none.
     """
     N, n, m = len(problems), problems.q.shape[-1], problems.b.shape[1]
@@ -96,13 +96,13 @@ def solve(problems: ConeProblems, tolerance: float, enough: Array) -> ConeSoluti
 
 def _keep(found: ConeSolutions, state: _State, left: _Residuals, which: NDArray[np.bool_], iteration: int) -> None:
     places = state.places[which]
-    found.x[places], found.s[places], found.z[places] = state.x[which], left.s[which], left.z[which]
+    found.x[places], found.s[places], found.z[places] = state.x[which], state.s[which], state.z[which]
     found.status[places], found.iterations[places] = left.done[which], iteration
 
 
 def _taken(left: _Residuals, which: NDArray[np.bool_]) -> _Residuals:
-    parts = (each[which] for each in (left.of_x, left.of_s, left.s, left.z, left.gap, left.done))
-    return _Residuals(*parts, sizes=left.sizes)
+    parts = (each[which] for each in (left.of_x, left.of_s, left.gap, left.done))
+    return _Residuals(*parts)
 
 
 def _start(problems: ConeProblems, enough: Array) -> _State:
@@ -112,7 +112,7 @@ def _start(problems: ConeProblems, enough: Array) -> _State:
     x, z = _solved(_factor(problems.P + problems.A.mT @ problems.A), problems.A, -q, problems.b)
     unit = heads(problems.groups)
     s, z = (_inside(W, part, unit) for part in (-z, z))
-    return _State(problems, np.arange(len(problems)), enough, x, W.carried_on(s, z))
+    return _State(problems, np.arange(len(problems)), enough, x, s, z, W.carried_on(s, z))
 
 
 def _inside(W: Scaling, point: Array, unit: Array) -> Array:
@@ -122,21 +122,20 @@ def _inside(W: Scaling, point: Array, unit: Array) -> Array:
     return np.asarray(point + np.where(least > 1e-8 * size, 0.0, 1.0 - least)[:, None] * unit)
 
 
-def _residuals(state: _State, tolerance: float) -> _Residuals:
+def _residuals(state: _State, tolerance: Tolerance) -> _Residuals:
     """Return what is missing to an optimum, and where nothing is."""
-    problems, x, W = state.problems, state.x, state.W
-    s, z = W.scaled(W.point), W.unscaled(W.point)
+    problems, x, s, z = state.problems, state.x, state.s, state.z
     of_P = (problems.P @ x[:, :, None])[:, :, 0]
     of_x = of_P + problems.q + (z[:, None, :] @ problems.A)[:, 0, :]
     of_s = (problems.A @ x[:, :, None])[:, :, 0] + s - problems.b
-    gap = (W.point**2).sum(axis=-1)
-    half, linear = (x * of_P).sum(axis=-1) / 2, (x * problems.q).sum(axis=-1)
-    value = half + linear
+    gap = (state.W.point**2).sum(axis=-1)
+    value = (x * of_P).sum(axis=-1) / 2 + (x * problems.q).sum(axis=-1)
     size = np.maximum(1.0, np.abs(of_P).max(axis=-1))
-    kept = np.abs(of_s).max(axis=-1, initial=0.0) <= tolerance
-    solved = kept & (np.abs(of_x).max(axis=-1) <= tolerance * size) & (gap <= tolerance * np.maximum(1.0, np.abs(value)))
+    kept = np.abs(of_s).max(axis=-1, initial=0.0) <= tolerance.residual
+    stationary = np.abs(of_x).max(axis=-1) <= tolerance.residual * size
+    solved = kept & stationary & (gap <= tolerance.gap * np.maximum(1.0, np.abs(value)))
     done = np.where(solved, Status.SOLVED, np.where(kept & (value <= state.enough), Status.ENOUGH, Status.NOTHING))
-    return _Residuals(of_x, of_s, s, z, gap, done.astype(np.int8), (half, linear, size))
+    return _Residuals(of_x, of_s, gap, done.astype(np.int8))
 
 
 def _stepped(state: _State, left: _Residuals) -> tuple[_State, NDArray[np.bool_]]:
@@ -162,7 +161,11 @@ def _stepped(state: _State, left: _Residuals) -> tuple[_State, NDArray[np.bool_]
     stuck = ~(step[:, 0] > STUCK) | ~np.isfinite(dx).all(axis=-1)
     step = np.where(stuck[:, None], 0.0, step)
     ds, dz, dx = (np.where(stuck[:, None], 0.0, each) for each in (ds, dz, dx))
-    return replace(state, x=state.x + step * dx, W=W.carried_on(point + step * ds, point + step * dz)), stuck
+    moved = replace(
+        state, x=state.x + step * dx, s=state.s + W.scaled(step * ds), z=state.z + W.unscaled(step * dz),
+        W=W.carried_on(point + step * ds, point + step * dz),
+    )  # fmt: skip
+    return moved, stuck
 
 
 def _solved(factor: Array, rows: Array, of_x: Array, of_s: Array) -> tuple[Array, Array]:
