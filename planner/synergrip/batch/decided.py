@@ -64,15 +64,16 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
     optimal = verifier.judge_optimal(widest, found.x, found.z, bounds)
     optimal.verified[found.status == Status.ENOUGH] = False
     reached = found.x[:, -1]
-    short = optimal.verified & (reached < asked - AT_LEAST)
-    infeasible = short & _proven(programs, widest, found.z, asked)
+    close = optimal.verified & (reached >= asked - AT_LEAST)
+    # where limits clash without any friction, the multipliers grow into a proof of that by themselves
+    infeasible = ~close & (found.status != Status.ENOUGH) & _proven(programs, widest, found.z, asked)
     largest = np.where(optimal.verified, reached * programs.unit, np.nan)
     largest = np.where(np.abs(reached) > AT_LEAST, largest, 0.0 * largest)
     if every:
         kept = np.maximum(task.margin, largest)
         plans = judged(programs, found.x[:, :-1], kept, wrench)
-        return _told(stated, optimal.verified & ~short & plans.holds, infeasible, largest, plans)
-    possible = np.flatnonzero(~short & ((found.status == Status.ENOUGH) | optimal.verified))
+        return _told(stated, close & plans.holds, infeasible, largest, plans)
+    possible = np.flatnonzero(close | (found.status == Status.ENOUGH))
     x, right = _least_effort(programs, goal, possible, solver)
     plans = judged(programs, x, np.full(N, task.margin), wrench)
     return _told(stated, right & plans.holds, infeasible, np.where(infeasible, largest, np.nan), plans)
