@@ -1,0 +1,78 @@
+"""The way from plain arrays to the compiled kernel and back: eight problems side by side in every entry."""
+
+from __future__ import annotations
+
+import time
+from functools import cache
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+
+from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Tolerance
+from synergrip.linalg import Array
+from synergrip.log import LOG
+
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_kernel.py", "numpy_kernel.py")
+"""What the compiled kernel is made of: when it changes, the one that is kept on the disk is none of it."""
+
+
+def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSolutions:
+    """Solve problems side by side; arguments as of `numpy_kernel.solve`."""
+    N, n, m = len(problems), problems.q.shape[-1], problems.b.shape[1]
+    starts = np.cumsum((0, *problems.sizes[:-1]))
+    cones = np.array([starts, problems.sizes], dtype=np.int64).T.copy()
+    given = _in_lanes(problems, enough)
+    entries, wide = given.shape[1], n + n % 2
+    size = entries + n + 2 * m + 2 + 2 * m + len(cones) + m * wide + wide**2 + 2 * n + 5 * m
+    found = compiled()(given, n, m, cones, tolerance.residual, tolerance.gap, size)
+    flat = found.transpose(0, 2, 1).reshape(-1, found.shape[1])[:N]
+    x, s, z, told = np.split(flat, (n, n + m, n + 2 * m), axis=1)
+    return ConeSolutions(x, s, z, told[:, 0].astype(np.int8), told[:, 1].astype(np.int32))
+
+
+def _in_lanes(problems: ConeProblems, enough: Array) -> Array:
+    """Return all numbers of the problems (groups, entries, 8); the last group is filled up with its last problem."""
+    from synergrip.batch.lanes import LANES
+
+    N, parts = len(problems), (problems.P, problems.q, problems.A, problems.b, enough[:, None])
+    entries = sum(part[0].size for part in parts)
+    groups = -(-N // LANES)
+    given, at = np.empty((groups, entries, LANES)), 0
+    whole, rest = N // LANES, N % LANES
+    for part in parts:
+        flat = part.reshape(len(part), -1)
+        here = given[:, at : at + flat.shape[1]]
+        at += flat.shape[1]
+        if len(flat) == 1:
+            here[:] = flat[0, :, None]
+            continue
+        here[:whole] = flat[: whole * LANES].reshape(whole, LANES, -1).transpose(0, 2, 1)
+        if rest:
+            last = flat[whole * LANES :]
+            here[whole, :, :rest], here[whole, :, rest:] = last.T, last[-1][:, None]
+    return given
+
+
+@cache
+def compiled() -> Any:
+    """Return the compiled kernel: from the disk, or compiled once, which is told."""
+    from synergrip.batch.lanes_kernel import made
+
+    folder = Path(__file__).parent
+    stamp = crc32(b"".join((folder / name).read_bytes() for name in SOURCES))
+    function = made(stamp)
+    start = time.perf_counter()
+    LOG.info("loading the compiled kernel; the first time on a machine it is compiled, which takes about half a minute")
+    _ready(function)
+    hits = sum(function.stats.cache_hits.values())
+    if not hits and not function.stats.cache_path:
+        LOG.warning("the compiled kernel cannot be kept: no folder for it can be written; it is compiled in every run")
+    LOG.info("the kernel was %s in %.1f s", "loaded" if hits else "compiled", time.perf_counter() - start)
+    return function
+
+
+def _ready(function: Any) -> None:
+    """Have a function compiled: it solves no problem at all."""
+    function(np.zeros((0, 1, 1)), 1, 1, np.ones((1, 2), dtype=np.int64), 1e-8, 1e-8, 1)

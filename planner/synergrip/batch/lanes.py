@@ -1,0 +1,139 @@
+"""Eight numbers side by side as one value in code that Numba compiles: the compiler keeps them in vector registers.
+
+Loops over eight problems are not vectorised by themselves, because arrays might overlap. A type that is a vector to the
+compiler leaves nothing to find out: ``load``, ``store``, arithmetic and ``where_less`` work on all lanes at once.
+Imported only where Numba is there.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core.cgutils import get_or_insert_function
+from numba.extending import intrinsic, models, overload, register_model
+
+LANES = 8
+VECTOR = ir.VectorType(ir.DoubleType(), LANES)
+ANY_ORDER = ("contract",)
+"""A product and a sum may become one instruction."""
+
+
+class Lanes(types.Type):  # type: ignore[misc]
+    """The type of eight numbers."""
+
+    def __init__(self) -> None:
+        """Make it."""
+        super().__init__(name=f"Lanes{LANES}")
+
+
+lanes = Lanes()
+
+
+@register_model(Lanes)
+class _Model(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, dmm: Any, fe_type: Any) -> None:
+        super().__init__(dmm, fe_type, VECTOR)
+
+
+def _place(context: Any, builder: Any, of: Any, array: Any, index: Any) -> Any:
+    """Return a pointer to eight numbers of an array (entries * 8,)."""
+    data = context.make_array(of)(context, builder, array).data
+    first = builder.gep(data, [builder.mul(index, ir.Constant(index.type, LANES))])
+    return builder.bitcast(first, VECTOR.as_pointer())
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def load(typing: Any, array: Any, index: Any) -> Any:
+    """Return the entry (8,) of an array (entries * 8,)."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.load(_place(context, builder, signature.args[0], *arguments), align=8)
+
+    return lanes(array, types.intp), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def store(typing: Any, array: Any, index: Any, value: Any) -> Any:
+    """Write an entry (8,) of an array (entries * 8,)."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.store(arguments[2], _place(context, builder, signature.args[0], *arguments[:2]), align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, lanes), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def all_of(typing: Any, value: Any) -> Any:
+    """Return a number in all lanes."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        one = builder.insert_element(ir.Constant(VECTOR, ir.Undefined), arguments[0], ir.Constant(ir.IntType(32), 0))
+        order = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
+        return builder.shuffle_vector(one, one, order)
+
+    return lanes(types.float64), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def root(typing: Any, value: Any) -> Any:
+    """Return square roots."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        kind = ir.FunctionType(VECTOR, [VECTOR])
+        return builder.call(get_or_insert_function(builder.module, kind, f"llvm.sqrt.v{LANES}f64"), arguments)
+
+    return lanes(lanes), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def where_less(typing: Any, a: Any, b: Any, yes: Any, no: Any) -> Any:
+    """Return `yes` in lanes where a < b, else `no`: that also where one of the two is no number."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        a, b, yes, no = arguments
+        return builder.select(builder.fcmp_ordered("<", a, b), yes, no)
+
+    return lanes(lanes, lanes, lanes, lanes), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def any_above_zero(typing: Any, value: Any) -> Any:
+    """Return whether a lane is above 0."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        above = builder.fcmp_ordered(">", arguments[0], ir.Constant(VECTOR, [0.0] * LANES))
+        bits = builder.bitcast(above, ir.IntType(LANES))
+        return builder.icmp_unsigned("!=", bits, ir.Constant(bits.type, 0))
+
+    return types.boolean(lanes), made
+
+
+def _binary(name: str) -> Any:
+    @intrinsic  # type: ignore[untyped-decorator]
+    def made(typing: Any, a: Any, b: Any) -> Any:
+        def built(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            return getattr(builder, name)(*arguments, flags=ANY_ORDER)
+
+        return lanes(lanes, lanes), built
+
+    return made
+
+
+_add, _sub, _mul, _div = (_binary(name) for name in ("fadd", "fsub", "fmul", "fdiv"))
+
+
+def _operator(which: Any, vectors: Any) -> None:
+    def applied(a: Any, b: Any) -> Any:
+        return vectors(a, b)
+
+    @overload(which)  # type: ignore[untyped-decorator]
+    def chosen(a: Any, b: Any) -> Any:
+        return applied if isinstance(a, Lanes) and isinstance(b, Lanes) else None
+
+
+for _which, _vectors in ((operator.add, _add), (operator.sub, _sub), (operator.mul, _mul), (operator.truediv, _div)):
+    _operator(_which, _vectors)

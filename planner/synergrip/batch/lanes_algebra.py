@@ -1,0 +1,193 @@
+"""The algebra of `cone_algebra.py` in lanes: one workspace of eight problems, quantities by their offsets in it.
+
+A cone is its first row and its number of rows. Imported only where Numba is there.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+
+from synergrip.batch.lanes import all_of, load, root, store, where_less
+
+compiled = numba.njit(cache=True, error_model="numpy")
+
+
+@compiled  # type: ignore[untyped-decorator]
+def larger(a: Any, b: Any) -> Any:
+    """Return the larger of two in every lane."""
+    return where_less(a, b, b, a)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def magnitude(a: Any) -> Any:
+    """Return |a|."""
+    return larger(a, all_of(0.0) - a)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def determinant(w: Any, a: int, first: int, size: int) -> Any:
+    """Return ``a'J a`` of a cone."""
+    squares = all_of(0.0)
+    for i in range(first + 1, first + size):
+        part = load(w, a + i)
+        squares = squares + part * part
+    length, head = root(squares), load(w, a + first)
+    return (head - length) * (head + length)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
+    """Return a'b of a cone."""
+    total = load(w, a + first) * load(w, b + first)
+    for i in range(first + 1, first + size):
+        total = total + load(w, a + i) * load(w, b + i)
+    return total
+
+
+@compiled  # type: ignore[untyped-decorator]
+def flipped_dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
+    """Return a'J b of a cone."""
+    total = load(w, a + first) * load(w, b + first)
+    for i in range(first + 1, first + size):
+        total = total - load(w, a + i) * load(w, b + i)
+    return total
+
+
+@compiled  # type: ignore[untyped-decorator]
+def add_scaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
+    """Add ``W x`` to what is there."""
+    two = all_of(2.0)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        factor = load(w, beta + c)
+        if size == 1:
+            store(w, out + first, load(w, out + first) + factor * load(w, x + first))
+            continue
+        twice = two * dot(w, v, x, first, size)
+        head = twice * load(w, v + first) - load(w, x + first)
+        store(w, out + first, load(w, out + first) + factor * head)
+        for i in range(first + 1, first + size):
+            part = twice * load(w, v + i) + load(w, x + i)
+            store(w, out + i, load(w, out + i) + factor * part)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def unscaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
+    """Write ``W^-1 x``."""
+    two, one = all_of(2.0), all_of(1.0)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        factor = one / load(w, beta + c)
+        if size == 1:
+            store(w, out + first, factor * load(w, x + first))
+            continue
+        twice = two * flipped_dot(w, v, x, first, size)
+        store(w, out + first, factor * (twice * load(w, v + first) - load(w, x + first)))
+        for i in range(first + 1, first + size):
+            store(w, out + i, factor * (load(w, x + i) - twice * load(w, v + i)))
+
+
+@compiled  # type: ignore[untyped-decorator]
+def unscaled_rows(w: Any, v: int, beta: int, A: int, out: int, n: int, wide: int, cones: Any) -> None:
+    """Write ``W^-1 A``, rows of n numbers, as rows of `wide` numbers."""
+    two, one = all_of(2.0), all_of(1.0)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        factor = one / load(w, beta + c)
+        if size == 1:
+            for j in range(n):
+                store(w, out + first * wide + j, factor * load(w, A + first * n + j))
+            continue
+        for j in range(n):
+            total = load(w, v + first) * load(w, A + first * n + j)
+            for i in range(first + 1, first + size):
+                total = total - load(w, v + i) * load(w, A + i * n + j)
+            twice = two * total
+            head = twice * load(w, v + first) - load(w, A + first * n + j)
+            store(w, out + first * wide + j, factor * head)
+            for i in range(first + 1, first + size):
+                store(w, out + i * wide + j, factor * (load(w, A + i * n + j) - twice * load(w, v + i)))
+
+
+@compiled  # type: ignore[untyped-decorator]
+def divided(w: Any, b: int, a: int, out: int, cones: Any) -> None:
+    """Write c whose Jordan product with a is b."""
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        if size == 1:
+            store(w, out + first, load(w, b + first) / load(w, a + first))
+            continue
+        head = flipped_dot(w, a, b, first, size) / determinant(w, a, first, size)
+        over = all_of(1.0) / load(w, a + first)
+        for i in range(first + 1, first + size):
+            store(w, out + i, over * (load(w, b + i) - head * load(w, a + i)))
+        store(w, out + first, head)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def less_product(w: Any, a: int, b: int, centre: Any, out: int, cones: Any) -> None:
+    """Write ``centre e - a o b`` with the unit e of every cone."""
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        of_a, of_b = load(w, a + first), load(w, b + first)
+        head = centre - dot(w, a, b, first, size)
+        for i in range(first + 1, first + size):
+            store(w, out + i, all_of(0.0) - of_a * load(w, b + i) - of_b * load(w, a + i))
+        store(w, out + first, head)
+
+
+@compiled  # type: ignore[untyped-decorator]
+def longest_step(w: Any, at: int, step: int, cones: Any) -> Any:
+    """Return how far a step may go before it leaves a cone."""
+    zero, one = all_of(0.0), all_of(1.0)
+    most = all_of(1e-300)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        if size == 1:
+            most = larger(most, (zero - load(w, step + first)) / load(w, at + first))
+            continue
+        over = one / root(determinant(w, at, first, size))
+        head = over * over * flipped_dot(w, at, step, first, size)
+        factor = (head + over * load(w, step + first)) / (over * load(w, at + first) + one)
+        squares = zero
+        for i in range(first + 1, first + size):
+            part = over * (load(w, step + i) - factor * load(w, at + i))
+            squares = squares + part * part
+        most = larger(most, root(squares) - head)
+    return one / most
+
+
+@compiled  # type: ignore[untyped-decorator]
+def carried_on(w: Any, v: int, beta: int, point: int, s: int, z: int, cones: Any) -> None:
+    """Write v, beta and lambda of a pair that is s and z in the coordinates of the old scaling."""
+    one, half = all_of(1.0), all_of(0.5)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        if size == 1:
+            ours, theirs = load(w, s + first), load(w, z + first)
+            store(w, beta + c, load(w, beta + c) * root(ours / theirs))
+            store(w, point + first, root(ours * theirs))
+            continue
+        of_s, of_z = root(determinant(w, s, first, size)), root(determinant(w, z, first, size))
+        over_s, over_z = one / of_s, one / of_z
+        middle = root(half * (one + over_s * over_z * dot(w, s, z, first, size)))
+        with_s = over_s * dot(w, v, s, first, size)
+        with_z = over_z * flipped_dot(w, v, z, first, size)
+        over = half / middle
+        mean, apart = over * (with_s + with_z), with_s - with_z
+        v_0, s_0, z_0 = load(w, v + first), over_s * load(w, s + first), over_z * load(w, z + first)
+        head = v_0 * (mean + mean) - over * (s_0 + z_0)
+        turn = (v_0 * apart - half * s_0 + half * z_0) / (head + one)
+        by_v = apart - (turn + turn) * mean
+        by_s, by_z = half * (one - turn / middle), half * (one + turn / middle)
+        size_of = root(of_s * of_z)
+        norm = one / root(all_of(2.0) * (head + one))
+        for i in range(first + 1, first + size):
+            v_i, s_i, z_i = load(w, v + i), over_s * load(w, s + i), over_z * load(w, z + i)
+            store(w, point + i, size_of * (by_v * v_i + by_s * s_i + by_z * z_i))
+            store(w, v + i, norm * ((mean + mean) * v_i + over * (s_i - z_i)))
+        store(w, point + first, size_of * middle)
+        store(w, v + first, norm * (head + one))
+        store(w, beta + c, load(w, beta + c) * root(of_s / of_z))
