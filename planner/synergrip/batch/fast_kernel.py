@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from zlib import crc32
 
 import numpy as np
@@ -14,8 +15,48 @@ from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Tolerance
 from synergrip.linalg import Array
 from synergrip.log import LOG
 
-SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_kernel.py", "numpy_kernel.py")
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_linear.py", "lanes_kernel.py", "numpy_kernel.py")
 """What the compiled kernel is made of: when it changes, the one that is kept on the disk is none of it."""
+
+
+class Layout(NamedTuple):
+    """Where things are in the workspace of eight problems, and how many: given, answers, and what is on the way."""
+
+    n: int
+    m: int
+    wide: int
+    """Columns of R and H: n, or one more, so that they are even."""
+    P: int
+    q: int
+    A: int
+    b: int
+    enough: int
+    x: int
+    s: int
+    z: int
+    status: int
+    count: int
+    v: int
+    beta: int
+    point: int
+    R: int
+    H: int
+    rx: int
+    rs: int
+    scaled_rs: int
+    dx: int
+    ds: int
+    dz: int
+    aim: int
+    end: int
+
+    @classmethod
+    def of(cls, n: int, m: int, cones: int) -> Layout:
+        """Return the layout of programs with n unknowns and m rows in so many cones."""
+        wide = n + n % 2
+        given, answers = (n * n, n, m * n, m, 1), (n, m, m, 1, 1)
+        on_the_way = (m, cones, m, m * wide, wide * wide, n, m, m, n, m, m, m)
+        return cls(n, m, wide, *accumulate((0, *given, *answers, *on_the_way)))
 
 
 def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSolutions:
@@ -23,10 +64,7 @@ def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSo
     N, n, m = len(problems), problems.q.shape[-1], problems.b.shape[1]
     starts = np.cumsum((0, *problems.sizes[:-1]))
     cones = np.array([starts, problems.sizes], dtype=np.int64).T.copy()
-    given = _in_lanes(problems, enough)
-    entries, wide = given.shape[1], n + n % 2
-    size = entries + n + 2 * m + 2 + 2 * m + len(cones) + m * wide + wide**2 + 2 * n + 5 * m
-    found = compiled()(given, n, m, cones, tolerance.residual, tolerance.gap, size)
+    found = compiled()(_in_lanes(problems, enough), Layout.of(n, m, len(cones)), cones, *tolerance)
     flat = found.transpose(0, 2, 1).reshape(-1, found.shape[1])[:N]
     x, s, z, told = np.split(flat, (n, n + m, n + 2 * m), axis=1)
     return ConeSolutions(x, s, z, told[:, 0].astype(np.int8), told[:, 1].astype(np.int32))
@@ -75,4 +113,4 @@ def compiled() -> Any:
 
 def _ready(function: Any) -> None:
     """Have a function compiled: it solves no problem at all."""
-    function(np.zeros((0, 1, 1)), 1, 1, np.ones((1, 2), dtype=np.int64), 1e-8, 1e-8, 1)
+    function(np.zeros((0, 1, 1)), Layout.of(1, 1, 1), np.ones((1, 2), dtype=np.int64), *Tolerance())

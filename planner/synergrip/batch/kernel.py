@@ -1,11 +1,30 @@
-"""Which kernel solves a batch of cone programs."""
+"""Which kernel solves a batch of cone programs: the compiled one where Numba is there and it repays, else NumPy's."""
 
 from __future__ import annotations
 
-from synergrip.batch import numpy_kernel
+from importlib.util import find_spec
+
+from synergrip.batch import fast_kernel, numpy_kernel
 from synergrip.batch.decided import Solver
+from synergrip.errors import InputError, one_of
+
+REPAID = 20_000
+"""Problems for which the compiled kernel is loaded, and compiled once on a machine (half a minute)."""
+KERNELS = ("numpy", "numba")
 
 
-def chosen(count: int) -> Solver:
-    """Return the kernel for so many problems."""
+def chosen(count: int, kernel: str | None = None) -> Solver:
+    """Return the kernel for so many problems, or the one of a name.
+
+    Raises:
+        InputError: there is no such kernel, or Numba is not installed.
+    """
+    if kernel is not None and kernel not in KERNELS:
+        raise InputError.at("kernel", one_of(kernel, KERNELS))
+    there = find_spec("numba") is not None
+    if kernel == "numba" and not there:
+        raise InputError.at("kernel", "'numba' needs Numba: pip install 'synergrip[fast]'")
+    loaded = there and fast_kernel.compiled.cache_info().currsize > 0
+    if kernel == "numba" or (kernel is None and there and (loaded or count >= REPAID)):
+        return fast_kernel.solve
     return numpy_kernel.solve

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numba
+import numpy as np
 
 from synergrip.batch.lanes import all_of, load, root, store, where_less
 
@@ -191,3 +192,24 @@ def carried_on(w: Any, v: int, beta: int, point: int, s: int, z: int, cones: Any
         store(w, point + first, size_of * middle)
         store(w, v + first, norm * (head + one))
         store(w, beta + c, load(w, beta + c) * root(of_s / of_z))
+
+
+@compiled  # type: ignore[untyped-decorator]
+def moved_inside(w: Any, a: int, m: int, cones: Any) -> None:
+    """Move a point along the unit where it is not well inside its cones."""
+    least, squares = all_of(np.inf), all_of(0.0)
+    for r in range(m):
+        part = load(w, a + r)
+        squares = squares + part * part
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        tail = all_of(0.0)
+        for i in range(first + 1, first + size):
+            part = load(w, a + i)
+            tail = tail + part * part
+        inside = load(w, a + first) - root(tail)
+        least = where_less(inside, least, inside, least)
+    enough = all_of(1e-8) * larger(all_of(1.0), root(squares))
+    shift = where_less(enough, least, all_of(0.0), all_of(1.0) - least)
+    for c in range(len(cones)):
+        store(w, a + cones[c, 0], load(w, a + cones[c, 0]) + shift)

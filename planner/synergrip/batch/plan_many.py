@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +40,7 @@ def plan_many(
     wrenches: Array | None = None,
     frictions: Array | None = None,
     masses: Array | None = None,
+    kernel: Literal["numpy", "numba"] | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> ManyPlans:
     """Plan N tasks of one knot at once, which differ in load, friction, mass of the object, or grasp.
@@ -55,6 +56,8 @@ def plan_many(
         wrenches: (N, 6) load of each, in place of the task's own: force [N] and moment about B [N m] on the object.
         frictions: (N,) by which the friction of all contacts is multiplied.
         masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
+        kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
+            first where it is installed and there are tasks enough to repay it (20,000, or it is loaded already).
         progress: told what is under way and which share of it is done, after every 2,048 tasks.
 
     Returns:
@@ -75,7 +78,7 @@ def plan_many(
     question = asked(grasp, task, wrenches, frictions, masses)
     like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
-    solver = chosen(question.count)
+    solver = chosen(question.count, kernel)
     LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
     try:
         for start in range(0, question.count, CHUNK):
