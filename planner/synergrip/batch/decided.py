@@ -22,8 +22,8 @@ from synergrip.values import Value
 
 OF_MARGIN = Tolerance(5e-9, 2e-9)
 """To which the largest margin is found: sharper than it is verified, by what the projection on the dual cones costs."""
-OF_EFFORT = Tolerance(1e-8, 1e-11)
-"""To which the least effort is found: forces are known to the root of the gap."""
+OF_EFFORT = (Tolerance(1e-8, 1e-11), Tolerance(1e-8, 2e-9))
+"""To which the least effort is found: forces are known to the root of the gap; and where rounding leaves less."""
 ENOUGH = 1e-3
 """By how much of its unit a margin must exceed the one that is asked for, for a task to be taken as feasible at once."""
 AT_LEAST = 1e-8
@@ -96,11 +96,14 @@ def _least_effort(
     if not len(possible):
         return x, right
     problems, constant = programs.least_effort(goal.of, programs.stated.task.margin)
-    problems = problems.taken(possible)
-    found = solver(problems, OF_EFFORT, np.full(len(possible), -np.inf))
-    bounds, own = programs.bounds[possible], constant[possible]
-    x[possible] = found.x
-    right[possible] = verifier.judge_optimal(problems, found.x, found.z, bounds, own).verified
+    for tolerance in OF_EFFORT:
+        theirs, own = problems.taken(possible), constant[possible]
+        found = solver(theirs, tolerance, np.full(len(possible), -np.inf))
+        x[possible] = found.x
+        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, programs.bounds[possible], own).verified
+        possible = possible[~right[possible]]
+        if not len(possible):
+            break
     return x, right
 
 
