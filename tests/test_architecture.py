@@ -14,7 +14,7 @@ PACKAGE = Path(synergrip.__file__).parent
 REPOSITORY = Path(__file__).parent.parent
 LINE = (
     "ground documents hands grasps statics equilibrium conic tasks problems|referee planning "
-    "changes explain|margin|simulation reports cli"
+    "batch changes explain|margin|simulation reports cli"
 )
 """From left to right; those beside each other do not know each other. The ground the house stands on is not a folder:
 errors, linear algebra, files."""
@@ -46,8 +46,12 @@ ONLY_IN = {
             "margins",
         )
     },
+    "numba": {"batch/lanes.py", "batch/lanes_algebra.py", "batch/lanes_kernel.py"},
+    "llvmlite": {"batch/lanes.py"},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
+COMPILED = {f"batch/{name}.py" for name in ("lanes", "lanes_algebra", "lanes_linear", "lanes_kernel")}
+"""Files that Numba compiles: of its types from the first line on, and imported by others inside functions alone."""
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
 
 
@@ -116,7 +120,13 @@ def test_the_certificate_imports_no_solver(name: str) -> None:
 @pytest.mark.parametrize("name", FILES)
 def test_heavy_libraries_are_imported_where_they_are_used(name: str) -> None:
     heavy = {"cvxpy", "matplotlib", "viser", "dask", "numba", "mujoco", "clarabel", "pandas", "qpsolvers", "osqp"}
-    tops = {imported.split(".")[0] for imported in imports(PACKAGE / name, top_level_only=True)}
+    at_top = set(imports(PACKAGE / name, top_level_only=True))
+    tops = {imported.split(".")[0] for imported in at_top}
+    if name in COMPILED:
+        tops -= {"numba"}
+    else:
+        files = {each.replace("/", ".").removesuffix(".py") for each in COMPILED}
+        assert not [each for each in at_top if ".".join(each.split(".")[1:3]) in files], name
     assert not tops & heavy, f"{name} imports {tops & heavy} at its top"
 
 

@@ -99,6 +99,8 @@ from synergrip.planning.outcome import Plan as Plan
 from synergrip.planning.in_case import InCase as InCase
 from synergrip.planning.outcome import Infeasible as Infeasible
 from synergrip.planning.outcome import Unknown as Unknown
+from synergrip.batch.plan_many import plan_many as plan_many
+from synergrip.batch.many_plans import ManyPlans as ManyPlans
 from synergrip.explain.explanation import Explanation as Explanation
 from synergrip.explain.repairs import Repair as Repair
 from synergrip.explain.when import When as When

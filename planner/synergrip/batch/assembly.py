@@ -1,7 +1,7 @@
 """Stated tasks as arrays of cone programs, in the units that a plan of each alone would have.
 
-Problem i has the unknowns ``v_i = (alpha / u_i, gamma)`` with u_i what its task asks of the contacts. Rows of forces are
-divided by u_i, others by the limit, as `conic` does; the margin's scalar comes last.
+Problem i has the unknowns ``v_i = (alpha / u_i, gamma)`` with u_i what its task asks of the contacts. Rows of forces
+are divided by u_i, others by the limit, as `conic` does; the margin's scalar comes last.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def assembled(stated: Stated) -> Assembled:
 def _parts(
     stated: Stated, cones: tuple[Cones, ...], unit: Array
 ) -> Iterator[tuple[int, Array, Array, Array, Array | float]]:
-    """Yield size of cones, matrix, constant, what rows are divided by, and what a margin of one unit takes from them."""
+    """Yield size of cones, matrix, constant, what rows are divided by, and what a margin of one unit takes."""
     force = stated.formulation.force
     for each in cones:
         value = force.after(each.W)
@@ -168,5 +168,3 @@ def _larger(stated: Stated) -> float:
         for kind in every
     ]
     return max(1.0, *ratios)
-
-

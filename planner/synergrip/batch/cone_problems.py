@@ -20,7 +20,7 @@ class Group(NamedTuple):
     """Consecutive cones of one size."""
 
     rows: slice
-    count: int
+    cones: int
     size: int
     """Rows of each cone; 1 for half-lines."""
 

@@ -25,7 +25,7 @@ OF_MARGIN = Tolerance(5e-9, 2e-9)
 OF_EFFORT = (Tolerance(1e-8, 1e-11), Tolerance(1e-8, 2e-9))
 """To which the least effort is found: forces are known to the root of the gap; and where rounding leaves less."""
 ENOUGH = 1e-3
-"""By how much of its unit a margin must exceed the one that is asked for, for a task to be taken as feasible at once."""
+"""By how much of its unit a margin must exceed the one that is asked for, for a task to count as feasible at once."""
 AT_LEAST = 1e-8
 """By how much of its unit a margin may be missed."""
 Solver = Callable[[ConeProblems, Tolerance, Array], ConeSolutions]
@@ -86,9 +86,7 @@ def _proven(programs: Assembled, widest: ConeProblems, z: Array, asked: Array) -
     return verifier.judge_infeasible(at_margin, z, programs.bounds).verified
 
 
-def _least_effort(
-    programs: Assembled, goal: Goal, possible: Any, solver: Solver
-) -> tuple[Array, NDArray[np.bool_]]:
+def _least_effort(programs: Assembled, goal: Goal, possible: Any, solver: Solver) -> tuple[Array, NDArray[np.bool_]]:
     """Return the best unknowns (N, n) of the tasks that are possible, and which of them verify."""
     assert isinstance(goal, LeastEffort)
     N, n = programs.M.shape[0], programs.M.shape[2]

@@ -35,7 +35,7 @@ class Layout(NamedTuple):
     s: int
     z: int
     status: int
-    count: int
+    iterations: int
     v: int
     beta: int
     point: int

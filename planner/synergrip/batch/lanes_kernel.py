@@ -163,7 +163,7 @@ def _eight(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Non
         count = count + active
         _move(w, at, cones, step, active)
     store(w, at.status, status)
-    store(w, at.count, count)
+    store(w, at.iterations, count)
 
 
 def made(stamp: int) -> Any:

@@ -45,9 +45,12 @@ class _State:
     W: Scaling
     """That of s and z, carried on by itself: made anew from these it would lose half of the digits."""
 
-    def taken(self, places: NDArray[np.bool_]) -> _State:
-        parts = (each[places] for each in (self.places, self.enough, self.x, self.s, self.z))
-        return _State(self.problems.taken(places), *parts, self.W.taken(places))
+    def taken(self, which: NDArray[np.bool_]) -> _State:
+        """Return some of them."""
+        return _State(
+            self.problems.taken(which), self.places[which], self.enough[which], self.x[which], self.s[which],
+            self.z[which], self.W.taken(which),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,10 @@ class _Residuals:
     of_s: Array  # (N, m)
     gap: Array  # (N,)
     done: NDArray[np.int8]  # (N,) of `Status`
+
+    def taken(self, which: NDArray[np.bool_]) -> _Residuals:
+        """Return those of some problems."""
+        return _Residuals(self.of_x[which], self.of_s[which], self.gap[which], self.done[which])
 
 
 def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSolutions:
@@ -82,7 +89,7 @@ def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSo
             if not active.any():
                 return found
             if active.mean() < LEFT:
-                state, left = state.taken(active), _taken(left, active)
+                state, left = state.taken(active), left.taken(active)
                 active = np.ones(len(state.places), dtype=bool)
             state, stuck = _stepped(state, left)
             gone = active & stuck
@@ -98,11 +105,6 @@ def _keep(found: ConeSolutions, state: _State, left: _Residuals, which: NDArray[
     places = state.places[which]
     found.x[places], found.s[places], found.z[places] = state.x[which], state.s[which], state.z[which]
     found.status[places], found.iterations[places] = left.done[which], iteration
-
-
-def _taken(left: _Residuals, which: NDArray[np.bool_]) -> _Residuals:
-    parts = (each[which] for each in (left.of_x, left.of_s, left.gap, left.done))
-    return _Residuals(*parts)
 
 
 def _start(problems: ConeProblems, enough: Array) -> _State:

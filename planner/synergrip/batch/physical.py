@@ -70,15 +70,13 @@ def _balanced(stated: Stated, forces: Array, wrench: Array) -> NDArray[np.bool_]
     return np.asarray(np.abs(scaled).max(axis=1) <= EXACT * np.maximum(size, 1e-12))
 
 
-def _kept(
-    stated: Stated, limit: Limit, forces: Array, dz_r: Array, wrench: Array, carried: Array
-) -> NDArray[np.bool_]:
+def _kept(stated: Stated, limit: Limit, forces: Array, dz_r: Array, wrench: Array, carried: Array) -> NDArray[np.bool_]:
     """Return (N,) whether a limit is kept by physical quantities."""
     formulation = stated.formulation
     if isinstance(limit, NormalForce):
         normal = forces[:, stated.grasps[0].normal_rows]
         beyond = np.maximum(normal - limit.upper, limit.lower - normal)
-        return np.all(beyond <= LIMIT * carried, axis=1)
+        return np.asarray(np.all(beyond <= LIMIT * carried, axis=1))
     torques = times(formulation.map_of(lambda at: at.response.grasp.J.mT), forces)
     if isinstance(limit, JointTorque):
         return _within(torques, limit.limit)
@@ -97,8 +95,9 @@ def _kept(
     )  # fmt: skip
     value = start + times(formulation.map_of(lambda at: at.response.dq_dzr), dz_r) + of_load
     half = np.where(np.isfinite(own.upper - own.lower), (own.upper - own.lower) / 2, 1.0)
-    return np.all(np.maximum(value - own.upper, own.lower - value) <= LIMIT * half, axis=1)
+    beyond = np.maximum(value - own.upper, own.lower - value)
+    return np.asarray(np.all(beyond <= LIMIT * half, axis=1))
 
 
 def _within(values: Array, limit: Array) -> NDArray[np.bool_]:
-    return np.all(np.abs(values) <= limit * (1 + LIMIT), axis=1)
+    return np.asarray(np.all(np.abs(values) <= limit * (1 + LIMIT), axis=1))

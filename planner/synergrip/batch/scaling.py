@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.batch import cone_algebra as cone
 from synergrip.batch.cone_problems import Group
@@ -28,14 +29,14 @@ class Scaling:
         """Return W = 1 with lambda the unit of every cone."""
         parts = []
         for group in groups:
-            v = np.zeros((count, group.count, group.size))
+            v = np.zeros((count, group.cones, group.size))
             v[..., 0] = 1.0
-            parts.append((v, np.ones((count, group.count))))
+            parts.append((v, np.ones((count, group.cones))))
         return cls(tuple(groups), tuple(parts), np.broadcast_to(heads(groups), (count, heads(groups).size)))
 
-    def taken(self, places: Array) -> Scaling:
+    def taken(self, which: NDArray[np.bool_]) -> Scaling:
         """Return that of some problems."""
-        return Scaling(self.groups, tuple((v[places], beta[places]) for v, beta in self.parts), self.point[places])
+        return Scaling(self.groups, tuple((v[which], beta[which]) for v, beta in self.parts), self.point[which])
 
     def scaled(self, x: Array) -> Array:
         """Return W x (N, m)."""
@@ -53,7 +54,7 @@ class Scaling:
             if group.size == 1:
                 result[:, group.rows] = of_lines(beta, x[:, group.rows])
             else:
-                shape = (len(x), group.count, group.size)
+                shape = (len(x), group.cones, group.size)
                 result[:, group.rows] = of_cones(v, beta, x[:, group.rows].reshape(shape)).reshape(len(x), -1)
         return result
 
@@ -66,7 +67,7 @@ class Scaling:
             if group.size == 1:
                 result[:, group.rows] = rows / beta[..., None]
             else:
-                whole = cone.unscaled_rows(v, beta, rows.reshape(len(A), group.count, group.size, n))
+                whole = cone.unscaled_rows(v, beta, rows.reshape(len(A), group.cones, group.size, n))
                 result[:, group.rows] = whole.reshape(N, -1, n)
         return result
 
@@ -79,7 +80,7 @@ class Scaling:
                 parts.append((v, beta * np.sqrt(ours / theirs)))
                 point[:, group.rows] = np.sqrt(ours * theirs)
             else:
-                shape = (len(s), group.count, group.size)
+                shape = (len(s), group.cones, group.size)
                 v, beta, new = cone.carried_on(v, beta, ours.reshape(shape), theirs.reshape(shape))
                 parts.append((v, beta))
                 point[:, group.rows] = new.reshape(len(s), -1)
@@ -98,7 +99,7 @@ class Scaling:
         for group in self.groups:
             ours, theirs = a[:, group.rows], b[:, group.rows]
             if group.size > 1:
-                shape = (len(a), group.count, group.size)
+                shape = (len(a), group.cones, group.size)
                 result[:, group.rows] = of_cones(ours.reshape(shape), theirs.reshape(shape)).reshape(len(a), -1)
             else:
                 result[:, group.rows] = of_lines(ours, theirs)
@@ -108,7 +109,7 @@ class Scaling:
         """Return (N,) how far a (N, m) is inside all cones: the least of head less length of the tail."""
         result = np.full(len(a), np.inf)
         for group in self.groups:
-            part = a[:, group.rows].reshape(len(a), group.count, group.size)
+            part = a[:, group.rows].reshape(len(a), group.cones, group.size)
             inside = part[..., 0] - np.sqrt(cone.dot(part[..., 1:], part[..., 1:]))
             result = np.minimum(result, inside.min(axis=-1))
         return result
@@ -121,7 +122,7 @@ class Scaling:
             if group.size == 1:
                 inverse = -along / at
             else:
-                shape = (len(step), group.count, group.size)
+                shape = (len(step), group.cones, group.size)
                 inverse = cone.longest_step(at.reshape(shape), along.reshape(shape))
             most = np.maximum(most, inverse.max(axis=-1))
         return np.asarray(1 / np.maximum(most, 1e-300))

@@ -53,8 +53,8 @@ def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cone
         W = np.zeros((*leading, len(chosen) * size, first.n_l))
         for k, (contact, _, plain, by_friction) in enumerate(chosen):
             factor = 1.0 if friction is None else friction[:, None, None]
-            rows = (plain[..., 0] if len(grasps) == 1 else np.moveaxis(plain, -1, 0))
-            more = (by_friction[..., 0] if len(grasps) == 1 else np.moveaxis(by_friction, -1, 0))
+            rows = plain[..., 0] if len(grasps) == 1 else np.moveaxis(plain, -1, 0)
+            more = by_friction[..., 0] if len(grasps) == 1 else np.moveaxis(by_friction, -1, 0)
             W[..., k * size : (k + 1) * size, first.rows[contact]] = rows + factor * more
         found.append(Cones(size, np.array([contact for contact, *_ in chosen]), W))
     return tuple(found)

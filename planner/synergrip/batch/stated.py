@@ -1,7 +1,7 @@
 """Tasks of one knot on one grasp, or on grasps of like dimensions, stacked: problem k is knot k of one formulation.
 
-Limits and goals write their rows for all knots at once, with one matrix for all or one for each; what they write for the
-knots of a trajectory they so write for many tasks that know nothing of each other.
+Limits and goals write their rows for all knots at once, with one matrix for all or one for each; what they write
+for the knots of a trajectory they so write for many tasks that know nothing of each other.
 """
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ def outside(problems: ConeProblems, values: Array) -> Array:
     """Return (N,) how far values (N, m) are outside their cones at most; below 0 inside."""
     worst = np.full(len(values), -np.inf)
     for group in problems.groups:
-        part = values[:, group.rows].reshape(len(values), group.count, group.size)
+        part = values[:, group.rows].reshape(len(values), group.cones, group.size)
         beyond = np.linalg.norm(part[..., 1:], axis=-1) - part[..., 0]
         worst = np.maximum(worst, np.where(np.isnan(beyond), np.inf, beyond).max(axis=1))
     return worst
@@ -91,7 +91,7 @@ def projected(problems: ConeProblems, y: Array) -> Array:
     for group in problems.groups:
         if group.size == 1:
             continue
-        part = y[:, group.rows].reshape(len(y), group.count, group.size)
+        part = y[:, group.rows].reshape(len(y), group.cones, group.size)
         head, tail = part[..., 0], part[..., 1:]
         length = np.linalg.norm(tail, axis=-1)
         onto = np.where(length <= head, head, np.where(length <= -head, 0.0, (head + length) / 2))
