@@ -19,7 +19,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array
 from synergrip.log import LOG
-from synergrip.planning.accuracy import RELIED_ON, SHOWN
+from synergrip.planning.accuracy import SHOWN
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analyses import AnalysisGroup, analyse_many
@@ -122,7 +122,7 @@ def _stated(
     friction = None if question.friction is None else question.friction[places]
     if isinstance(whole, Analysis):
         doubt = max(each.doubt for each in whole.response.accuracy.values())
-        if doubt <= min(SHOWN, RELIED_ON) and whole.response.restrained:
+        if doubt <= SHOWN and whole.response.restrained:
             every = np.arange(len(places))
             known = np.ones(len(places), dtype=bool)
             yield every, stated_on(whole, question.task, question.wrench[places], friction), known
@@ -131,17 +131,20 @@ def _stated(
         return
     part = whole.taken(slice(int(places[0]), int(places[-1]) + 1))
     for group in analyse_many(part).groups:
+        known = _known(group)
+        if not known.any():
+            continue
         within = group.places
         own = None if friction is None else friction[within]
-        wrench = question.wrench[places[within]]
         grasps = group.response.grasps.given or (part.like,)
-        yield within, stated_each(group, grasps, question.task, wrench, own), _known(group)
+        yield within, stated_each(group, grasps, question.task, question.wrench[places[within]], own), known
 
 
 def _known(group: AnalysisGroup) -> NDArray[np.bool_]:
-    """Return (N,) whether the maps of each grasp are known well enough to be relied on without a word."""
+    """Return (N,) of which grasps the maps are known well enough to be relied on without a word, and hold the object."""
     figures = group.response.figures
-    return np.asarray(np.all(shares(figures[..., 2:].max(axis=-1), figures) <= SHOWN, axis=-1))
+    clear = np.all(shares(figures[..., 2:].max(axis=-1), figures) <= SHOWN, axis=-1)
+    return np.asarray(clear & (group.response.restraint.ranks == 6))
 
 
 def _fill(found: Unfinished, places: NDArray[np.intp], answers: Decided, known: NDArray[np.bool_]) -> None:
