@@ -92,7 +92,8 @@ def grasp_like(rng: np.random.Generator, kinds: Sequence[str], n_z: int = 5) -> 
     return Grasp(
         title="", contacts=tuple(contacts), G=grasp_matrix(contacts), J=J, S=S,
         C_s=3e-4 * np.diag(soft_rows * rng.uniform(0.7, 1.4, len(soft_rows))), C_q=0.02 * np.eye(n_q),
-        C_z=np.zeros((n_z, n_z)), joints=tuple(f"q{i}" for i in range(n_q)), synergies=tuple(f"z{i}" for i in range(n_z)),
+        C_z=np.zeros((n_z, n_z)), joints=tuple(f"q{i}" for i in range(n_q)),
+        synergies=tuple(f"z{i}" for i in range(n_z)),
     )  # fmt: skip
 
 

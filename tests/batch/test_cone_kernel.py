@@ -55,9 +55,10 @@ def test_random_programs_are_solved_as_clarabel_solves_them(
     assert np.abs(slack - found.s)[right].max() < 1e-7
 
 
-def test_the_two_kernels_are_the_same_method() -> None:
+@pytest.mark.parametrize("N", [3, 37])
+def test_the_two_kernels_are_the_same_method(N: int) -> None:
     pytest.importorskip("numba")
-    problems, N = random_problems(37, 4, [1] * 9 + [3] * 2 + [4], quadratic=False, seed=3), 37
+    problems = random_problems(N, 4, [1] * 9 + [3] * 2 + [4], quadratic=False, seed=3)
     enough = np.where(np.arange(N) % 3 == 0, 1.0 + values(problems, np.zeros((N, 4))), -np.inf)
     ours, theirs = (each.solve(problems, SHARP, enough) for each in (numpy_kernel, fast_kernel))
     assert np.array_equal(ours.status, theirs.status)

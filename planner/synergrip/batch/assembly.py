@@ -7,12 +7,12 @@ are divided by u_i, others by the limit, as `conic` does; the margin's scalar co
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.batch.cone_problems import ConeProblems
-from synergrip.batch.stacked_cones import Cones, stacked_cones
+from synergrip.batch.stacked_cones import Cones, most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
 from synergrip.conic.goals.least_effort import Effort
 from synergrip.conic.limits.joint_range import JointRange
@@ -140,31 +140,14 @@ def _divisor(limit: Limit, rows: Rows, unit: Array) -> Array:
 
 
 def _bounds(stated: Stated, cones: tuple[Cones, ...], unit: Array, scale: Array) -> Array:
-    """Return (N, n) bounds on |v|: more friction lets contacts carry more along their tangents."""
-    formulation, limits = stated.formulation, stated.task.limits
-    most = 1.0
-    if stated.friction is not None:
-        most = max(1.0, float(stated.friction.max()))
-    if len(stated.grasps) > 1:
-        most *= _larger(stated)
-    wider = [_wider(limit, most) for limit in limits]
-    known = np.broadcast_to(variable_bounds(formulation, [SlipMargin(stated.task.margin), *wider]), scale.shape)
-    least = min(float(each.unit.min()) for each in cones)
-    far = LARGEST / least
-    return np.where(known >= LARGEST, far, np.minimum(known / scale, far))
-
-
-def _wider(limit: Limit, most: float) -> Limit:
-    """Return a limit on normal forces with what contacts carry where friction is larger; others as they are."""
-    return limit.loosened(most - 1.0) if isinstance(limit, NormalForce) and most > 1 else limit
-
-
-def _larger(stated: Stated) -> float:
-    """Return how many times as much as those of the first grasp contacts of the others carry for a normal force."""
-    kinds = [{grasp.contacts[i].kind for grasp in stated.grasps} for i in range(stated.grasps[0].n_c)]
-    ratios = [
-        float((kind.most / grasp.kind.most).max())
-        for grasp, every in zip(stated.grasps[0].contacts, kinds, strict=True)
-        for kind in every
+    """Return (N, n) bounds on |v|, with the cones of all: more friction lets contacts carry more."""
+    formulation, first = stated.formulation, stated.grasps[0]
+    stated_most = np.concatenate([contact.kind.most for contact in first.contacts])
+    larger = max(1.0, float((most(cones, first) / stated_most).max()))
+    wider = [
+        replace(limit, upper=larger * limit.upper) if isinstance(limit, NormalForce) else limit
+        for limit in stated.task.limits
     ]
-    return max(1.0, *ratios)
+    known = np.broadcast_to(variable_bounds(formulation, [SlipMargin(stated.task.margin), *wider]), scale.shape)
+    far = LARGEST / min(float(each.unit.min()) for each in cones)
+    return np.where(known >= LARGEST, far, np.minimum(known / scale, far))

@@ -86,7 +86,7 @@ def _in_lanes(problems: ConeProblems, enough: Array) -> Array:
         if len(flat) == 1:
             here[:] = flat[0, :, None]
             continue
-        here[:whole] = flat[: whole * LANES].reshape(whole, LANES, -1).transpose(0, 2, 1)
+        here[:whole] = flat[: whole * LANES].reshape(whole, LANES, flat.shape[1]).transpose(0, 2, 1)
         if rest:
             last = flat[whole * LANES :]
             here[whole, :, :rest], here[whole, :, rest:] = last.T, last[-1][:, None]

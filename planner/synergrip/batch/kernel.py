@@ -6,6 +6,7 @@ from importlib.util import find_spec
 
 from synergrip.batch import fast_kernel, numpy_kernel
 from synergrip.batch.decided import Solver
+from synergrip.documents.judging import is_word
 from synergrip.errors import InputError, one_of
 
 REPAID = 20_000
@@ -19,7 +20,7 @@ def chosen(count: int, kernel: str | None = None) -> Solver:
     Raises:
         InputError: there is no such kernel, or Numba is not installed.
     """
-    if kernel is not None and kernel not in KERNELS:
+    if kernel is not None and not is_word(kernel, KERNELS):
         raise InputError.at("kernel", one_of(kernel, KERNELS))
     there = find_spec("numba") is not None
     if kernel == "numba" and not there:

@@ -141,7 +141,7 @@ def _stated(
 
 
 def _known(group: AnalysisGroup) -> NDArray[np.bool_]:
-    """Return (N,) of which grasps the maps are known well enough to be relied on without a word, and hold the object."""
+    """Return (N,) which grasps hold the object, with maps that are known well enough to be relied on without a word."""
     figures = group.response.figures
     clear = np.all(shares(figures[..., 2:].max(axis=-1), figures) <= SHOWN, axis=-1)
     return np.asarray(clear & (group.response.restraint.ranks == 6))

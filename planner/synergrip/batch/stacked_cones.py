@@ -44,7 +44,7 @@ class Cones(Value):
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
     first = grasps[0]
-    tables = [_tables([grasp.contacts[i] for grasp in grasps]) for i in range(first.n_c)]
+    tables = [_tables([grasp.contacts[i] for grasp in grasps], friction is not None) for i in range(first.n_c)]
     every = [(i, len(plain), plain, by_friction) for i, pairs in enumerate(tables) for plain, by_friction in pairs]
     found = []
     for size in sorted({size for _, size, _, _ in every}):
@@ -60,21 +60,45 @@ def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cone
     return tuple(found)
 
 
-def _tables(contacts: Sequence[Contact]) -> list[tuple[Array, Array]]:
+def _tables(contacts: Sequence[Contact], by_factors: bool) -> list[tuple[Array, Array]]:
     """Return of each cone of one contact in N grasps what it is without friction, and what friction adds: (d, rows, N).
 
-    Equal kinds are looked at once.
+    Equal kinds are looked at once. Where no factors are asked for, friction adds nothing to what the cones are.
     """
     kinds: dict[ContactKind, int] = {}
     which = [kinds.setdefault(contact.kind, len(kinds)) for contact in contacts]
-    pairs = [(kind.cones, kind.slippery(HALF).cones) for kind in kinds]
+    every = [kind.cones for kind in kinds]
+    halves = [kind.slippery(HALF).cones for kind in kinds] if by_factors else every
     found = []
-    for cone in range(len(pairs[0][0])):
-        whole = np.stack([cones[cone] for cones, _ in pairs], axis=-1)
-        half = np.stack([cones[cone] for _, cones in pairs], axis=-1)
+    for cone in range(len(every[0])):
+        whole, half = (np.stack([cones[cone] for cones in each], axis=-1) for each in (every, halves))
         by_friction = (whole - half) / (1 - HALF)
         found.append(((whole - by_friction)[..., which], by_friction[..., which]))
     return found
+
+
+def most(cones: Sequence[Cones], grasp: Grasp) -> Array:
+    """Return (n_l,) or (N, n_l) the largest size of each force component for a newton of normal force, by the cones."""
+    leading = cones[0].W.shape[:-2]
+    result = np.ones((*leading, grasp.n_l))
+    for contact, rows in enumerate(grasp.rows):
+        tails, heads = [], []
+        for each in cones:
+            for k in np.flatnonzero(each.contacts == contact):
+                own = each.W[..., k * each.size : (k + 1) * each.size, rows]
+                tails.append(own[..., 1:, 1:])
+                heads.append(np.broadcast_to(own[..., :1, 0], (*own.shape[:-2], each.size - 1)))
+        result[..., rows.start + 1 : rows.stop] = _reached(np.concatenate(tails, -2), np.concatenate(heads, -1))
+    return result
+
+
+def _reached(tail: Array, head: Array) -> Array:
+    """Return ``|pinv(tail)| head``; most tails are diagonal."""
+    size = min(tail.shape[-2:])
+    diagonal = np.diagonal(tail, axis1=-2, axis2=-1)
+    if tail.shape[-2] == tail.shape[-1] and np.count_nonzero(tail) == np.count_nonzero(diagonal) == diagonal.size:
+        return np.asarray(head / np.abs(diagonal))
+    return np.asarray((np.abs(np.linalg.pinv(tail)) @ head[..., None])[..., 0]) if size else head[..., :0]
 
 
 def slip_margins(cones: Sequence[Cones], normal: Array, forces: Array) -> Array:
