@@ -43,7 +43,7 @@ from synergrip.batch.stated import stated_on  # noqa: E402
 
 FORMS = {"3 hard": (["hard"] * 3, 5), "4 soft": (["soft"] * 4, 8)}
 GOALS = {"largest margin": sg.LargestMargin(), "least effort": sg.LeastEffort()}
-MARGIN, ONE_BY_ONE = 0.1, 100
+MARGIN, ONE_BY_ONE = 0.1, 50
 """[N] asked for; how many tasks what goes one after the other is measured with."""
 
 
@@ -116,7 +116,7 @@ def measured(form: str, goal: str, tasks: int, runs: int) -> None:
 
 def told_accuracy(problems: ConeProblems, solve: Any, found: list[sg.ManyPlans]) -> None:
     """Print how sure the answers are."""
-    few = problems.taken(slice(5 * ONE_BY_ONE))
+    few = problems.taken(slice(10 * ONE_BY_ONE))
     x = solve(few, Tolerance(5e-9, 2e-9), np.full(len(few), -np.inf))
     values = (x.x * ((few.P @ x.x[:, :, None])[:, :, 0] / 2 + few.q)).sum(axis=1)
     free = np.full(x.x.shape, np.inf)

@@ -25,9 +25,11 @@ class ManyPlans(Value):
     Rows of tasks that have no plan are nan.
 
     Example:
-        >>> many = plan_many(grasp, task, wrenches=wrenches)
-        >>> many.verdicts[:3], many.forces.shape, int(many.one_by_one.sum())  # doctest: +SKIP
-        (array(['feasible', 'infeasible', 'feasible'], dtype='<U10'), (1000, 9), 0)
+        >>> loads, limits = [Gravity((0, 0, -9.81))], [NormalForce(upper=20.0)]
+        >>> still = task.replace(knots=1, loads=loads, limits=limits, linearise="once")
+        >>> many = plan_many(grasp, still, masses=[0.1, 0.2, 10.0])
+        >>> many.verdicts.tolist(), many.forces.shape
+        (['feasible', 'feasible', 'infeasible'], (3, 9))
     """
 
     verdicts: NDArray[np.str_]
