@@ -46,7 +46,7 @@ ONLY_IN = {
             "margins",
         )
     },
-    "numba": {"batch/lanes.py", "batch/lanes_algebra.py", "batch/lanes_kernel.py"},
+    "numba": {"batch/lanes.py", "batch/lanes_algebra.py"},
     "llvmlite": {"batch/lanes.py"},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }

@@ -73,8 +73,7 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
         kept = np.maximum(task.margin, largest)
         plans = judged(programs, found.x[:, :-1], kept, wrench)
         return _told(stated, close & plans.holds, infeasible, largest, plans)
-    possible = np.flatnonzero(close | (found.status == Status.ENOUGH))
-    x, right = _least_effort(programs, goal, possible, solver)
+    x, right = _least_effort(programs, goal, np.flatnonzero(~infeasible), solver)
     plans = judged(programs, x, np.full(N, task.margin), wrench)
     return _told(stated, right & plans.holds, infeasible, np.where(infeasible, largest, np.nan), plans)
 

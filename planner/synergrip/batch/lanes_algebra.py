@@ -12,22 +12,28 @@ import numpy as np
 
 from synergrip.batch.lanes import all_of, load, root, store, where_less
 
-compiled = numba.njit(cache=True, error_model="numpy")
+
+def compiled(function: Any) -> Any:
+    """Return a function as Numba compiles it: kept on the disk, where there is a folder for that."""
+    try:
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    except RuntimeError:  # no folder can be written
+        return numba.njit(error_model="numpy", nogil=True)(function)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def larger(a: Any, b: Any) -> Any:
     """Return the larger of two in every lane."""
     return where_less(a, b, b, a)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def magnitude(a: Any) -> Any:
     """Return |a|."""
     return larger(a, all_of(0.0) - a)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def determinant(w: Any, a: int, first: int, size: int) -> Any:
     """Return ``a'J a`` of a cone."""
     squares = all_of(0.0)
@@ -38,7 +44,7 @@ def determinant(w: Any, a: int, first: int, size: int) -> Any:
     return (head - length) * (head + length)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
     """Return a'b of a cone."""
     total = load(w, a + first) * load(w, b + first)
@@ -47,7 +53,7 @@ def dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
     return total
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def flipped_dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
     """Return a'J b of a cone."""
     total = load(w, a + first) * load(w, b + first)
@@ -56,7 +62,7 @@ def flipped_dot(w: Any, a: int, b: int, first: int, size: int) -> Any:
     return total
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def add_scaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
     """Add ``W x`` to what is there."""
     two = all_of(2.0)
@@ -74,7 +80,7 @@ def add_scaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
             store(w, out + i, load(w, out + i) + factor * part)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def unscaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
     """Write ``W^-1 x``."""
     two, one = all_of(2.0), all_of(1.0)
@@ -90,7 +96,7 @@ def unscaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
             store(w, out + i, factor * (load(w, x + i) - twice * load(w, v + i)))
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def unscaled_rows(w: Any, v: int, beta: int, A: int, out: int, n: int, wide: int, cones: Any) -> None:
     """Write ``W^-1 A``, rows of n numbers, as rows of `wide` numbers."""
     two, one = all_of(2.0), all_of(1.0)
@@ -112,7 +118,7 @@ def unscaled_rows(w: Any, v: int, beta: int, A: int, out: int, n: int, wide: int
                 store(w, out + i * wide + j, factor * (load(w, A + i * n + j) - twice * load(w, v + i)))
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def divided(w: Any, b: int, a: int, out: int, cones: Any) -> None:
     """Write c whose Jordan product with a is b."""
     for c in range(len(cones)):
@@ -127,7 +133,7 @@ def divided(w: Any, b: int, a: int, out: int, cones: Any) -> None:
         store(w, out + first, head)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def less_product(w: Any, a: int, b: int, centre: Any, out: int, cones: Any) -> None:
     """Write ``centre e - a o b`` with the unit e of every cone."""
     for c in range(len(cones)):
@@ -139,7 +145,7 @@ def less_product(w: Any, a: int, b: int, centre: Any, out: int, cones: Any) -> N
         store(w, out + first, head)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def longest_step(w: Any, at: int, step: int, cones: Any) -> Any:
     """Return how far a step may go before it leaves a cone."""
     zero, one = all_of(0.0), all_of(1.0)
@@ -160,7 +166,7 @@ def longest_step(w: Any, at: int, step: int, cones: Any) -> Any:
     return one / most
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def carried_on(w: Any, v: int, beta: int, point: int, s: int, z: int, cones: Any) -> None:
     """Write v, beta and lambda of a pair that is s and z in the coordinates of the old scaling."""
     one, half = all_of(1.0), all_of(0.5)
@@ -194,7 +200,7 @@ def carried_on(w: Any, v: int, beta: int, point: int, s: int, z: int, cones: Any
         store(w, beta + c, load(w, beta + c) * root(of_s / of_z))
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def moved_inside(w: Any, a: int, m: int, cones: Any) -> None:
     """Move a point along the unit where it is not well inside its cones."""
     least, squares = all_of(np.inf), all_of(0.0)

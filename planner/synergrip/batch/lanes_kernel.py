@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from synergrip.batch.lanes import LANES, all_of, any_above_zero, load, store, where_less
@@ -31,7 +30,7 @@ from synergrip.batch.numpy_kernel import BOUNDARY, MOST, STUCK
 SOLVED, ENOUGH, NOTHING = 0.0, 1.0, 2.0
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _residuals(w: Any, at: Any) -> Any:
     """Write what is missing to an optimum; return the largest of both, the size of the first, and the objective."""
     value, of_x, of_s, size = all_of(0.0), all_of(0.0), all_of(0.0), all_of(1.0)
@@ -55,7 +54,7 @@ def _residuals(w: Any, at: Any) -> Any:
     return of_x, of_s, size, value
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _begin(w: Any, at: Any, cones: Any) -> None:
     """Write the least-squares point, moved into the cones, and its scaling."""
     zero, one = all_of(0.0), all_of(1.0)
@@ -75,7 +74,7 @@ def _begin(w: Any, at: Any, cones: Any) -> None:
     carried_on(w, at.v, at.beta, at.point, at.s, at.z, cones)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _judged(w: Any, at: Any, residual: float, most_gap: float) -> Any:
     """Return what is found in every lane, and the gap."""
     zero, one = all_of(0.0), all_of(1.0)
@@ -91,14 +90,14 @@ def _judged(w: Any, at: Any, residual: float, most_gap: float) -> Any:
     return found, gap
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _reach(w: Any, at: Any, cones: Any) -> Any:
     """Return how far both parts of a step may go."""
     of_s, of_z = longest_step(w, at.point, at.ds, cones), longest_step(w, at.point, at.dz, cones)
     return where_less(of_z, of_s, of_z, of_s)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _direct(w: Any, at: Any, cones: Any, gap: Any) -> Any:
     """Write the step, in scaled coordinates, predicted and corrected; return how far it may go."""
     zero, one = all_of(0.0), all_of(1.0)
@@ -125,7 +124,7 @@ def _direct(w: Any, at: Any, cones: Any, gap: Any) -> Any:
     return where_less(one, step, one, step)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _move(w: Any, at: Any, cones: Any, step: Any, active: Any) -> None:
     """Take the step in lanes that are active."""
     zero = all_of(0.0)
@@ -144,7 +143,7 @@ def _move(w: Any, at: Any, cones: Any, step: Any, active: Any) -> None:
     carried_on(w, at.v, at.beta, at.point, at.ds, at.dz, cones)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def _eight(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> None:
     """Solve eight problems, whose numbers come first in the workspace."""
     zero, one = all_of(0.0), all_of(1.0)
@@ -173,7 +172,7 @@ def made(stamp: int) -> Any:
     what comes after the problems in each workspace: x, s, z, status, iterations.
     """
 
-    @numba.njit(cache=True, error_model="numpy", nogil=True)  # type: ignore[untyped-decorator]
+    @compiled
     def solved(given: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Any:
         entries, answers = at.x, at.v - at.x
         found = np.empty((given.shape[0], answers, LANES))

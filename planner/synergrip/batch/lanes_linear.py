@@ -12,7 +12,7 @@ from synergrip.batch.lanes_algebra import compiled, larger
 from synergrip.batch.numpy_kernel import NO_PIVOT
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def factor(w: Any, at: Any) -> None:
     """Write the Cholesky factor of ``P + R'R``; two columns by two at a time."""
     P, R, H, n, wide, m = at.P, at.R, at.H, at.n, at.wide, at.m
@@ -44,7 +44,7 @@ def factor(w: Any, at: Any) -> None:
             store(w, H + i * wide + j, entry * over)
 
 
-@compiled  # type: ignore[untyped-decorator]
+@compiled
 def solution(w: Any, at: Any, rx: int, rs: int, dx: int, dz: int) -> None:
     """Write dx and dz with ``P dx + R'dz = -rx`` and ``R dx - dz = rs``."""
     H, R, n, wide, m = at.H, at.R, at.n, at.wide, at.m
