@@ -44,7 +44,7 @@ class ManyPlans(Value):
     one_by_one: NDArray[np.bool_]
     """(N,) True where nothing verified of the batch and `plan` answered instead."""
     finished: NDArray[np.bool_]
-    """(N,) False for tasks that were not come to before somebody interrupted it."""
+    """(N,) False for tasks of the chunks that were not through when somebody interrupted it."""
     refusals: Mapping[int, InputError]
     """Of grasps that are rigid in some contact direction, what `plan` raises, by their place; "unknown" here."""
 
