@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from random_cone_problems import by_clarabel, certificates, proofs, random_problems, values
 
-from synergrip.batch import fast_kernel, numpy_kernel, verifier
+from synergrip.batch import fast_kernel, kernel, numpy_kernel, verifier
 from synergrip.batch.cone_problems import ConeProblems, Status, Tolerance
 from synergrip.batch.decided import Solver
 from synergrip.batch.scaling import Scaling
@@ -155,3 +157,26 @@ def test_arrays_that_do_not_fit_are_refused_by_name() -> None:
         ConeProblems(good.P, good.q, good.A[:, :3], good.b, good.sizes)
     with pytest.raises(InputError, match=r"ConeProblems\.P: expected shape"):
         ConeProblems(good.P[:, :1], good.q, good.A, good.b, good.sizes)
+
+
+def test_the_compiled_kernel_is_chosen_where_that_repays(monkeypatch: pytest.MonkeyPatch) -> None:
+    there, loaded, kept = [True], [False], [False]
+    monkeypatch.setattr(kernel, "find_spec", lambda name: object() if there[0] else None)
+    monkeypatch.setattr(fast_kernel, "kept", lambda: kept[0])
+    told = SimpleNamespace(cache_info=lambda: SimpleNamespace(currsize=int(loaded[0])))
+    monkeypatch.setattr(fast_kernel, "compiled", told)
+
+    def fast(count: int, name: str | None = None) -> bool:
+        return kernel.chosen(count, name) is fast_kernel.solve
+
+    assert [fast(count) for count in (10, 20_000, 199_999, 200_000)] == [False, False, False, True]
+    assert fast(1, "numba")
+    kept[0] = True
+    assert [fast(count) for count in (10, 19_999, 20_000)] == [False, False, True]
+    loaded[0] = True
+    assert fast(1)
+    assert not fast(10**6, "numpy")
+    there[0] = loaded[0] = False
+    assert not fast(10**6)
+    with pytest.raises(InputError, match="pip install"):
+        kernel.chosen(1, "numba")

@@ -94,14 +94,23 @@ def _in_lanes(problems: ConeProblems, enough: Array) -> Array:
 
 
 @cache
-def compiled() -> Any:
-    """Return the compiled kernel: from the disk, or compiled once, which is told."""
+def _function() -> Any:
     from synergrip.batch.lanes_kernel import made
 
     folder = Path(__file__).parent
-    stamp = crc32(b"".join((folder / name).read_bytes() for name in SOURCES))
-    function = made(stamp)
-    start = time.perf_counter()
+    return made(crc32(b"".join((folder / name).read_bytes() for name in SOURCES)))
+
+
+def kept() -> bool:
+    """Return whether a compiled kernel is kept on the disk."""
+    folder = _function().stats.cache_path
+    return bool(folder) and any(Path(folder).glob("lanes_kernel.made.*.nbi"))
+
+
+@cache
+def compiled() -> Any:
+    """Return the compiled kernel: from the disk, or compiled once, which is told."""
+    function, start = _function(), time.perf_counter()
     LOG.info("loading the compiled kernel; the first time on a machine it is compiled, which takes about half a minute")
     _ready(function)
     hits = sum(function.stats.cache_hits.values())

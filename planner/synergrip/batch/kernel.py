@@ -9,8 +9,10 @@ from synergrip.batch.decided import Solver
 from synergrip.documents.judging import is_word
 from synergrip.errors import InputError, one_of
 
-REPAID = 20_000
-"""Problems for which the compiled kernel is loaded, and compiled once on a machine (half a minute)."""
+LOADED = 20_000
+"""Problems for which it repays to load the compiled kernel (two seconds), where it is kept on the disk."""
+COMPILED = 200_000
+"""Problems for which it repays to compile it, once on a machine (half a minute)."""
 KERNELS = ("numpy", "numba")
 
 
@@ -25,7 +27,12 @@ def chosen(count: int, kernel: str | None = None) -> Solver:
     there = find_spec("numba") is not None
     if kernel == "numba" and not there:
         raise InputError.at("kernel", "'numba' needs Numba: pip install 'synergrip[fast]'")
-    loaded = there and fast_kernel.compiled.cache_info().currsize > 0
-    if kernel == "numba" or (kernel is None and there and (loaded or count >= REPAID)):
+    if kernel == "numba" or (kernel is None and there and _repays(count)):
         return fast_kernel.solve
     return numpy_kernel.solve
+
+
+def _repays(count: int) -> bool:
+    """Return whether so many problems are worth the time until the compiled kernel is there."""
+    loaded = fast_kernel.compiled.cache_info().currsize > 0
+    return loaded or count >= COMPILED or (count >= LOADED and fast_kernel.kept())

@@ -57,7 +57,8 @@ def plan_many(
         frictions: (N,) by which the friction of all contacts is multiplied.
         masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
-            first where it is installed and there are tasks enough to repay it (20,000, or it is loaded already).
+            first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
+            machine; from then on 20,000 to load it, and any number when it is loaded.
         progress: told what is under way and which share of it is done, after every 2,048 tasks.
 
     Returns:
