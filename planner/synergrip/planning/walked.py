@@ -16,6 +16,7 @@ from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.let_go import undone_notes
+from synergrip.planning.otherwise import walked_harder
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
@@ -100,7 +101,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         return _unknown(walker, linear, said, walk, found)
     cases = executed_cases(walk, walker, linear.formulation)
     if cases.said:
-        kept = kept_in_cases(walk, walker, cases)
+        kept = kept_in_cases(walk, walker, linear.formulation, cases)
         return _unknown(walker, linear, cases.said, walk, found) if kept is None else answer_of(*kept, linear)
     told = (
         *accuracy_notes(walker.start.response), *undone_notes(walker.start, walker.task), *_goal_notes(walk),
@@ -118,10 +119,7 @@ def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
     if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
-    harder = replace(walker, more=more_still)
-    again = harder.on(replace(walk, gap=np.inf))
-    arrives = again.true and float(off(again, harder).max()) <= harder.allowed
-    return (again, harder) if arrives or again.interrupted else None
+    return walked_harder(walk, replace(walker, more=more_still))
 
 
 def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
