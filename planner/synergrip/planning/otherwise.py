@@ -61,6 +61,11 @@ class Otherwise(Value):
         """Those that differ from one case to another."""
         return limits_of_cases(self.walker.task)
 
+    @cached_property
+    def begun(self) -> States:
+        """States of the walk at the instants at which limits count."""
+        return self.near(self.looks)
+
     def near(self, looks: Looks) -> States:
         """Return states of the walk at some instants, where Newton's method may begin."""
         return self.walk.executed.interpolated(looks.times, looks.wrench)

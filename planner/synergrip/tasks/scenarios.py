@@ -86,6 +86,11 @@ class Scenarios(ByContent):
         """Return the least number of samples for a plan of so many numbers."""
         return samples_for(unknowns - 1, self.share, 1 - self.confidence)
 
+    @property
+    def looks(self) -> int:
+        """How often fresh samples on a hand may be looked at."""
+        return LOOKS
+
     def fresh(self, missing: int = 0) -> int:
         """Return the least number of fresh samples on a hand of which so many may miss a limit, in one of the looks."""
         return samples_for(missing, self.share, (1 - self.confidence) / LOOKS)
