@@ -36,14 +36,15 @@ class Asked(Value):
 
     @classmethod
     def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask) -> Asked:
-        """Return what was asked, limits filled in.
+        """Return what was asked, limits filled in; without scenarios on a hand, of which each plan takes many.
 
         Args:
             grasp: who plans.
             task: as it was asked.
             timed: the same at its knots.
         """
-        return cls(grasp, task).with_limits((SlipMargin(timed.margin), *timed.limits))
+        asked = task if grasp.held is None else _without_scenarios(task)
+        return cls(grasp, asked).with_limits((SlipMargin(timed.margin), *timed.limits))
 
     @property
     def limits(self) -> tuple[Limit, ...]:
@@ -101,6 +102,13 @@ class Asked(Value):
             formulation = replace(formulation, allowed=formulation.allowed.exact)
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)
+
+
+def _without_scenarios(task: Task | TimedTask) -> Task | TimedTask:
+    """Return a task that allows for what is guaranteed alone."""
+    if isinstance(task, Task):
+        return task if task.allow is None else replace(task, allow=task.allow.without_scenarios)
+    return task if task.allowed is None else replace(task, allowed=replace(task.allowed, scenarios=None))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -75,7 +75,7 @@ def off_places(
 
 
 def worst_of(cases: Sequence[OffPlace]) -> set[int]:
-    """Return which cases are executed: all, or of many those that are the worst for a limit or the cone of a contact."""
+    """Return which cases are executed: all; of many those that are the worst for a limit, or for a contact's cone."""
     if len(cases) <= MOST_EXECUTED:
         return set(range(len(cases)))
     of_limits = np.array([[usage.violation for usage in case.usages] for case in cases])

@@ -18,8 +18,8 @@ from synergrip.conic.allowed import Scenarios
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.limit import Usage
-from synergrip.errors import SynergripError
 from synergrip.equilibrium.setting import Setting
+from synergrip.errors import SynergripError
 from synergrip.linalg import frozen
 from synergrip.log import LOG
 from synergrip.planning.between import Between
@@ -31,16 +31,17 @@ from synergrip.planning.otherwise import Otherwise, walked_harder, worst_of_all
 from synergrip.planning.outcome import Check
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
+from synergrip.tasks.scenarios import MOST_FRESH
 from synergrip.values import Value
 
 NEAREST = 25
 """How many samples that a plan is made with are looked at again: those that came nearest to a limit."""
 BEYOND = 1.0
-"""How much more than the worst sample misses is asked for of slip margins, in standard deviations of what samples keep."""
+"""How much more of slip margins than the worst sample misses is asked for, in standard deviations among samples."""
 ROUNDS = 4
 """How often more is asked for by what samples miss that a plan is made with."""
-MOST = 1000
-"""Fresh samples in one look, at most."""
+LIKELY = 0.01
+"""Share of samples that is taken to miss where nothing is known."""
 SHORT = 2
 """Samples that are named with what they miss."""
 
@@ -78,14 +79,14 @@ class Judged(Value):
         return (Check(f"{ALL_CASES}: share of scenarios", self.fresh.share, self.fresh.asked),)
 
 
-def in_scenarios(walk: Walk, walker: Walker, formulation: Formulation, *, once: bool = False) -> Judged:
+def in_scenarios(walk: Walk, walker: Walker, formulation: Formulation, unseen: Known | None = None) -> Judged:
     """Return what becomes of random samples of a grasp with the references of a walk all of whose knots were reached.
 
     Args:
         walk: references and their execution, which hold as the grasp is stated.
         walker: whose task it is.
         formulation: of the task at its knots, for names and units.
-        once: whether the walk is what it is: no samples to make it with, and one look.
+        unseen: that the walk is what it is: no samples to make it with, and one look at others.
 
     Raises:
         KeyboardInterrupt: somebody interrupted: nothing is promised then.
@@ -94,17 +95,16 @@ def in_scenarios(walk: Walk, walker: Walker, formulation: Formulation, *, once: 
     if allowed is None or allowed.scenarios is None:
         return Judged()
     samples = Samples(Otherwise.of(walk, walker, formulation, allowed), allowed.scenarios)
-    known = walker.scenarios or (Known((), made_with=0) if once else Known())
+    known = unseen or walker.scenarios or Known()
     tried = samples.executed(known.numbers, "to make the plan with")
     missing = [each for each in tried if each.missed]
     if missing and (harder := _harder(samples, replace(known, rounds=known.rounds + 1), tried)):
         return Judged(harder=harder)
-    if (sizes := samples.sizes(len(missing) / known.among)) is None:
+    if (sizes := samples.sizes(LIKELY if unseen else len(missing) / known.among)) is None:
         told = f"of {known.among} scenarios executed at the true equilibrium {len(missing)} miss a limit"
         return Judged(said=f"{told}: {_shortly(missing)}")
     fresh, tried = samples.fresh(known, *sizes)
-    last = once or fresh.looks == allowed.scenarios.looks
-    if not fresh.said or last:
+    if not fresh.said or unseen or fresh.looks >= allowed.scenarios.looks:
         return Judged(fresh, fresh.said)
     known = replace(known, among=len(tried), rounds=0, looks=fresh.looks, made_with=known.made_with + len(tried))
     return Judged(fresh, fresh.said, _harder(samples, known, tried))
@@ -134,7 +134,7 @@ class Samples(Value):
             missing: share of samples that misses, as far as is known.
         """
         allowed = 0
-        while (count := self.scenarios.fresh(allowed)) <= MOST:
+        while (count := self.scenarios.fresh(allowed)) <= MOST_FRESH:
             if allowed >= missing * count:
                 return count, allowed
             allowed += 1

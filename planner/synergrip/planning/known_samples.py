@@ -25,3 +25,8 @@ class Known(Value):
     looks: int = 0
     made_with: int = DESIGN
     """How many samples were looked at to make the plan with, those of looks that did not pass among them."""
+
+
+def unseen(looks: int = 0) -> Known:
+    """Return that a walk was made with no samples, after looks at fresh ones that others had."""
+    return Known((), looks=looks, made_with=0)

@@ -16,6 +16,7 @@ from synergrip.planning.executed_scenarios import Judged, in_scenarios
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
+from synergrip.planning.known_samples import unseen
 from synergrip.planning.let_go import undone_notes
 from synergrip.planning.otherwise import walked_harder
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
@@ -60,7 +61,7 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
     cases = ExecutedCases() if said else executed_cases(walk, walker, plan.formulation)
     said = said or cases.said
-    samples = Judged() if said else in_scenarios(walk, walker, plan.formulation, once=True)
+    samples = Judged() if said else in_scenarios(walk, walker, plan.formulation, unseen())
     if said := said or samples.said:
         return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
@@ -102,11 +103,17 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
-    cases = executed_cases(walk, walker, linear.formulation)
+    return _in_all_cases(walk, walker, linear, found)
+
+
+def _in_all_cases(walk: Walk, walker: Walker, linear: Plan, found: Figures) -> Plan | Unknown:
+    """Return the answer of a walk that holds as its task states it: in every case, and in random samples of its grasp."""
+    formulation = linear.formulation
+    cases = executed_cases(walk, walker, formulation)
     if cases.said:
-        kept = kept_in_cases(walk, walker, linear.formulation, cases)
+        kept = kept_in_cases(walk, walker, formulation, cases)
         return _unknown(walker, linear, cases.said, walk, found) if kept is None else answer_of(*kept, linear)
-    samples = in_scenarios(walk, walker, linear.formulation)
+    samples = in_scenarios(walk, walker, formulation)
     if samples.harder is not None:
         return answer_of(*samples.harder, linear)
     if samples.said:

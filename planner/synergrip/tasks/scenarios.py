@@ -9,10 +9,10 @@ import numpy as np
 from synergrip.conic.sampled import started
 from synergrip.documents.judging import described, is_whole
 from synergrip.documents.naming import naming_arguments
+from synergrip.equilibrium.setting import Setting
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix
-from synergrip.equilibrium.setting import Setting
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Response, respond
 from synergrip.tasks.arguments import TaskArguments, keep
@@ -22,6 +22,8 @@ from synergrip.values import ByContent
 
 LOOKS = 3
 """How often fresh samples on a hand may be looked at; each time they are others."""
+MOST_FRESH = 1000
+"""Fresh samples in one look, at most."""
 SAME = 1e-6
 """Entries of G that are the same [m]."""
 LARGEST_SEED = 2**63
@@ -156,6 +158,9 @@ def refuse_scenarios(grasp: Grasp, scenarios: Scenarios, *, between: bool) -> No
     Raises:
         InputError: says what is missing.
     """
+    if grasp.held is not None and (count := scenarios.fresh()) > MOST_FRESH:
+        message = f"takes {count} samples on a hand that moves, more than the {MOST_FRESH} that are executed"
+        raise InputError.at(f"{KEY}.share", f"{message}; give a larger share, or less confidence")
     if between and grasp.held is None:
         raise InputError.at(KEY, 'scenarios are kept at the knots; leave out between = "hold"')
     placed = np.allclose(grasp_matrix(grasp.contacts), grasp.G, rtol=0, atol=SAME)
