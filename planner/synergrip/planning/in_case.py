@@ -30,8 +30,8 @@ class InCase(Value):
     usages: tuple[Usage, ...]
     """Of the limits that speak of an instant, friction cones first, with the friction of the case."""
     by_maps: bool = False
-    """Whether it is not executed on the hand that moves, as others are there, but from the maps of its knots: one of many
-    with contacts that are off, and none of the worst."""
+    """Whether it is not executed, as others of a hand that moves are, but from the maps of the knots: one of many with
+    contacts that are off, and none of the worst."""
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""

@@ -107,7 +107,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
 
 
 def _in_all_cases(walk: Walk, walker: Walker, linear: Plan, found: Figures) -> Plan | Unknown:
-    """Return the answer of a walk that holds as its task states it: in every case, and in random samples of its grasp."""
+    """Return the answer of a walk that holds as its task states it, in every case and in samples of its grasp."""
     formulation = linear.formulation
     cases = executed_cases(walk, walker, formulation)
     if cases.said:
