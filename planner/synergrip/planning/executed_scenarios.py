@@ -26,7 +26,7 @@ from synergrip.planning.between import Between
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.kept_between import MoreAtKnots
-from synergrip.planning.known_samples import Known, Number
+from synergrip.planning.known_samples import Known, Number, first
 from synergrip.planning.otherwise import Otherwise, walked_harder, worst_of_all
 from synergrip.planning.outcome import Check
 from synergrip.planning.walk import Walker
@@ -95,7 +95,7 @@ def in_scenarios(walk: Walk, walker: Walker, formulation: Formulation, unseen: K
     if allowed is None or allowed.scenarios is None:
         return Judged()
     samples = Samples(Otherwise.of(walk, walker, formulation, allowed), allowed.scenarios)
-    known = unseen or walker.scenarios or Known()
+    known = unseen or walker.scenarios or first(allowed.scenarios.fresh())
     tried = samples.executed(known.numbers, "to make the plan with")
     missing = [each for each in tried if each.missed]
     if missing and (harder := _harder(samples, replace(known, rounds=known.rounds + 1), tried)):
