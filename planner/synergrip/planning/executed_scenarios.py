@@ -119,6 +119,7 @@ class Samples(Value):
 
     def executed(self, numbers: Sequence[Number], why: str) -> list[Executed]:
         """Return what becomes of some samples, and why they are looked at for who interrupts."""
+        LOG.info("executing %d scenarios %s", len(numbers), why)
         found = list[Executed]()
         try:
             found.extend(self._executed(number) for number in numbers)
