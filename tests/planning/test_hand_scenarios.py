@@ -148,6 +148,10 @@ def test_what_is_refused_names_its_key(tmp_path: Path) -> None:
     done = run("plan", "barrett-ball-hold", "--set", 'allow.scenarios={ position = "1 mm", share = 0.001 }')
     assert done.exit_code == 2
     assert "allow.scenarios.share" in done.stderr
+    free = sg.load_problem("gripper-box", ["task.knots=3", "contacts.model=hard"])
+    unloaded = free.task.replace(loads=[], target=sg.Hold())
+    with pytest.raises(sg.InputError, match=r"allow\.scenarios: these contacts leave a motion of the object free"):
+        sg.plan(free.grasp, unloaded.replace(allow=sg.Allowances(scenarios=LIKELY)))
     slides = sg.load_problem("gripper-box", ["task.knots=3", "contacts.model=frictionless"])
     tilted = slides.task.replace(allow=sg.Allowances(scenarios=sg.Scenarios(normal=0.1)))
     with pytest.raises(sg.InputError, match=r"allow\.scenarios\.normal: a contact of which only"):
