@@ -149,7 +149,7 @@ def test_what_is_refused_names_its_key(tmp_path: Path) -> None:
     assert done.exit_code == 2
     assert "allow.scenarios.share" in done.stderr
     free = sg.load_problem("gripper-box", ["task.knots=3", "contacts.model=hard"])
-    unloaded = free.task.replace(loads=[], target=sg.Hold())
+    unloaded = free.task.replace(loads=[sg.Wrench((0,) * 6)], target=sg.Hold())
     with pytest.raises(sg.InputError, match=r"allow\.scenarios: these contacts leave a motion of the object free"):
         sg.plan(free.grasp, unloaded.replace(allow=sg.Allowances(scenarios=LIKELY)))
     slides = sg.load_problem("gripper-box", ["task.knots=3", "contacts.model=frictionless"])

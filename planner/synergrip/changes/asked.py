@@ -26,6 +26,8 @@ from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
+STATED = "other numbers are planned without allow.scenarios, for the grasp as it is stated: each takes many plans"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Asked(Value):
@@ -35,15 +37,16 @@ class Asked(Value):
     task: Task | TimedTask
 
     @classmethod
-    def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask) -> Asked:
-        """Return what was asked, limits filled in; without scenarios on a hand, of which each plan takes many.
+    def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask, *, scenarios: bool = False) -> Asked:
+        """Return what was asked, limits filled in.
 
         Args:
             grasp: who plans.
             task: as it was asked.
             timed: the same at its knots.
+            scenarios: whether to ask for those on a hand, too, of which each plan takes many.
         """
-        asked = task if grasp.held is None else _without_scenarios(task)
+        asked = task if scenarios or grasp.held is None else _without_scenarios(task)
         return cls(grasp, asked).with_limits((SlipMargin(timed.margin), *timed.limits))
 
     @property

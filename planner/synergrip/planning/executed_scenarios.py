@@ -102,6 +102,7 @@ def in_scenarios(walk: Walk, walker: Walker, formulation: Formulation, unseen: K
         return Judged(harder=harder)
     if (sizes := samples.sizes(LIKELY if unseen else len(missing) / known.among)) is None:
         told = f"of {known.among} scenarios executed at the true equilibrium {len(missing)} miss a limit"
+        told = f"{told}, and no plan was found that keeps more"
         return Judged(said=f"{told}: {_shortly(missing)}")
     fresh, tried = samples.fresh(known, *sizes)
     if not fresh.said or unseen or fresh.looks >= allowed.scenarios.looks:
