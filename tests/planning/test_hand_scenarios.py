@@ -14,6 +14,7 @@ from command_line import run
 
 import synergrip as sg
 from synergrip.changes.asked import Asked
+from synergrip.explain.explained import explained
 from synergrip.planning.check import judge_references
 from synergrip.planning.executed_scenarios import Samples
 from synergrip.planning.executing import Executor
@@ -94,6 +95,7 @@ def test_what_cannot_be_kept_is_unknown_and_says_what_is_missed() -> None:
     assert (unsure.stage, unsure.exit_code) == ("execution", 3)
     assert "scenarios executed at the true equilibrium" in unsure.why
     assert "scenario 0." in unsure.why
+    assert not explained(unsure, short=True).others  # what was planned without scenarios would help nobody
 
 
 def test_what_is_planned_at_the_start_posture_is_judged_by_one_look() -> None:
