@@ -119,7 +119,7 @@ def _hand(rng: np.random.Generator, name: str, counted: Counter[str]) -> None:
     allow = Allowances(
         friction_share=float(rng.uniform(0.03, 0.1)),
         mass=(0.8 * body.mass, float(rng.uniform(1.05, 1.2)) * body.mass) if body.mass else None,
-        contact_gap=float(rng.uniform(0, 3e-5)),
+        contact_gap=float(rng.uniform(0, 2e-4 if np.any(problem.grasp.C_q) else 3e-5)),
         load=[np.concatenate([0.1 * weight * rng.normal(size=3), np.zeros(3)]) for _ in "ab"],
     )
     limits = [each for each in problem.task.limits if isinstance(each, SlipMargin | JointRange)]
