@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Plan
 from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.text.text_cases import case_lines
 
 WEIGHT = sg.Wrench((0, 0, -3.0, 0, 0, 0))
 
@@ -244,6 +246,40 @@ def test_what_loads_really_change_is_asked_for_and_never_promised_without(monkey
     assert isinstance(unsure, sg.Unknown)
     assert (unsure.stage, unsure.exit_code) == ("execution", 3)
     assert "in cases that are allowed for: load [0 4 0 0 0 0]" in unsure.why
+
+
+def test_contacts_that_are_off_are_executed_on_the_hand() -> None:
+    """Every case with contacts early and late, as an execution of its own has it."""
+    problem = sg.load_problem("barrett-ball-hold", ["task.knots=3", "task.between=report"])
+    made = planned(problem.grasp, problem.task.replace(allow=sg.Allowances(contact_gap=1e-4)))
+    in_place, *off = made.cases
+    assert made.executed is not None
+    assert (in_place.title, len(off), any(case.by_maps for case in made.cases)) == ("as stated", 8, False)
+    for signs, case in zip(itertools.product((1, -1), repeat=3), off, strict=True):
+        early = np.zeros(made.grasp.n_l)
+        early[made.grasp.normal_rows] = 1e-4 * np.array(signs)
+        own = replace(made.executed.setting, early=early)
+        found = sg.execute(own, made.time, made.dz_r, sg.Loads.of(made.task.wrench), guess=made.executed.states)
+        assert case.usages[0].value == pytest.approx(found.margins, abs=1e-6)
+        assert found.margins.min() > 0.5 - 1e-3 * np.abs(made.forces).max()
+
+
+def test_of_many_cases_with_contacts_off_the_worst_are_executed(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = sg.load_problem("barrett-ball-hold", ["task.knots=3", "task.between=report"])
+    task = problem.task.replace(allow=sg.Allowances(contact_gap=1e-4))
+    every = planned(problem.grasp, task)
+    monkeypatch.setattr("synergrip.planning.contacts_off.MOST_EXECUTED", 2)
+    some = planned(problem.grasp, task)
+    by_maps = [case for case in some.cases if case.by_maps]
+    assert 1 < len(by_maps) < len(every.cases) - 1
+    worst = min(every.cases, key=lambda case: case.margin)
+    assert (worst.title, worst.margin) in [(case.title, case.margin) for case in some.cases if not case.by_maps]
+    text = " ".join(" ".join(case_lines(some)).split())
+    assert (
+        f"in {9 - len(by_maps)} cases executed on the hand that moves, and in {len(by_maps)} with contacts off" in text
+    )
+    told = outcome_document("", problem.grasp, some)["allowances"]["cases"]
+    assert [each["by_maps"] for each in told] == [case.by_maps for case in some.cases]
 
 
 def test_what_the_file_says_code_can_say(tmp_path: Path) -> None:

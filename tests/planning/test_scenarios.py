@@ -111,4 +111,14 @@ def test_scenarios_of_a_file_and_what_they_are_not_for() -> None:
     told = outcome_document("", problem.grasp, made)["allowances"]["scenarios"]
     assert (told["share"], told["seed"]) == (0.2, 0)
     with pytest.raises(sg.InputError, match=r"allow\.scenarios"):
-        sg.load_problem("barrett-ball-hold", ['allow.scenarios={ position = "1 mm" }'])
+        sg.load_problem("tripod", ['allow.scenarios={ position = "1 mm" }', "task.between=hold"])
+
+
+def test_what_is_squeezed_in_at_the_start_is_balanced_in_every_sample() -> None:
+    grasp = tripod(0.8)
+    squeezed = grasp.replace(lambda_0=2 * np.eye(3)[0][None].repeat(3, axis=0).ravel(), w_0=np.zeros(6))
+    for response in SCENARIOS.drawn(squeezed, 5):
+        own = response.grasp
+        assert own.lambda_0 is not None
+        assert own.G @ own.lambda_0 == pytest.approx(np.zeros(6), abs=1e-12)
+        assert np.abs(own.lambda_0 - squeezed.lambda_0).max() > 1e-3

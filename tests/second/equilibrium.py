@@ -65,6 +65,7 @@ class Equilibrium:
         self.C_s = block_diag(*(np.array(contact["compliance"], dtype=float) for contact in self.contacts))
         self.q_0, self.p_0 = np.array(block["q_0"]), np.array(block["object"]["position_m"])
         self.forces_0 = np.array(block["lambda_0"], dtype=float)
+        self.early = np.array(block.get("early_m", np.zeros(len(self.forces_0))), dtype=float)  # beyond what is seen
         self.n_q, self.n_l = len(self.q_0), len(self.forces_0)
         links = tree.poses(self.q_0[None]).links
         self.touching: list[Touching] = [
@@ -94,7 +95,7 @@ class Equilibrium:
         commanded = dz_r - more @ self.S @ self.C_z.T
         joints = q - self.q_0 - commanded @ self.S.T + more @ self.C_q.T
         stretch = np.hstack([each.stretch[:, rows] for each, rows in zip(seen, self.rows, strict=True)])
-        return np.hstack([joints, wrench, (forces - self.forces_0) @ self.C_s.T - stretch])
+        return np.hstack([joints, wrench, (forces - self.forces_0) @ self.C_s.T - stretch - self.early])
 
     def settle(self, x: Array, before: State) -> State:
         """Return the state of unknowns (n,), with what the contacts then remember."""

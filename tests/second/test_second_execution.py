@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import second_execution
+import second_samples
 from judged_execution import compared
 from scipy.spatial.transform import Rotation
 from second.equilibrium import Equilibrium, State
@@ -47,7 +48,8 @@ def equilibrium_of(name: str, model: str) -> Equilibrium:
 
 
 def test_it_knows_nothing_of_the_package() -> None:
-    own = [Path(second_execution.__file__), *(REPOSITORY / "tests" / "second").glob("[!t]*.py"),
+    own = [Path(second_execution.__file__), Path(second_samples.__file__),
+           *(REPOSITORY / "tests" / "second").glob("[!t]*.py"),
            *(REPOSITORY / "tests" / "second").glob("t[!e]*.py")]  # fmt: skip
     assert {path.name for path in own} >= {"tree.py", "touching.py", "surfaces.py", "equilibrium.py"}
     for path in own:

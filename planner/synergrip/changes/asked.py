@@ -26,6 +26,8 @@ from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
+STATED = "other numbers are planned without allow.scenarios, for the grasp as it is stated: each takes many plans"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Asked(Value):
@@ -35,15 +37,17 @@ class Asked(Value):
     task: Task | TimedTask
 
     @classmethod
-    def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask) -> Asked:
+    def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask, *, scenarios: bool = False) -> Asked:
         """Return what was asked, limits filled in.
 
         Args:
             grasp: who plans.
             task: as it was asked.
             timed: the same at its knots.
+            scenarios: whether to ask for those on a hand, too, of which each plan takes many.
         """
-        return cls(grasp, task).with_limits((SlipMargin(timed.margin), *timed.limits))
+        asked = task if scenarios or grasp.held is None else _without_scenarios(task)
+        return cls(grasp, asked).with_limits((SlipMargin(timed.margin), *timed.limits))
 
     @property
     def limits(self) -> tuple[Limit, ...]:
@@ -101,6 +105,13 @@ class Asked(Value):
             formulation = replace(formulation, allowed=formulation.allowed.exact)
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)
+
+
+def _without_scenarios(task: Task | TimedTask) -> Task | TimedTask:
+    """Return a task that allows for what is guaranteed alone."""
+    if isinstance(task, Task):
+        return task if task.allow is None else replace(task, allow=task.allow.without_scenarios)
+    return task if task.allowed is None else replace(task, allowed=replace(task.allowed, scenarios=None))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

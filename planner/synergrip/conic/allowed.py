@@ -23,6 +23,7 @@ from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.reserve import lost
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.sampled import Sampled
+from synergrip.equilibrium.setting import Setting
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp
@@ -56,6 +57,19 @@ class Scenarios(Protocol):
 
     def drawn(self, grasp: Grasp, count: int, first: int = 0) -> tuple[Response, ...]:
         """Return the maps of so many samples."""
+
+    @property
+    def looks(self) -> int:
+        """How often fresh samples on a hand may be looked at."""
+
+    def fresh(self, missing: int = 0) -> int:
+        """Return how many fresh samples on a hand are looked at, of which so many may miss a limit."""
+
+    def share_at_most(self, missing: int, count: int) -> float:
+        """Return the share that misses, at most, where so many of a number of fresh ones do."""
+
+    def on_hand(self, grasp: Grasp, part: int, number: int) -> Setting:
+        """Return a sample of a grasp on a hand."""
 
 
 class Extra(Protocol):
@@ -126,9 +140,9 @@ class Allowed(Value):
 
     def on(self, formulation: Formulation) -> Allowed:
         """Return it with as many samples as the unknowns of a formulation take."""
-        if self.scenarios is None:
-            return self
         grasp = formulation.response.grasp
+        if self.scenarios is None or grasp.held is not None:  # on a hand samples are executed
+            return self
         count = self.scenarios.count(formulation.unknowns + 1)
         if count * formulation.knots * grasp.n_c > MOST_SAMPLED:
             message = (

@@ -54,10 +54,15 @@ class Sampled(Formulation):
         return self.reference.after(getattr(self.other, references)).plus(change @ getattr(self.other, load).T)
 
 
-def started(response: Response) -> Array:
-    """Return forces (n_l) at the start of another grasp: the elastic reaction to w_0, and what was squeezed in."""
+def started(response: Response, squeezed: Array | None = None) -> Array:
+    """Return forces (n_l) at the start of another grasp: the elastic reaction to w_0, and what was squeezed in.
+
+    Args:
+        response: of the other grasp.
+        squeezed: (n_l,) the forces that were squeezed in; those that it states itself when None.
+    """
     grasp = response.grasp
-    passive = response.dlambda_dw @ grasp.w_0
-    if grasp.lambda_0 is None:
+    passive, own = response.dlambda_dw @ grasp.w_0, grasp.lambda_0 if squeezed is None else squeezed
+    if own is None:
         return frozen(passive)
-    return frozen(passive + grasp.lambda_0 + response.dlambda_dw @ (grasp.G @ grasp.lambda_0))
+    return frozen(passive + own + response.dlambda_dw @ (grasp.G @ own))

@@ -3,11 +3,12 @@
 Unknown are joints q, object pose (p, R) and contact forces lambda, so that springs without compliance are as good as
 any. With tau = J' lambda at the true posture, about the true origin p of the object,
 
-    r_s = C_s (lambda - lambda_0) - d                                    springs of the contacts
+    r_s = C_s (lambda - lambda_0) - d - g                                springs of the contacts
     r_q = q - q_0 - S dz_r + (C_q + S C_z S') (tau - tau_0)              joints and synergies
     r_w = G lambda + w                                                   object
 
-d is the stretch of the contacts since the start. J and -G' are its derivatives, so r_q and r_w are those of an energy.
+d is the stretch of the contacts since the start, g what they are early by. J and -G' are the derivatives of d, so r_q
+and r_w are those of an energy.
 """
 
 from __future__ import annotations
@@ -115,7 +116,7 @@ class Balance(Value):
     def residuals(self) -> tuple[Array, Array, Array]:
         """r_s (T, n_l), r_q (T, n_q), r_w (T, 6)."""
         grasp, start = self.setting.grasp, self.setting
-        springs = (self.states.forces - start.forces) @ grasp.C_s - self.stretch
+        springs = (self.states.forces - start.forces) @ grasp.C_s - self.stretch - start.early
         driven = start.held.q + self.references @ grasp.S.T - (self.torques - start.torques) @ start.compliance
         balance = np.einsum("tij,tj->ti", self.G, self.states.forces) + self.loads.acting(self.states.rotation)
         return springs, self.states.q - driven, balance

@@ -45,6 +45,9 @@ class Setting(Value):
     links: Array  # (n_c, 3, 3) rotations of the links at the start
     contact_model: str
     """"rolling" when any contact rolls, else "fixed"."""
+    early: Array | float = 0.0
+    """(n_l,) by how much springs of contacts are stretched beyond what links and object say [m, rad]: along the normal
+    of a contact that meets the object early, and below 0 of one that is late; 0 where all are in place."""
 
     @cached_property
     def start(self) -> States:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
-from synergrip.changes.asked import Asked, Posed
+from synergrip.changes.asked import STATED, Asked, Posed
 from synergrip.changes.at_a_value import solved
 from synergrip.changes.least_change import LeastChange, least_change
 from synergrip.changes.turning import dials
@@ -44,12 +44,16 @@ def explained(
         heard: is told of each repair as it is found.
     """
     timed = no.task
-    asked = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed)
+    sampled = timed.allowed is not None and timed.allowed.scenarios is not None and no.grasp.held is not None
+    missed = sampled and isinstance(no, Unknown)  # maybe by scenarios alone: changes are to keep them, too
+    asked = Asked.of(no.grasp, timed if no.asked is None else no.asked, timed, scenarios=missed)
     posed = asked.posed(no.analysis)
     if posed is None or (isinstance(no, Infeasible) and no.stage in STAGES):
         return refused(no, asked, short=short)
     program = posed.program()
     if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
+        if missed and short:  # each change takes as many samples as the plan
+            return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=False)
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
     numbers = dials(asked, timed, posed.analysis)
     try:
@@ -69,6 +73,7 @@ def explained(
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping)
     text, in_vain = _text(no, held, known), _in_vain(found)
+    text = f"{text}; {STATED}" if sampled and not missed and held else text
     known = _without_margins(known) if "margin" in in_vain else known
     first = Explanation(cause, text, known, held, in_vain, NOT_KNOWN, not short, interrupted, posed=posed, others=rest)
     try:

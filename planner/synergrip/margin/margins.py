@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from synergrip.changes.asked import Asked
+from synergrip.changes.asked import STATED, Asked
 from synergrip.conic.limits.normal_force import least_normal_force
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
@@ -73,6 +73,8 @@ def margins(
     made = plan(grasp, task)
     if not isinstance(made, Plan):
         return made
+    if made.fresh is not None:
+        made = replace(made, notes=(*made.notes, STATED))
     asked = Asked.of(made.grasp, task, made.task)
     numbers = {each.name: each for each in wanted(asked, made)}
     for name in names:

@@ -142,11 +142,14 @@ def _linear(
 def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation, linear: Motion) -> Judgement:
     """Judge references by what the hand that moves does with them; `linear` is what the start posture would have it."""
     from synergrip.planning.executed_cases import executed_cases
+    from synergrip.planning.executed_scenarios import in_scenarios
     from synergrip.planning.executing import Executor
     from synergrip.planning.figures import figures
+    from synergrip.planning.known_samples import unseen
     from synergrip.planning.reach import off
     from synergrip.planning.solvers import SOLVERS
     from synergrip.planning.walk import Walker
+    from synergrip.tasks.scenarios import LOOKS
 
     walker = Walker(task, analysis, Executor.of(analysis, task), SOLVERS["clarabel"])
     walk = walker.executed(linear.dz_r, linear.forces, linear)
@@ -160,10 +163,11 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
     margins = frozen(found.usages[0].value)
     cases = executed_cases(walk, walker, formulation)
+    samples = in_scenarios(walk, walker, formulation, unseen(LOOKS))  # others than those that a plan was judged by
+    checks = (followed, *found.checks, *cases.checks, *samples.checks)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, (followed, *found.checks, *cases.checks),
-        found.between,
-        walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench),
+        task, analysis, formulation, found.motion, margins, found.usages, checks, found.between, walk.executed,
+        walker.executor.with_fixed_contacts(walk.executed, task.wrench),
     )  # fmt: skip
 
 

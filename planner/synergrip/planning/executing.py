@@ -98,7 +98,7 @@ def motion_of(execution: Execution, start: Analysis, wrench: Array, sag: Array) 
     """
     torques, S = execution.balance.torques, start.grasp.S
     efforts, z = torques @ S, execution.references
-    dz = z - (torques - execution.setting.torques) @ S @ start.grasp.C_z
+    dz = z - (torques - execution.setting.torques) @ S @ execution.setting.grasp.C_z
     arrays = (execution.times, z, wrench, execution.states.forces, torques, efforts, execution.du, sag,
               execution.joint, dz)  # fmt: skip
     return Motion(*(frozen(array) for array in arrays))

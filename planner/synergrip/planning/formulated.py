@@ -48,12 +48,15 @@ def formulated(analysis: Analysis, task: TimedTask, *, redundancy: bool) -> Form
 
 
 def refuse_unheld(analysis: Analysis, allowed: Allowed, times: Array) -> None:
-    """Refuse allowed loads that work on a motion of the object that no contact resists.
+    """Refuse allowed loads that work on a motion of the object that no contact resists, and scenarios on a hand there.
 
     Raises:
         InputError: with the load.
     """
     response = analysis.response
+    if allowed.scenarios is not None and analysis.grasp.held is not None and not response.restrained:
+        message = "these contacts leave a motion of the object free, so that no scenario comes to rest on the hand"
+        raise InputError.at("Task.allow.scenarios", message)
     for case in allowed.cases if not response.restrained else ():
         if case.extra is not None:
             load = response.scale.wrench(case.extra.at(times))

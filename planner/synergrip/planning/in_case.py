@@ -29,6 +29,9 @@ class InCase(Value):
     """What it is: "least friction, mass 0.3 kg"; "as stated" for what the task says itself."""
     usages: tuple[Usage, ...]
     """Of the limits that speak of an instant, friction cones first, with the friction of the case."""
+    by_maps: bool = False
+    """Whether it is not executed, as others of a hand that moves are, but from the maps of the knots: one of many with
+    contacts that are off, and none of the worst."""
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""

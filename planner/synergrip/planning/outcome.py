@@ -22,6 +22,7 @@ from synergrip.linalg import Array
 from synergrip.planning.answer import LONG, Reasoned, Tabled
 from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
+from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
@@ -91,6 +92,8 @@ class Plan(Tabled):
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
     cases: tuple[InCase, ...] = ()
     """What the plan uses of its limits in every case of what the task allows for; none where it allows for nothing."""
+    fresh: FreshSamples | None = None
+    """What became of random samples of the grasp on a hand that the plan was not made with; None without any."""
 
     def __post_init__(self) -> None:
         """Let limits and checks be found by their names, too."""

@@ -12,6 +12,7 @@ from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.between import Between
+from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Check
 from synergrip.planning.verified import LIMIT
@@ -55,23 +56,37 @@ def margin_document(margins: Usage) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def cases_document(cases: Sequence[InCase], allowed: Allowed | None) -> dict[str, Any] | None:
+def cases_document(
+    cases: Sequence[InCase], allowed: Allowed | None, fresh: FreshSamples | None
+) -> dict[str, Any] | None:
     """Return the worst slip margin over all that a task allows for, and that of every case; None without any.
 
     Args:
         cases: of a plan.
         allowed: of its formulation.
+        fresh: samples of a grasp on a hand that it was not made with.
     """
     if not cases or allowed is None:
         return None
-    asked = allowed.scenarios
-    samples = None if asked is None else {
-        "count": len(allowed.samples), "seed": asked.seed, "share": asked.share, "confidence": asked.confidence,
-    }  # fmt: skip
     least = worst_case(cases)
-    every = [{"case": case.title, "worst_N": case.margin} for case in cases]
+    every = [{"case": case.title, "worst_N": case.margin, "by_maps": case.by_maps} for case in cases]
     return margin_document(least.usages[0]) | {
-        "case": least.title, "cases": every, "scenarios": samples,
+        "case": least.title, "cases": every, "scenarios": _scenarios_document(allowed, fresh),
+    }  # fmt: skip
+
+
+def _scenarios_document(allowed: Allowed, fresh: FreshSamples | None) -> dict[str, Any] | None:
+    """Return how many samples hold, and what follows for others; None where none were asked for."""
+    asked = allowed.scenarios
+    if asked is None:
+        return None
+    promised = {"seed": asked.seed, "share": asked.share, "confidence": asked.confidence}
+    if fresh is None:
+        return {"count": len(allowed.samples), **promised}
+    return {
+        "count": fresh.count, **promised, "missing": fresh.missing, "may_miss": fresh.allowed,
+        "share_at_most": fresh.share, "looks": fresh.looks, "instants": fresh.instants, "made_with": fresh.made_with,
+        "at": "true equilibrium",
     }  # fmt: skip
 
 

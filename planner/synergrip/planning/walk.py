@@ -26,6 +26,7 @@ from synergrip.planning.executing import Executor, analyses_of, sag_of
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.instants import intersample_of
 from synergrip.planning.kept_between import MoreAtKnots, margins_at
+from synergrip.planning.known_samples import Known
 from synergrip.planning.looks import looks_between, samples_of
 from synergrip.planning.near_rows import left_out, near_rows
 from synergrip.planning.pace import WHOLE, Effort, Pace
@@ -66,6 +67,8 @@ class Walker:
     aim: Array | None = None
     """(T, 6) where the object is wanted instead of where the task says [m, rad]."""
     effort: Effort = WHOLE
+    scenarios: Known | None = None
+    """What is known of random samples of the grasp; None before any of them was executed."""
 
     def kept_between(self, walk: Walk) -> Walk:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""

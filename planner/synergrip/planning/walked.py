@@ -12,10 +12,13 @@ from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.beginning import walk_from_plan
 from synergrip.planning.executed_cases import ExecutedCases, executed_cases, kept_in_cases
+from synergrip.planning.executed_scenarios import Judged, in_scenarios
 from synergrip.planning.executing import Executor
 from synergrip.planning.figures import Figures, figures
 from synergrip.planning.kept_between import MoreAtKnots
+from synergrip.planning.known_samples import unseen
 from synergrip.planning.let_go import undone_notes
+from synergrip.planning.otherwise import walked_harder
 from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
@@ -57,14 +60,16 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
     cases = ExecutedCases() if said else executed_cases(walk, walker, plan.formulation)
-    if said := said or cases.said:
+    said = said or cases.said
+    samples = Judged() if said else in_scenarios(walk, walker, plan.formulation, unseen())
+    if said := said or samples.said:
         return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
     worth = (
         f"planned at the start posture, which promises a smallest slip margin of {promised:.4g} N; the hand that moves "
         f"keeps {kept:.4g} N"
     )
-    return _with(plan, walk, walker, found, cases, (worth, *plan.notes))
+    return _with(plan, walk, walker, found, cases, samples, (worth, *plan.notes))
 
 
 ALONG = 'task.linearise = "along" plans for the hand that moves'
@@ -98,15 +103,26 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         return answer_of(*kept, linear)
     if said := _missed(found):
         return _unknown(walker, linear, said, walk, found)
-    cases = executed_cases(walk, walker, linear.formulation)
+    return _in_all_cases(walk, walker, linear, found)
+
+
+def _in_all_cases(walk: Walk, walker: Walker, linear: Plan, found: Figures) -> Plan | Unknown:
+    """Return the answer of a walk that holds as its task states it, in every case and in samples of its grasp."""
+    formulation = linear.formulation
+    cases = executed_cases(walk, walker, formulation)
     if cases.said:
-        kept = kept_in_cases(walk, walker, cases)
+        kept = kept_in_cases(walk, walker, formulation, cases)
         return _unknown(walker, linear, cases.said, walk, found) if kept is None else answer_of(*kept, linear)
+    samples = in_scenarios(walk, walker, formulation)
+    if samples.harder is not None:
+        return answer_of(*samples.harder, linear)
+    if samples.said:
+        return _unknown(walker, linear, samples.said, walk, found)
     told = (
         *accuracy_notes(walker.start.response), *undone_notes(walker.start, walker.task), *_goal_notes(walk),
         *passed_over(found.between), *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
-    return _with(_decided(linear, walk), walk, walker, found, cases, told)
+    return _with(_decided(linear, walk), walk, walker, found, cases, samples, told)
 
 
 def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker] | None:
@@ -118,10 +134,7 @@ def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
     if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
-    harder = replace(walker, more=more_still)
-    again = harder.on(replace(walk, gap=np.inf))
-    arrives = again.true and float(off(again, harder).max()) <= harder.allowed
-    return (again, harder) if arrives or again.interrupted else None
+    return walked_harder(walk, replace(walker, more=more_still))
 
 
 def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
@@ -137,11 +150,14 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     found = figures(walk, walker, linear.formulation, linear.between)
     missed = _missed(found)
     cases = ExecutedCases() if missed else executed_cases(walk, walker, linear.formulation)
-    if missed := missed or cases.said:
+    missed = missed or cases.said
+    if not missed and walker.task.allowed is not None and walker.task.allowed.scenarios is not None:
+        missed = "it was not looked at which share of scenarios holds"
+    if missed:
         raise KeyboardInterrupt(come + missed)
     note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
-    return _with(plan, walk, walker, found, cases, (*_goal_notes(walk), note))
+    return _with(plan, walk, walker, found, cases, Judged(), (*_goal_notes(walk), note))
 
 
 def _until(walk: Walk, walker: Walker) -> str:
@@ -162,7 +178,9 @@ def _goal_notes(walk: Walk) -> tuple[str, ...]:
     return () if walk.stage is None else walk.stage.notes
 
 
-def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: ExecutedCases, told: Sequence[str]) -> Plan:
+def _with(
+    plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: ExecutedCases, samples: Judged, told: Sequence[str]
+) -> Plan:
     """Return a plan with the figures of a walk."""
     alpha, beta, gamma = walker.start.coordinates.coordinates(walk.references)
     fixed = walker.executor.with_fixed_contacts(walk.executed, walker.task.wrench)
@@ -171,7 +189,7 @@ def _with(plan: Plan, walk: Walk, walker: Walker, found: Figures, cases: Execute
         plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, between=found.between,
         executed=walk.executed, fixed=fixed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
-        checks=(*found.checks, *cases.checks), cases=cases.cases,
+        checks=(*found.checks, *cases.checks, *samples.checks), cases=cases.cases, fresh=samples.fresh,
     )  # fmt: skip
 
 

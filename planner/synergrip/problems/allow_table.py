@@ -101,7 +101,7 @@ Distance = Annotated[float, Written(with_unit("length", at_least=0), unit_schema
 
 
 class ScenariosTable(Table):
-    """Random errors of a grasp given as matrices, of which the plan is to hold for a stated share."""
+    """Random errors of a grasp, of which the plan is to hold for a stated share."""
 
     position: Distance = Field(default=0.0, description="largest distance of a contact from where it is stated")
     normal: Tilt = Field(default=0.0, description="largest tilt of the normal of a contact")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,7 +29,8 @@ class Allowances(ByContent):
     Friction: the smallest decides, since the cone of less friction lies in those of more. Loads: forces are affine in
     the load at given references, ``lambda = lambda_0 - G+ dw + E_s alpha``, so that the corners of what is allowed
     decide. Contact gap: a contact that meets the object early or late by g changes the forces by
-    ``(I - G+ G) K g``, which is kept as a reserve in every cone. All of them together are allowed for.
+    ``(I - G+ G) K g``, which is kept as a reserve in every cone. All of them together are allowed for. On a hand
+    corners are executed, too, with contacts early and late.
 
     Args:
         friction: least and largest coefficient of all contacts, or of those named: ``{"thumb": (0.4, 0.6)}``. Spin
@@ -40,7 +41,8 @@ class Allowances(ByContent):
         load_box: (6,) how large each component of a further wrench may be, either way [N, N m].
         contact_gap: how far contacts may be off along their normals, either way [m]: all of them, or those named.
         scenarios: random errors of places and normals of contacts and of compliance, of which the plan holds for a
-            stated share; of a grasp given as matrices, at its knots and under the load stated.
+            stated share, under the load stated: of a grasp given as matrices at its knots, on a hand as fresh samples
+            that are executed say.
 
     Raises:
         InputError: nothing allowed, or no such numbers.
@@ -99,6 +101,15 @@ class Allowances(ByContent):
     @property
     def asked(self) -> bool:
         """Whether anything is allowed for."""
+        return self.scenarios is not None or self._guaranteed
+
+    @property
+    def without_scenarios(self) -> Allowances | None:
+        """What is guaranteed alone; None where that is nothing."""
+        return replace(self, scenarios=None) if self._guaranteed else None
+
+    @property
+    def _guaranteed(self) -> bool:
         gaps = self.contact_gap.values() if isinstance(self.contact_gap, Mapping) else (self.contact_gap,)
         some = (
             self.friction,
@@ -108,7 +119,7 @@ class Allowances(ByContent):
             np.any(self.load_box),
             any(gaps),
         )
-        return self.scenarios is not None or any(each is not None and bool(each) for each in some)
+        return any(each is not None and bool(each) for each in some)
 
 
 def _interval(judge: TaskArguments, name: str, value: Any, unit: str = "") -> Interval:

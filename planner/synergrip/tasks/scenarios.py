@@ -6,16 +6,24 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from synergrip.conic.sampled import started
 from synergrip.documents.judging import described, is_whole
 from synergrip.documents.naming import naming_arguments
+from synergrip.equilibrium.setting import Setting
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Response, respond
 from synergrip.tasks.arguments import TaskArguments, keep
+from synergrip.tasks.scenario_on_hand import Errors, sample_of
+from synergrip.tasks.shares import largest_share, samples_for
 from synergrip.values import ByContent
 
+LOOKS = 3
+"""How often fresh samples on a hand may be looked at; each time they are others."""
+MOST_FRESH = 1000
+"""Fresh samples in one look, at most."""
 SAME = 1e-6
 """Entries of G that are the same [m]."""
 LARGEST_SEED = 2**63
@@ -31,8 +39,13 @@ class Scenarios(ByContent):
     all others, with confidence 1 - beta, where ``sum over i < d of C(N, i) epsilon^i (1 - epsilon)^(N - i) <= beta``
     (Campi and Garatti, the scenario approach to convex programs). The references are the same in all of them.
 
+    On a hand nothing is convex: samples other than those that a plan was made with are executed there, and of N of
+    these k may miss a limit, by the same sum over ``i <= k`` (Clopper and Pearson, bounds of the binomial
+    distribution). There may be `LOOKS` such looks, each with as much of beta.
+
     Args:
-        position: largest distance of a contact on the object from where it is stated, evenly spread in that ball [m].
+        position: largest distance of a contact on the object from where it is stated, evenly spread in that ball [m];
+            on a hand in that disc of the surface, and the pad touches there.
         normal: largest tilt of its normal, evenly spread in that cone [rad].
         compliance: share by which contacts, joints and synergies may each be stiffer or softer, below 1.
         share: epsilon, of samples that may miss a limit, between 0 and 1.
@@ -73,16 +86,40 @@ class Scenarios(ByContent):
 
     def count(self, unknowns: int) -> int:
         """Return the least number of samples for a plan of so many numbers."""
-        from scipy.special import bdtr
+        return samples_for(unknowns - 1, self.share, 1 - self.confidence)
 
-        few, many = unknowns, max(2 * unknowns, 16)
-        while bdtr(unknowns - 1, many, self.share) > 1 - self.confidence:
-            few, many = many, 2 * many
-        while many - few > 1:
-            middle = (few + many) // 2
-            enough = bdtr(unknowns - 1, middle, self.share) <= 1 - self.confidence
-            few, many = (few, middle) if enough else (middle, many)
-        return int(many)
+    @property
+    def looks(self) -> int:
+        """How often fresh samples on a hand may be looked at."""
+        return LOOKS
+
+    def fresh(self, missing: int = 0) -> int:
+        """Return the least number of fresh samples on a hand of which so many may miss a limit, in one of the looks."""
+        return samples_for(missing, self.share, (1 - self.confidence) / LOOKS)
+
+    def share_at_most(self, missing: int, count: int) -> float:
+        """Return the share of samples that miss, at most, where so many of a number of fresh ones on a hand do."""
+        return largest_share(missing, count, (1 - self.confidence) / LOOKS)
+
+    def on_hand(self, grasp: Grasp, part: int, number: int) -> Setting:
+        """Return a sample of a grasp on a hand.
+
+        Args:
+            grasp: on a hand.
+            part: of the seed: samples of different ones have nothing to do with each other.
+            number: of the sample.
+
+        Raises:
+            OffTheFaceError: a contact would be beyond the edge of its face.
+        """
+        from scipy.spatial.transform import Rotation
+
+        rng = np.random.default_rng([self.seed, part, number])
+        (across, size, around, tilt), factors = rng.random((4, grasp.n_c)), rng.uniform(-1, 1, 3)
+        shifts = self.position * np.sqrt(size) * np.array([np.cos(2 * np.pi * across), np.sin(2 * np.pi * across)])
+        axes = np.array([np.zeros(grasp.n_c), np.cos(2 * np.pi * around), np.sin(2 * np.pi * around)])
+        turns = Rotation.from_rotvec((self.normal * np.sqrt(tilt) * axes).T).as_matrix()
+        return sample_of(grasp, Errors(shifts.T, turns, tuple(1 + self.compliance * factors)))
 
     def drawn(self, grasp: Grasp, count: int, first: int = 0) -> tuple[Response, ...]:
         """Return the maps of so many samples of a grasp.
@@ -109,7 +146,10 @@ class Scenarios(ByContent):
         soft = {name: getattr(grasp, name) * rng.uniform(1 - self.compliance, 1 + self.compliance)
                 for name in ("C_s", "C_q", "C_z")}  # fmt: skip
         G = grasp_matrix(tuple(contacts)) if self.position or self.normal else grasp.G
-        return replace(grasp, contacts=tuple(contacts), G=G, J=frozen(J), **soft)
+        found = replace(grasp, contacts=tuple(contacts), G=G, J=frozen(J), lambda_0=None, **soft)
+        if grasp.lambda_0 is None:
+            return found
+        return replace(found, lambda_0=started(respond(found), grasp.lambda_0))
 
 
 def refuse_scenarios(grasp: Grasp, scenarios: Scenarios, *, between: bool) -> None:
@@ -118,10 +158,10 @@ def refuse_scenarios(grasp: Grasp, scenarios: Scenarios, *, between: bool) -> No
     Raises:
         InputError: says what is missing.
     """
-    if grasp.held is not None:
-        message = "scenarios are for grasps given as matrices; on a hand that moves no sample can be promised to hold"
-        raise InputError.at(KEY, message)
-    if between:
+    if grasp.held is not None and (count := scenarios.fresh()) > MOST_FRESH:
+        message = f"takes {count} samples on a hand that moves, more than the {MOST_FRESH} that are executed"
+        raise InputError.at(f"{KEY}.share", f"{message}; give a larger share, or less confidence")
+    if between and grasp.held is None:
         raise InputError.at(KEY, 'scenarios are kept at the knots; leave out between = "hold"')
     placed = np.allclose(grasp_matrix(grasp.contacts), grasp.G, rtol=0, atol=SAME)
     if (scenarios.position or scenarios.normal) and not placed:

@@ -29,7 +29,7 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "time_s": plan.time.tolist(),
         "margin": margin_document(plan.usages[0]),
         "measures": {name: _measure(each, linear.get(name)) for name, each in found.measures.items()},
-        "allowances": cases_document(plan.cases, plan.formulation.allowed),
+        "allowances": cases_document(plan.cases, plan.formulation.allowed, plan.fresh),
         "direct": {name: _number(each) for name, each in found.direct.items()},
         **{name: {of: _number(each) for of, each in several.items()} for name, several in found.on_request.items()},
         "disturbance": None if found.disturbance is None else disturbance_document(found.disturbance),

@@ -95,7 +95,7 @@ def _plan(plan: Plan) -> dict[str, Any]:
         | {"solver": last.solution.solver, "scope": "path" if plan.passes else "start"},
         "checks": [check_document(check) for check in plan.checks],
         "between": between_document(plan.between),
-        "allowances": cases_document(plan.cases, plan.formulation.allowed),
+        "allowances": cases_document(plan.cases, plan.formulation.allowed, plan.fresh),
     }  # fmt: skip
 
 

@@ -19,10 +19,10 @@ def case_lines(plan: Plan) -> Iterator[str]:
     if plan.cases:
         who = "of the linear model" if plan.executed is None else "executed on the hand that moves"
         within = to_within([usage for case in plan.cases for usage in case.usages])
-        told = f"all limits hold in {many(len(plan.cases), 'case')} {who}{within}; {_least(plan.cases)}"
-        gaps = plan.task.allowed is not None and plan.task.allowed.gaps.any()
-        off = "; contacts that are off by the maps of each knot" if gaps and plan.executed is not None else ""
-        yield from wrapped("allow    ", told + off + _share(plan))
+        count = sum(case.by_maps for case in plan.cases)
+        told = f"all limits hold in {many(len(plan.cases) - count, 'case')} {who}{within}"
+        told += f", and in {count} with contacts off that are no worse by the maps of its knots" if count else ""
+        yield from wrapped("allow    ", f"{told}; {_least(plan.cases)}{_share(plan)}")
 
 
 def _share(plan: Plan) -> str:
@@ -30,10 +30,14 @@ def _share(plan: Plan) -> str:
     allowed = plan.formulation.allowed
     if allowed is None or allowed.scenarios is None:
         return ""
-    asked = allowed.scenarios
+    asked, fresh = allowed.scenarios, plan.fresh
+    sure = f"with a confidence of {100 * asked.confidence:.6g} %, all but {100 * asked.share:.4g} % of any others"
+    if fresh is None:
+        return f"; of {len(allowed.samples)} scenarios (seed {asked.seed}) all hold, and so, {sure}"
+    count = "all" if not fresh.missing else f"{fresh.count - fresh.missing}"
     return (
-        f"; of {len(allowed.samples)} scenarios (seed {asked.seed}) all hold, and so, with a confidence of "
-        f"{100 * asked.confidence:.6g} %, all but {100 * asked.share:.4g} % of any others"
+        f"; of {fresh.count} fresh scenarios (seed {asked.seed}), executed at the true equilibria at {fresh.instants} "
+        f"instants, {count} hold, and so, {sure}"
     )
 
 
