@@ -11,3 +11,5 @@ import logging
 
 LOG = logging.getLogger("synergrip")
 LOG.addHandler(logging.NullHandler())
+LONG = LOG.getChild("long")
+"""What takes seconds, as it begins: the command line tells it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from synergrip import load_problem, plan
 from synergrip.cli import progress
 from synergrip.conic.solution import Claim
+from synergrip.log import LOG, LONG
 from synergrip.planning.solvers import SOLVERS
 
 
@@ -35,3 +37,15 @@ def test_what_is_asked_again_is_told_as_that(
     problem = load_problem("pinch-soft")
     plan(problem.grasp, problem.task, progress.telling(failing))
     assert "rows, attempt 2 of 5 ..." in capsys.readouterr().err
+
+
+def test_what_else_takes_long_is_told_as_it_begins(capsys: pytest.CaptureFixture[str]) -> None:
+    try:
+        for _ in range(2):  # as for two plans: it is told once
+            progress.tell_what_takes_long()
+        LONG.info("executing %d scenarios", 157)
+        LOG.info("and nothing else")
+        assert capsys.readouterr().err == "executing 157 scenarios ...\n"
+    finally:
+        LONG.handlers.clear()
+        LONG.setLevel(logging.NOTSET)

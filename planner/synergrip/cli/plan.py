@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.progress import telling
+from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -82,6 +82,7 @@ def plan(
 
         picture_place(picture)
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
+        tell_what_takes_long()
         folder, drawn = output or Path("out") / loaded.name, ""
         written: list[str] | None = None
         possible("--output", folder, refuse_place)

@@ -40,6 +40,21 @@ def telling(answer: Answerer) -> Answerer:
     return told
 
 
+def tell_what_takes_long() -> None:
+    """Tell on standard error what else takes seconds, as it begins."""
+    import logging
+
+    from synergrip.log import LONG
+
+    class Teller(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            print(f"{record.getMessage()} ...", file=sys.stderr, flush=True)
+
+    if not LONG.handlers:
+        LONG.addHandler(Teller())
+        LONG.setLevel(logging.INFO)
+
+
 def counted(done: int, of: int, what: str) -> None:
     """Tell on a terminal how much of a long work is done, on one line that is written over and wiped at the end."""
     if sys.stderr.isatty():

@@ -21,7 +21,7 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.equilibrium.setting import Setting
 from synergrip.errors import SynergripError
 from synergrip.linalg import frozen
-from synergrip.log import LOG
+from synergrip.log import LOG, LONG
 from synergrip.planning.between import Between
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_cases import ALL_CASES
@@ -120,7 +120,7 @@ class Samples(Value):
 
     def executed(self, numbers: Sequence[Number], why: str) -> list[Executed]:
         """Return what becomes of some samples, and why they are looked at for who interrupts."""
-        LOG.info("executing %d scenarios %s", len(numbers), why)
+        LONG.info("executing %d scenarios %s", len(numbers), why)
         found = list[Executed]()
         try:
             found.extend(self._executed(number) for number in numbers)
