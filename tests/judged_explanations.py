@@ -165,7 +165,7 @@ def named(explanation: Explanation, cause: str) -> tuple[bool, bool]:
     return first, first or cause in causes[:2]
 
 
-def judge(question: Question, number: str, count: Count, *, names: bool) -> Iterator[str]:
+def judge(question: Question, number: str, count: Count, *, names: bool = False) -> Iterator[str]:
     """Yield what is wrong with the explanation of one task."""
     no = plan(*question)
     model = LeastChanges(*question)

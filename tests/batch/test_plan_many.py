@@ -198,3 +198,15 @@ def test_mistakes_are_told_by_the_argument(name: str) -> None:
     given: dict[str, Any] = {"grasp": GRASP, "task": TASK, **arguments}
     with pytest.raises(sg.InputError, match=message):
         sg.plan_many(given.pop("grasp"), given.pop("task"), **given)
+
+
+def test_objects_of_their_own_weigh_what_they_weigh() -> None:
+    grasp = sg.load_problem("barrett-ball-hold").grasp
+    masses = [0.1, 0.2, 0.4, 2.0]
+    task = sg.Task(
+        knots=1, loads=[sg.Gravity((0, 0, -9.81))], limits=[sg.NormalForce(upper=15.0), sg.SlipMargin(0.2)],
+        goals=[sg.LargestMargin()], linearise="once",
+    )  # fmt: skip
+    many = sg.plan_many([grasp.replace(mass=mass) for mass in masses], task)
+    assert many.verdicts.tolist() == ["feasible"] * 3 + ["infeasible"]
+    np.testing.assert_allclose(many.largest_margin, sg.plan_many(grasp, task, masses=masses).largest_margin, rtol=1e-6)

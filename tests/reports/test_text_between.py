@@ -16,4 +16,4 @@ def test_what_counts_as_kept_is_told_with_what_it_misses() -> None:
     assert not to_within([used("force", "N", 5.0 + 5e-7, 5.0)])  # rounding
     case = used("force", "N", 5.0 + 2e-3, 5.0)
     missed = [used("force", "N", 5.0 + 1e-3, 5.0), case, used("drift", "m", 3e-6, 0.0), used("turn", "rad", 1e-4, 0.0)]
-    assert to_within(missed) == " (force to within 2 mN, drift to within 3 um, turn to within 0.0057 deg)"
+    assert to_within(missed) == " (force to within 2 mN, drift to within 3 um, turn to within 0.0058 deg)"

@@ -87,9 +87,8 @@ def asked(grasp: Any, task: Any, wrenches: Any, frictions: Any, masses: Any) -> 
         raise InputError.at(next(iter(counts)), f"expected as many of each, got {told}")
     count = next(iter(counts.values()), 1)
     if loads is None:
-        loads = np.broadcast_to(timed.wrench, (count, 6))
-        if isinstance(whose, GraspStack) and isinstance(task, Task) and not task.loads:
-            loads = task.load_factor * whose.w_0
+        loads = _own_loads(whose, task) if isinstance(whose, GraspStack) and isinstance(task, Task) else None
+        loads = np.broadcast_to(timed.wrench, (count, 6)) if loads is None else loads
     return Asked(whose, timed, frozen(loads), None if factors is None else frozen(factors))
 
 
@@ -149,6 +148,20 @@ def _loads(whose: Any, task: Any, timed: TimedTask, wrenches: Any, masses: Any) 
         raise InputError.at("masses", "needs one grasp on an object that has a mass, and a Task; give wrenches instead")
     one, two = (task.timed(_like(whose).replace(mass=mass)).wrench[0] for mass in (1.0, 2.0))
     return np.asarray(one + (found[:, None] - 1.0) * (two - one))  # the load is affine in the mass
+
+
+def _own_loads(whose: GraspStack, task: Task) -> Array | None:
+    """Return the loads (N, 6) of a task on each grasp of a stack; None where they are the same on all.
+
+    What a grasp holds at the start goes by the grasp, weight and inertia by its object.
+    """
+    if not task.loads:
+        return np.asarray(task.load_factor * whose.w_0)
+    bodies = {id(each.held.body): each for each in whose.given if each.held is not None}
+    if len(bodies) < 2:
+        return None
+    own = {body: task.timed(each).wrench[0] for body, each in bodies.items()}
+    return np.array([own[id(each.held.body)] for each in whose.given if each.held is not None])
 
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...], what: str, *, above: bool = False) -> Array:

@@ -33,11 +33,12 @@ class ManyPlans(Value):
     """
 
     verdicts: NDArray[np.str_]
-    """(N,) "feasible", "infeasible" or "unknown", each as `plan` means it."""
+    """(N,) "feasible", "infeasible" or "unknown" of the linear model; `plan` of a hand executes its answer, too."""
     verified: NDArray[np.bool_]
     """(N,) True where the plan holds and is the best, or where it is proven that there is none."""
     largest_margin: Array
-    """(N,) [N] the largest margin that all contacts can keep: for that goal, and where it falls short; else nan."""
+    """(N,) [N] the largest margin that all contacts can keep: for that goal, and in general where it falls short (below
+    0 contacts are taken to pull); else nan."""
     margins: Array  # (N, n_c) slip margins of the plan [N]
     forces: Array  # (N, n_l) contact forces of the hand on the object [N, N m]
     dz_r: Array  # (N, n_z) synergy references
@@ -85,7 +86,13 @@ class Unfinished:
         self.refusals: dict[int, InputError] = {}
 
     def told(self) -> ManyPlans:
-        """Return what is known."""
+        """Return what is known of the tasks that are finished."""
+        left = ~self.flags["finished"]
+        self.verdicts[left] = UNKNOWN
+        for each in (self.flags["verified"], self.flags["one_by_one"]):
+            each[left] = False
+        for values in self.numbers.values():
+            values[left] = np.nan
         for each in (self.verdicts, *self.flags.values(), *self.numbers.values()):
             each.setflags(write=False)
         arrays: dict[str, Any] = {**self.flags, **self.numbers}

@@ -15,6 +15,8 @@ from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import Between, between
 from synergrip.planning.claims import Claims, compared
 from synergrip.planning.formulated import formulated
+from synergrip.planning.fresh_samples import FreshSamples
+from synergrip.planning.in_case import InCase
 from synergrip.planning.in_cases import case_checks, in_cases
 from synergrip.planning.outcome import Check
 from synergrip.planning.references import References
@@ -52,6 +54,10 @@ class Judgement(Value):
     """Their true states on the hand that moves; None for a grasp given as matrices."""
     fixed: Execution | None = None
     """The same if pads stayed where they are on link and object; None where nothing rolls."""
+    cases: tuple[InCase, ...] = ()
+    """What they use in every case that the task allows for."""
+    fresh: FreshSamples | None = None
+    """What became of random samples of the grasp, on a hand, where scenarios are allowed for."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
 
@@ -125,8 +131,9 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     tracking = _tracking(task, times, reached[1], formulation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
     found = between(there, analysis, formulation, motion)
-    checks += (*between_checks(there, found), *case_checks(in_cases(there, analysis, formulation, motion.dz_r), LIMIT))
-    return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found)
+    cases = in_cases(there, analysis, formulation, motion.dz_r)
+    checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
+    return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found, cases=cases)
 
 
 def _linear(
@@ -167,7 +174,7 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     checks = (followed, *found.checks, *cases.checks, *samples.checks)
     return Judgement(
         task, analysis, formulation, found.motion, margins, found.usages, checks, found.between, walk.executed,
-        walker.executor.with_fixed_contacts(walk.executed, task.wrench),
+        walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh,
     )  # fmt: skip
 
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from synergrip.tasks.task import Task
 
 KEY = "Task.allow"
+FEW = 32
+"""Corners, with contacts off to either side, up to which each is a case of its own: a reserve in every cone asks for
+more than is needed, and takes less time."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -69,7 +72,9 @@ def allowed_on(task: Task, grasp: Grasp, weight: tuple[Profile, ...]) -> Allowed
         if share or np.any(wrench):
             said = ", ".join(part for part in (mass, _said(wrench)) if part)
             cases.append(Case(said, More(share, weight, frozen(wrench), task.load_factor)))
-    return Allowed(_kinds(allow, grasp), tuple(cases), _gaps(allow, grasp), scenarios=allow.scenarios)
+    gaps = _gaps(allow, grasp)
+    few = len(cases) * 2 ** int(np.count_nonzero(gaps)) <= FEW
+    return Allowed(_kinds(allow, grasp), tuple(cases), gaps, scenarios=allow.scenarios, cornered=few)
 
 
 def _unknown(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:

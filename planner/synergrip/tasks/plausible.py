@@ -20,6 +20,8 @@ from synergrip.tasks.timed_task import TimedTask
 FAR = 0.05
 """Share of it by which gravity on the ground never differs."""
 TURN = 2 * np.pi
+OFF = 0.2
+"""Share of the length of a grasp by which contacts are hardly off."""
 ROOM = 10.0
 """[m] By more than this no arm moves a palm."""
 
@@ -47,6 +49,7 @@ def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Itera
             yield Issue(message, key=f"Task.loads[{place}]")
     if isinstance(task, Task) and task.allow is not None:
         yield from _beside_what_is_stated(task.allow, grasp)
+        yield from _far_off(task.allow, grasp)
     yield from _large_motion(timed, grasp)
 
 
@@ -94,3 +97,17 @@ def _beside_what_is_stated(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
             where = f"that of contact '{contact.name}', {friction:.4g}, is not between {own[0]:.4g} and {own[1]:.4g}"
             yield Issue(f"{where}: it is held for, too", key="Task.allow.friction")
             return
+
+
+def _far_off(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
+    """Yield contacts that are allowed to be off by about as much as the grasp is large."""
+    gaps = allow.contact_gap.values() if isinstance(allow.contact_gap, Mapping) else (allow.contact_gap,)
+    position = 0.0 if allow.scenarios is None else allow.scenarios.position
+    length = scale_of(grasp).length
+    for key, most in (("contact_gap", max(gaps, default=0.0)), ("scenarios.position", position)):
+        if most > OFF * length:
+            message = (
+                f"contacts that are off by {1e3 * most:.4g} mm are off by much of the grasp, in which they are "
+                f"{1e3 * length:.4g} mm from their middle: in code lengths are in m"
+            )
+            yield Issue(message, key=f"Task.allow.{key}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from synergrip.conic.limits.limit import Usage
@@ -85,4 +86,10 @@ def to_within(usages: Sequence[Usage]) -> str:
 
 def _size(usage: Usage) -> str:
     factor, unit = FINE.get(usage.unit, SHOWN_IN.get(usage.unit, (1.0, usage.unit)))
-    return f"{factor * float(usage.excess.max()):.2g} {unit}".rstrip()
+    return f"{_rounded_up(factor * float(usage.excess.max())):.2g} {unit}".rstrip()
+
+
+def _rounded_up(value: float) -> float:
+    """Return a number above 0 with two digits, not below what it is."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / unit * (1 - 1e-9)) * unit

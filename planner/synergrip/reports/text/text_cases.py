@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from synergrip.conic.allowed import Allowed
+from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import wrapped
@@ -23,6 +25,19 @@ def case_lines(plan: Plan) -> Iterator[str]:
         told = f"all limits hold in {many(len(plan.cases) - count, 'case')} {who}{within}"
         told += f", and in {count} with contacts off that are no worse by the maps of its knots" if count else ""
         yield from wrapped("allow    ", f"{told}; {_least(plan.cases)}{_share(plan)}")
+
+
+def judged_cases(cases: Sequence[InCase], fresh: FreshSamples | None, allowed: Allowed | None) -> Iterator[str]:
+    """Yield the lines of ``allow`` about references that were judged, and were not made for it: the worst cases."""
+    if not cases or allowed is None:
+        return
+    rows = [" ".join((row[0], f"({row[1]})", row[2])) for row in case_table(cases)]
+    yield from wrapped("allow    ", f"smallest slip margins of {many(len(cases), 'case')}: {'; '.join(rows)}")
+    if fresh is not None and allowed.scenarios is not None:
+        told = f"{fresh.missing} of {fresh.count} fresh scenarios (seed {allowed.scenarios.seed}) miss a limit"
+        sure = f"with a confidence of {100 * allowed.scenarios.confidence:.6g} %"
+        may = f"no more than {100 * fresh.share:.3g} % of any others do, and {100 * fresh.asked:.4g} % may"
+        yield from wrapped("allow    ", f"{told}; {sure} {may}{': ' * bool(fresh.missed)}{fresh.missed}")
 
 
 def _share(plan: Plan) -> str:

@@ -9,8 +9,10 @@ from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
 from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.claims import Claims, Difference
+from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.told import (
     between_document,
+    cases_document,
     check_document,
     finite,
     margin_document,
@@ -21,6 +23,7 @@ from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at
+from synergrip.reports.text.text_cases import judged_cases
 from synergrip.reports.text.text_plan import refused_lines, usage_rows, verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 
@@ -34,9 +37,12 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
     missed = judgement.between is not None and judgement.between.excess > LIMIT
     kept = f"this plan keeps every limit of the problem{' at its knots, and not between them' * missed}"
     why = f"it breaks: {', '.join(failed)}" if failed else kept
+    if failed and all(check.passed or check in judgement.claims.checks for check in judgement.checks):
+        why = f"{kept}, but its file says what is not so of this problem: {', '.join(failed)}"
     lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
     if judgement.between is not None:
         lines += looked_at(judgement.between, judgement.task.between)
+    lines += judged_cases(judgement.cases, judgement.fresh, judgement.formulation.allowed)
     used = [row for usage in judgement.usages for row in usage_rows(usage)]
     return "\n".join([*lines, "", f"{word}  {why}", table(("", "worst", "at", "limit"), used)])
 
@@ -55,7 +61,11 @@ def _difference(each: Difference) -> str:
     says, found = each.says, each.found
     if isinstance(says, float) and isinstance(found, int | float) and not isinstance(found, bool):
         says, found = apart(says, float(found))
-    return f"{each.key}: the file says {_word(says)}, it is {_word(found)}"
+    told = f"{each.key}: the file says {_word(says)}, it is {_word(found)}"
+    made = isinstance(says, str) and says.startswith(ALL_CASES)
+    return (
+        f"{told}; the plan was made with [allow], which this problem does not state: give the same --set" * made or told
+    )
 
 
 def _word(value: object) -> str:
@@ -78,6 +88,7 @@ def judgement_document(judgement: Judgement) -> dict[str, Any]:
         "limits": [usage_document(usage) for usage in judgement.usages],
         "checks": [check_document(check) for check in judgement.checks],
         "between": between_document(judgement.between),
+        "allowances": cases_document(judgement.cases, judgement.formulation.allowed, judgement.fresh),
         "claims": _claims_document(judgement.claims),
     }  # fmt: skip
 
