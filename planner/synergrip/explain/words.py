@@ -29,6 +29,8 @@ FACTORS = {
 def blamed(repair: Repair) -> str:
     """Return what is wrong, and what would do."""
     was, to = values(repair)
+    if repair.key.startswith("allow."):
+        return f"too much is allowed for: {was} ({repair.key}), and {to} would do"
     what = LEAST_FORCE if repair.cause == "force_cap" and repair.to < repair.was else TOO[repair.cause]
     key = "" if repair.cause == "friction" else f" ({repair.key})"
     return f"{what}: {was}{key}, and {to} would do"
@@ -36,7 +38,7 @@ def blamed(repair: Repair) -> str:
 
 def changed(repair: Repair) -> str:
     """Return what is changed, in words where its key is that of a factor and its value is not."""
-    return "friction" if repair.cause == "friction" else repair.key
+    return "friction" if repair.cause == "friction" and not repair.key.startswith("allow.") else repair.key
 
 
 def most_margin(no: Infeasible) -> str:
