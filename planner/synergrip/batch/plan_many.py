@@ -24,7 +24,7 @@ from synergrip.log import LOG
 from synergrip.planning.accuracy import SHOWN
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture
-from synergrip.statics.analyses import AnalysisGroup, analyse_many
+from synergrip.statics.analyses import AnalysisGroup, analyses_for_plans
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import shares
 from synergrip.tasks.task import Task
@@ -145,7 +145,7 @@ def _stated(
     if whole is None:
         return
     part = whole.taken(slice(int(places[0]), int(places[-1]) + 1))
-    for group in analyse_many(part).groups:
+    for group in analyses_for_plans(part):
         known = _known(group)
         if not known.any():
             continue
