@@ -58,14 +58,16 @@ def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cone
 
 def _cones(kinds: Sequence[ContactKind], friction: Array | None) -> tuple[Array, ...]:
     """Return the cones (..., d, rows) of one contact in all grasps; each class of contacts makes its own at once."""
-    classes = list(dict.fromkeys(map(type, kinds)))
+    classes: list[type[ContactKind]] = list(dict.fromkeys(type(kind) for kind in kinds))
     if len(classes) == 1:
         return classes[0].cones_with(_values(kinds, friction))
     which = np.array([classes.index(type(kind)) for kind in kinds])
     whole: list[Array] = []
     for i, each in enumerate(classes):
         places = np.flatnonzero(which == i)
-        own = each.cones_with(_values([kinds[k] for k in places], None if friction is None else friction[places]))
+        own = each.cones_with(
+            _values([kinds[k] for k in places.tolist()], None if friction is None else friction[places])
+        )
         whole = whole or [np.empty((len(kinds), *W.shape[-2:])) for W in own]
         for every, W in zip(whole, own, strict=True):
             every[places] = W
