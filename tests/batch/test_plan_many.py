@@ -218,7 +218,7 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "a wrench that is none": ({"wrenches": [[0, 0, np.nan, 0, 0, 0]]}, r"wrenches\[0\]: .*nan"),
     "no friction": ({"frictions": [1.0, 0.0]}, r"frictions\[1\]: .*greater than 0.*got 0"),
     "a mass of matrices": ({"masses": [1.0]}, "masses: needs one grasp on an object"),
-    "no threads": ({"threads": 0}, "threads: expected a whole number of threads, 1 or more; got 0"),
+    "no threads": ({"threads": 0}, "threads: expected a whole number of threads from 1 to 1024; got 0"),
     "half a thread": ({"threads": 1.5}, "threads: expected a whole number"),
     "a kernel of another name": ({"kernel": "fortran"}, "kernel: "),
     "nothing bounds it": ({"task": sg.Task(knots=1, goals=[sg.LargestMargin()])}, "nothing bounds the largest margin"),

@@ -13,6 +13,8 @@ from typing import TypeVar
 from synergrip.documents.judging import described, is_whole
 from synergrip.errors import InputError
 
+MOST = 1024
+"""Threads: more than any machine has cores for."""
 C = TypeVar("C")
 R = TypeVar("R")
 
@@ -43,8 +45,8 @@ def threads_asked(value: object) -> int:
     """Return the number of threads that somebody asks for.
 
     Raises:
-        InputError: no whole number greater than 0.
+        InputError: no whole number from 1 to `MOST`.
     """
-    if not is_whole(value) or value < 1:
-        raise InputError.at("threads", f"expected a whole number of threads, 1 or more; got {described(value)}")
+    if not is_whole(value) or not 1 <= value <= MOST:
+        raise InputError.at("threads", f"expected a whole number of threads from 1 to {MOST}; got {described(value)}")
     return int(value)
