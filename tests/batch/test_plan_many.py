@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -162,6 +163,36 @@ def test_an_interrupt_keeps_the_rows_that_are_finished(monkeypatch: pytest.Monke
     assert "interrupted after 8" in repr(found)
 
 
+def test_threads_change_no_digit_and_an_interrupt_keeps_what_is_finished(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(8)
+    grasps = [grasp_like(rng, ["hard"] * 3) for _ in range(50)]
+    wrenches, task, seen = random_wrenches(rng, 50), sg.Task(knots=1, limits=LIMITS), list[float]()
+    monkeypatch.setattr(module, "CHUNK", 8)
+    work, used = module._answers, set[str]()
+
+    def watched(*given: Any, **named: Any) -> Any:
+        used.add(threading.current_thread().name)
+        return work(*given, **named)
+
+    monkeypatch.setattr(module, "_answers", watched)
+    one, three = (sg.plan_many(grasps, task, wrenches=wrenches, threads=count) for count in (1, 3))
+    assert "MainThread" in used
+    assert len(used) > 1
+    for name in ("forces", "dz_r", "margins", "largest_margin", "verdicts", "verified", "one_by_one"):
+        assert np.array_equal(getattr(one, name), getattr(three, name), equal_nan=name not in ("verdicts",))
+
+    def pressed(what: str, share: float) -> None:
+        seen.append(share)
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+
+    found = sg.plan_many(grasps, task, wrenches=wrenches, threads=3, progress=pressed)
+    assert seen == [8 / 50, 16 / 50]
+    assert found.finished.tolist() == [True] * 16 + [False] * 34
+    assert np.array_equal(found.forces[:16], one.forces[:16], equal_nan=True)
+    assert np.isnan(found.forces[16:]).all()
+
+
 def test_the_compiled_kernel_gives_the_same_plans() -> None:
     pytest.importorskip("numba")
     rng = np.random.default_rng(6)
@@ -187,6 +218,8 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "a wrench that is none": ({"wrenches": [[0, 0, np.nan, 0, 0, 0]]}, r"wrenches\[0\]: .*nan"),
     "no friction": ({"frictions": [1.0, 0.0]}, r"frictions\[1\]: .*greater than 0.*got 0"),
     "a mass of matrices": ({"masses": [1.0]}, "masses: needs one grasp on an object"),
+    "no threads": ({"threads": 0}, "threads: expected a whole number of threads from 1 to 1024; got 0"),
+    "half a thread": ({"threads": 1.5}, "threads: expected a whole number"),
     "a kernel of another name": ({"kernel": "fortran"}, "kernel: "),
     "nothing bounds it": ({"task": sg.Task(knots=1, goals=[sg.LargestMargin()])}, "nothing bounds the largest margin"),
 }

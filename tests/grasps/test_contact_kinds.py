@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import ClassVar
@@ -53,9 +54,9 @@ class Leaning(ContactKind):
     name: ClassVar[str] = "leaning"
     components: ClassVar[tuple[str, ...]] = ("n", "t", "o", "m_o")
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
-        return (frozen(np.diag([0.5, 1.0, 1.0, 100.0])),)
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
+        return (np.diag([0.5, 1.0, 1.0, 100.0]),)
 
 
 TIPS = "'finger1/tip','finger2/tip','finger3/tip'"

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.batch.asked import Asked, asked
+from synergrip.batch.chunks import on_threads, threads_asked
 from synergrip.batch.decided import Decided, Solver, decided
 from synergrip.batch.kernel import chosen
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
@@ -22,12 +24,14 @@ from synergrip.log import LOG
 from synergrip.planning.accuracy import SHOWN
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture
-from synergrip.statics.analyses import AnalysisGroup, analyse_many
+from synergrip.statics.analyses import AnalysisGroup, analyses_for_plans
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import shares
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 
+Answers = tuple[NDArray[np.intp], Decided, NDArray[np.bool_]]
+"""Where among the places of a chunk tasks stand, what verified of them, and whose maps are known well enough."""
 CHUNK = 2048
 """Tasks that are worked out together: enough to make calls cheap, few enough for memory and for an interrupt."""
 
@@ -41,6 +45,7 @@ def plan_many(
     frictions: Array | None = None,
     masses: Array | None = None,
     kernel: Literal["numpy", "numba"] | None = None,
+    threads: int = 1,
     progress: Callable[[str, float], None] | None = None,
 ) -> ManyPlans:
     """Plan N tasks of one knot at once, which differ in load, friction, mass of the object, or grasp.
@@ -59,6 +64,8 @@ def plan_many(
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
             first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
             machine; from then on 20,000 to load it, and any number when it is loaded.
+        threads: how many chunks of 2,048 tasks are worked out at a time, on threads of their own; the answers are the
+            same to the last digit. One if not told: who plans in several processes at once has no cores left.
         progress: told what is under way and which share of it is done, after every 2,048 tasks.
 
     Returns:
@@ -79,13 +86,14 @@ def plan_many(
     question = asked(grasp, task, wrenches, frictions, masses)
     like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
-    solver = chosen(question.count, kernel)
+    solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)
     LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
+    chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
     try:
-        for start in range(0, question.count, CHUNK):
-            _chunk(question, whole, np.arange(start, min(start + CHUNK, question.count)), found, solver)
+        for places, answers in on_threads(chunks, partial(_answers, question, whole, solver=solver), many_at_a_time):
+            _keep(question, places, answers, found)
             if progress is not None:
-                progress("planning", min(start + CHUNK, question.count) / question.count)
+                progress("planning", (int(places[-1]) + 1) / question.count)
     except KeyboardInterrupt:
         LOG.info("interrupted after %d tasks", int(found.flags["finished"].sum()))
     many = found.told()
@@ -101,16 +109,22 @@ def _analysed(grasp: Grasp) -> Analysis | None:
         return None
 
 
-def _chunk(
-    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp], found: Unfinished, solver: Solver
-) -> None:
-    """Answer the tasks at some places."""
+def _answers(
+    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp], *, solver: Solver
+) -> list[Answers]:
+    """Return what verifies of the tasks at some places, those of like dimensions together."""
+    return [
+        (within, decided(stated, question.wrench[places[within]], solver), known)
+        for within, stated, known in _stated(question, whole, places)
+    ]
+
+
+def _keep(question: Asked, places: NDArray[np.intp], answers: list[Answers], found: Unfinished) -> None:
+    """Fill in the answers of a chunk, and plan one by one what has none."""
     open_ = np.ones(len(places), dtype=bool)
-    for within, stated, known in _stated(question, whole, places):
-        here = places[within]
-        answers = decided(stated, question.wrench[here], solver)
-        _fill(found, here, answers, known)
-        open_[within] = ~(known & (answers.feasible | answers.infeasible))
+    for within, each, known in answers:
+        _fill(found, places[within], each, known)
+        open_[within] = ~(known & (each.feasible | each.infeasible))
     for place in places[open_].tolist():
         _one_by_one(question, place, found)
     found.flags["finished"][places] = True
@@ -131,7 +145,7 @@ def _stated(
     if whole is None:
         return
     part = whole.taken(slice(int(places[0]), int(places[-1]) + 1))
-    for group in analyse_many(part).groups:
+    for group in analyses_for_plans(part):
         known = _known(group)
         if not known.any():
             continue

@@ -9,14 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.conic.limits.friction_cone import SLIPPERY
-from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.values import Value
-
-HALF = 0.5
-"""Share of friction at which cones are looked at beside those as they are; they are linear in it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -44,37 +40,50 @@ class Cones(Value):
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
     first = grasps[0]
-    tables = [_tables([grasp.contacts[i] for grasp in grasps], friction is not None) for i in range(first.n_c)]
-    every = [(i, len(plain), plain, by_friction) for i, pairs in enumerate(tables) for plain, by_friction in pairs]
+    every = [
+        (contact, W.shape[-2], W)
+        for contact in range(first.n_c)
+        for W in _cones([grasp.contacts[contact].kind for grasp in grasps], friction)
+    ]
+    leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
     found = []
-    for size in sorted({size for _, size, _, _ in every}):
+    for size in sorted({size for _, size, _ in every}):
         chosen = [each for each in every if each[1] == size]
-        leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
         W = np.zeros((*leading, len(chosen) * size, first.n_l))
-        for k, (contact, _, plain, by_friction) in enumerate(chosen):
-            factor = 1.0 if friction is None else friction[:, None, None]
-            rows = plain[..., 0] if len(grasps) == 1 else np.moveaxis(plain, -1, 0)
-            more = by_friction[..., 0] if len(grasps) == 1 else np.moveaxis(by_friction, -1, 0)
-            W[..., k * size : (k + 1) * size, first.rows[contact]] = rows + factor * more
+        for k, (contact, _, own) in enumerate(chosen):
+            W[..., k * size : (k + 1) * size, first.rows[contact]] = own
         found.append(Cones(size, np.array([contact for contact, *_ in chosen]), W))
     return tuple(found)
 
 
-def _tables(contacts: Sequence[Contact], by_factors: bool) -> list[tuple[Array, Array]]:
-    """Return of each cone of one contact in N grasps what it is without friction, and what friction adds: (d, rows, N).
+def _cones(kinds: Sequence[ContactKind], friction: Array | None) -> tuple[Array, ...]:
+    """Return the cones (..., d, rows) of one contact in all grasps; each class of contacts makes its own at once."""
+    classes: list[type[ContactKind]] = list(dict.fromkeys(type(kind) for kind in kinds))
+    if len(classes) == 1:
+        return classes[0].cones_with(_values(kinds, friction))
+    which = np.array([classes.index(type(kind)) for kind in kinds])
+    whole: list[Array] = []
+    for i, each in enumerate(classes):
+        places = np.flatnonzero(which == i)
+        own = each.cones_with(
+            _values([kinds[k] for k in places.tolist()], None if friction is None else friction[places])
+        )
+        whole = whole or [np.empty((len(kinds), *W.shape[-2:])) for W in own]
+        for every, W in zip(whole, own, strict=True):
+            every[places] = W
+    return tuple(whole)
 
-    Equal kinds are looked at once. Where no factors are asked for, friction adds nothing to what the cones are.
-    """
-    kinds: dict[ContactKind, int] = {}
-    which = [kinds.setdefault(contact.kind, len(kinds)) for contact in contacts]
-    every = [kind.cones for kind in kinds]
-    halves = [kind.slippery(HALF).cones for kind in kinds] if by_factors else every
-    found = []
-    for cone in range(len(every[0])):
-        whole, half = (np.stack([cones[cone] for cones in each], axis=-1) for each in (every, halves))
-        by_friction = (whole - half) / (1 - HALF)
-        found.append(((whole - by_friction)[..., which], by_friction[..., which]))
-    return found
+
+def _values(kinds: Sequence[ContactKind], friction: Array | None) -> dict[str, Array]:
+    """Return the parameters () or (N,) of contacts of one class, those of friction multiplied by factors."""
+    first = kinds[0]
+    values = {name: np.array([getattr(kind, name) for kind in kinds]) for name in first.named()}
+    if len(kinds) == 1:
+        values = {name: value[0] for name, value in values.items()}
+    for name in first.frictions if friction is not None else ():
+        if name in values:
+            values[name] = values[name] * friction
+    return values
 
 
 def most(cones: Sequence[Cones], grasp: Grasp) -> Array:

@@ -165,7 +165,8 @@ class GraspStack(Value, Sequence[Grasp]):
         places = places_of("places", places, len(self))
         given: tuple[Grasp, ...] = ()
         if self.given:
-            given = tuple(self.given[place] for place in np.arange(len(self))[places])
+            chosen = isinstance(places, slice)
+            given = self.given[places] if chosen else tuple(self.given[i] for i in np.arange(len(self))[places])
         stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
         for name in ("metric", "of_object"):  # as cached properties would work them out again
             if name in self.__dict__:

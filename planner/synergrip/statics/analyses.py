@@ -11,10 +11,11 @@ from synergrip.documents.judging import place_of
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Places, frozen
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.responses import Responses, respond_many
-from synergrip.statics.subspace_groups import SubspaceGroup, coordinates_many, subspaces_many
+from synergrip.statics.subspace_groups import SubspaceGroup, coordinates_many, groups_of, subspaces_many
 from synergrip.statics.theorem1 import Coordinates
 from synergrip.values import Value
 
@@ -105,3 +106,9 @@ def analyse_many(grasps: Sequence[Grasp]) -> Analyses:
     responses = respond_many(grasps)
     groups = tuple(AnalysisGroup(group, coordinates_many(group)) for group in subspaces_many(responses))
     return Analyses(groups, responses.refusals, responses.one_by_one)
+
+
+def analyses_for_plans(stack: GraspStack) -> tuple[AnalysisGroup, ...]:
+    """Return the groups of `analyse_many`, maybe without the force map's own decision, which no plan looks at."""
+    groups = groups_of(respond_many(stack), told=False)
+    return tuple(AnalysisGroup(group, coordinates_many(group)) for group in groups)

@@ -37,7 +37,8 @@ class Accuracy:
     size: float
     """Of the map."""
     whole: float
-    """What a share is a share of: `size`, or the terms that the entries are sums of where the map may be 0."""
+    """What a share is a share of: `size`, or the terms that the entries are sums of where the map may be 0; 0 where it
+    is 0 for sure."""
     lost: float
     """What the arithmetic may have lost."""
     changed: float
@@ -233,7 +234,8 @@ def figures(found: Answer, metric: Metric) -> Array:
     """Return (..., 12, 4), the fields of `Accuracy` of every map in the order of `FIGURES`."""
     size, lost = _largest(found, found.maps, metric), _largest(found, found.errors, metric)
     changed = lost if found.changes is found.errors else _largest(found, found.changes, metric)
-    whole, zero = size.copy(), size <= np.maximum(lost, changed)  # 0 as far as anyone can tell
+    unknown = np.maximum(lost, changed)
+    whole, zero = size.copy(), (size <= unknown) & (unknown > 0)  # 0 as far as anyone can tell
     some = np.any(zero, axis=-1)
     if np.any(some):
         terms = _largest(found, found.terms(some), metric.taken(some))

@@ -21,6 +21,7 @@ from synergrip.statics.subspaces import (
     Subspaces,
     controllable_forces,
     free_motions,
+    internal_forces,
 )
 from synergrip.statics.theorem1 import Coordinates, coordinates_of
 from synergrip.values import ByName
@@ -74,13 +75,21 @@ def subspaces_many(responses: Responses) -> tuple[SubspaceGroup, ...]:
         (3, 1, 0) [0 1] (2, 9, 3)
     """
     expected("responses", responses, Responses, "respond_many(grasps)")
+    return groups_of(responses)
+
+
+def groups_of(responses: Responses, *, told: bool = True) -> tuple[SubspaceGroup, ...]:
+    """Return the groups; where nobody looks at it (not `told`), without the force map's own decision if that is work.
+
+    It is where all internal forces can be controlled: they span E_s, whatever the singular values of the map.
+    """
     groups: list[SubspaceGroup] = []
     for rank, alike in _by_rank(responses.restraint.ranks):
-        groups += _alike(responses if isinstance(alike, slice) else responses.taken(alike), 6 - rank)
+        groups += _alike(responses if isinstance(alike, slice) else responses.taken(alike), 6 - rank, told)
     return tuple(groups)
 
 
-def _alike(responses: Responses, count: int) -> Iterator[SubspaceGroup]:
+def _alike(responses: Responses, count: int, told: bool) -> Iterator[SubspaceGroup]:
     """Yield the groups of grasps each of which leaves its object so many free motions."""
     grasps = responses.grasps
     matrices, metric = supported(grasps.matrices, grasps.metric, free_directions(grasps.of_object, count))
@@ -89,7 +98,7 @@ def _alike(responses: Responses, count: int) -> Iterator[SubspaceGroup]:
         same, theirs = moved.taken(alike), responses.taken(alike)
         moving = same.moving(rank)
         for moves, within in _by_rank(moving.ranks):
-            yield _group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves)
+            yield _group(theirs.taken(within), same.taken(within), moving.taken(within), rank, moves, told)
 
 
 @naming_arguments
@@ -117,12 +126,15 @@ def _by_rank(ranks: Places) -> list[tuple[int, Any]]:
     return [(rank, slice(None) if len(found) == 1 else np.flatnonzero(ranks == rank)) for rank in found]
 
 
-def _group(responses: Responses, moved: ContactMotions, moving: Moving, rank: int, moves: int) -> SubspaceGroup:
+def _group(
+    responses: Responses, moved: ContactMotions, moving: Moving, rank: int, moves: int, told: bool
+) -> SubspaceGroup:
     metric, known = responses.grasps.metric, responses.figures[:, 0]  # of the force map: size, whole, lost, changed
-    unknown = known[:, 2:].max(axis=-1)
-    E_s, forces = controllable_forces(responses.dlambda_dzr, unknown, moved, metric, rank)
+    decisions = {"restraint": responses.restraint, "redundancy": moved.redundancy, "rigid": moved.rigid}
+    if not told and rank == moved.internal.shape[-1] == metric.force.shape[-1] - 6:
+        E_s = internal_forces(moved.internal, metric)
+    else:
+        unknown = known[:, 2:].max(axis=-1)
+        E_s, decisions["forces"] = controllable_forces(responses.dlambda_dzr, unknown, moved, metric, rank)
     Gamma_ucs, Gamma_zcs, Gamma_zr = free_motions(moved, moving, metric, moves)
-    decisions = {
-        "restraint": responses.restraint, "redundancy": moved.redundancy, "rigid": moved.rigid, "forces": forces,
-    }  # fmt: skip
     return SubspaceGroup(E_s, Gamma_ucs, Gamma_zcs, Gamma_zr, responses, decisions)

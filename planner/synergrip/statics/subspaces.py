@@ -211,4 +211,9 @@ def controllable_forces(
     decision = Decisions(counted, relative, counted != rank)
     kept = moved.internal[..., : scaled.shape[-2], :]  # a support of free motions has no part in it
     internal = kept @ (kept.mT @ internal)  # G E_s = 0 to the last digit
-    return frozen(canonical(internal) / metric.force[..., None]), decision
+    return internal_forces(internal, metric), decision
+
+
+def internal_forces(basis: Array, metric: Metric) -> Array:
+    """Return E_s (..., n_l, dim) of the scaled internal forces that a basis spans."""
+    return frozen(canonical(basis) / metric.force[..., None])

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.linalg import Array
 
 
 @naming_arguments
@@ -47,11 +48,12 @@ class EllipticSoftFinger(ContactKind):
         FRICTION, Parameter("cross_friction", "coefficient of friction along o of the contact", "0.4"), SPIN_FRICTION,
     )  # fmt: skip
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """(4, 4): rows mu n, mu t / mu_t, mu o / mu_o, mu m / nu."""
-        mu = self.least_friction
-        return (frozen(np.diag([mu, mu / self.friction, mu / self.cross_friction, mu / self.spin_friction])),)
+        along, across = values["friction"], values["cross_friction"]
+        mu = np.minimum(along, across)
+        return (diagonal(mu, mu / along, mu / across, mu / values["spin_friction"]),)
 
     def with_friction(self, friction: float) -> Self:
         """Return it with another friction along t, and one across in the same proportion."""

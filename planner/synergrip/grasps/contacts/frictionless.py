@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.kind import ContactKind
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 
 
 @naming_arguments
@@ -24,7 +27,7 @@ class Frictionless(ContactKind):
     title: ClassVar[str] = "frictionless"
     components: ClassVar[tuple[str, ...]] = ("n",)
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """(1, 1): the ray n >= 0."""
-        return (frozen([[1.0]]),)
+        return (np.ones((1, 1)),)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-import numpy as np
-
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, ContactKind, Parameter
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.contacts.kind import FRICTION, ContactKind, Parameter, diagonal
+from synergrip.linalg import Array
 
 
 @naming_arguments
@@ -35,7 +34,7 @@ class HardFinger(ContactKind):
     components: ClassVar[tuple[str, ...]] = ("n", "t", "o")
     parameters: ClassVar[tuple[Parameter, ...]] = (replace(FRICTION, hint="; for no friction use Frictionless()"),)
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """(3, 3): rows mu n, t, o."""
-        return (frozen(np.diag([self.friction, 1.0, 1.0])),)
+        return (diagonal(values["friction"], 1.0, 1.0),)

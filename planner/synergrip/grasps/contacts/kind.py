@@ -59,6 +59,15 @@ FRICTION = Parameter("friction", "coefficient of friction", "0.6")
 SPIN_FRICTION = Parameter("spin_friction", "moment about the normal per normal force", '"5 mm"', length=True)
 
 
+def diagonal(*entries: Array | float) -> Array:
+    """Return diagonal matrices (..., n, n) of n entries, each a number or (...)."""
+    every = np.broadcast_arrays(*entries)
+    W = np.zeros((*every[0].shape, len(every), len(every)))
+    for i, entry in enumerate(every):
+        W[..., i, i] = entry
+    return W
+
+
 @dataclass(frozen=True, kw_only=True)
 class ContactKind(Finished, Kept, ABC):
     """A kind of contact with its parameters, each greater than 0: what it transmits and withstands.
@@ -100,14 +109,25 @@ class ContactKind(Finished, Kept, ABC):
             object.__setattr__(self, each.name, found)
         judge.finish()
 
-    @property
+    @classmethod
     @abstractmethod
-    def cones(self) -> tuple[Array, ...]:
-        """Cone matrices W (d, rows), one for each of `sides`; all must hold.
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
+        """Return the cones W (..., d, rows) of one contact of this kind or of many, with values (...) of parameters.
 
-        The slip margin of one is ``(W lambda)_0 - ||(W lambda)_1..||`` in newtons. The first row is a multiple of the
-        normal force; the others name every other component at least once, in one cone or another.
+        There is one for each of `sides`; all must hold. The slip margin of one is ``(W lambda)_0 - ||(W lambda)_1..||``
+        in newtons. The first row is a multiple of the normal force; the others name every other component at least
+        once, in one cone or another.
         """
+
+    @property
+    def cones(self) -> tuple[Array, ...]:
+        """Cone matrices W (d, rows) of this contact, as `cones_with` has them."""
+        return tuple(frozen(W) for W in self.cones_with({name: np.array(getattr(self, name)) for name in self.named()}))
+
+    @classmethod
+    def named(cls) -> tuple[str, ...]:
+        """Return the names of the parameters."""
+        return tuple(each.name for each in fields(cls))
 
     @property
     def selection(self) -> Array:

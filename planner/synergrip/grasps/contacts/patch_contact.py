@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.linalg import Array
 
 
 @naming_arguments
@@ -48,10 +49,12 @@ class PatchContact(ContactKind):
     )  # fmt: skip
     sides: ClassVar[tuple[str, ...]] = ("slip", "tipping")
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """(4, 6): rows mu n, t, o, mu m / nu; and (3, 6): rows n, m_t / r, m_o / r."""
-        slip, tipping = np.eye(4, 6), np.zeros((3, 6))
-        slip[0, 0], slip[3, 3] = self.friction, self.friction / self.spin_friction
-        tipping[0, 0], tipping[1, 4], tipping[2, 5] = 1.0, 1 / self.patch_radius, 1 / self.patch_radius
-        return frozen(slip), frozen(tipping)
+        mu, reach = values["friction"], 1 / values["patch_radius"]
+        every = diagonal(mu, 1.0, 1.0, mu / values["spin_friction"], reach, reach)
+        slip, tipping = every[..., :4, :], every[..., 3:, :]
+        tipping = np.array(tipping)
+        tipping[..., 0, :] = np.eye(6)[0]
+        return slip, tipping

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.linalg import Array
 
 
 @naming_arguments
@@ -37,7 +36,8 @@ class SoftFinger(ContactKind):
     components: ClassVar[tuple[str, ...]] = ("n", "t", "o", "m")
     parameters: ClassVar[tuple[Parameter, ...]] = (FRICTION, SPIN_FRICTION)
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """(4, 4): rows mu n, t, o, mu m / nu."""
-        return (frozen(np.diag([self.friction, 1.0, 1.0, self.friction / self.spin_friction])),)
+        mu = values["friction"]
+        return (diagonal(mu, 1.0, 1.0, mu / values["spin_friction"]),)

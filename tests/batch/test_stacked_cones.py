@@ -1,0 +1,79 @@
+"""Cones and statics of many grasps as `plan_many` takes them, against those of each by itself."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from random_cone_problems import grasp_like
+
+from synergrip.batch.stacked_cones import stacked_cones
+from synergrip.grasps.contacts.elliptic_soft_finger import EllipticSoftFinger
+from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.contacts.patch_contact import PatchContact
+from synergrip.grasps.contacts.soft_finger import SoftFinger
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.stack import GraspStack
+from synergrip.linalg import Array
+from synergrip.statics.analyses import analyse_many, analyses_for_plans
+from synergrip.statics.response import Maps
+from synergrip.statics.subspaces import Bases
+
+
+def with_kinds(grasp: Grasp, *kinds: ContactKind) -> Grasp:
+    contacts = tuple(replace(each, kind=kind) for each, kind in zip(grasp.contacts, kinds, strict=True))
+    return replace(grasp, contacts=contacts)
+
+
+def of_contacts(grasp: Grasp, friction: float, forces: Array) -> Array:
+    """The slip margins by the contacts one by one."""
+    margins = []
+    for contact, rows in zip(grasp.contacts, grasp.rows, strict=True):
+        images = [W @ forces[rows] for W in contact.kind.slippery(friction).cones]
+        margins.append(min(float(image[0] - np.linalg.norm(image[1:])) for image in images))
+    return np.array(margins)
+
+
+@pytest.mark.parametrize("with_factors", [False, True])
+def test_cones_of_contacts_of_several_classes_and_frictions_are_those_of_each_contact(with_factors: bool) -> None:
+    rng, N = np.random.default_rng(0), 9
+    grasps = []
+    for k in range(N):
+        soft = SoftFinger(friction=rng.uniform(0.1, 1.0), spin_friction=rng.uniform(0.002, 0.01))
+        elliptic = EllipticSoftFinger(friction=0.8, cross_friction=rng.uniform(0.1, 1.0), spin_friction=0.004)
+        grasps.append(with_kinds(grasp_like(rng, ["soft"] * 2), soft if k % 3 else elliptic, elliptic))
+    factors = rng.uniform(0.1, 2.0, N) if with_factors else None
+    forces = rng.normal(size=(N, grasps[0].n_l))
+    (cones,) = stacked_cones(grasps, factors)
+    image = cones.images(forces)
+    ours = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
+    each = [of_contacts(g, 1.0 if factors is None else factors[k], forces[k]) for k, g in enumerate(grasps)]
+    assert np.abs(ours - each).max() < 1e-12 * np.abs(each).max()
+
+
+def test_one_contact_with_two_cones_and_many_frictions() -> None:
+    factors = np.array([0.3, 1.0, 1.7])
+    kind = PatchContact(friction=0.6, spin_friction=0.003, patch_radius=0.008)
+    slip, tipping = kind.cones_with({"friction": 0.6 * factors, "spin_friction": 0.003 * factors,
+                                     "patch_radius": np.array(0.008)})  # fmt: skip
+    for k, factor in enumerate(factors):
+        own = kind.slippery(factor).cones
+        assert np.allclose(slip[k], own[0], rtol=1e-15)
+        assert np.array_equal(tipping[k], own[1])
+
+
+@pytest.mark.parametrize(("kinds", "n_z"), [(["hard"] * 3, 5), (["soft"] * 4, 8), (["hard"] * 3, 2)])
+def test_the_statics_that_plans_go_by_are_those_of_the_full_analysis(kinds: list[str], n_z: int) -> None:
+    rng = np.random.default_rng(2)
+    stack = GraspStack.of([grasp_like(rng, kinds, n_z) for _ in range(30)])
+    ours, full = analyses_for_plans(stack), analyse_many(stack).groups
+    assert ("forces" in ours[0].spaces.decisions) == (ours[0].dimensions[0] < len(kinds) * 3 - 6 or kinds[0] == "soft")
+    for lean, whole in zip(ours, full, strict=True):
+        assert np.array_equal(lean.places, whole.places)
+        assert lean.dimensions == whole.dimensions
+        assert np.array_equal(lean.response.figures, whole.response.figures)
+        pairs = [(getattr(lean.response, f.name), getattr(whole.response, f.name)) for f in fields(Maps)]
+        pairs += [(getattr(lean.spaces, f.name), getattr(whole.spaces, f.name)) for f in fields(Bases)]
+        for one, other in pairs:
+            assert np.abs(one - other).max(initial=0.0) <= 1e-12 * np.abs(other).max(initial=0.0)
