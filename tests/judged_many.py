@@ -1,6 +1,6 @@
 """Plans of many tasks at once against one plan after the other: ``python tests/judged_many.py 2000``.
 
-Each grasp (hand-like, contacts of all kinds) gets 50 tasks with random loads and frictions; a third of the grasps come
+Each grasp (hand-like, contacts of all kinds) gets 50 tasks with random loads and friction_factors; a third of the grasps come
 as stacks with a grasp for each task. Prints verdicts that differ, the largest difference of margin or effort in units
 of the load, how many were verified, and how many were planned one by one. With ``numba`` by the compiled kernel.
 """
@@ -53,12 +53,12 @@ def main() -> None:
         task, form = task_of(rng), FORMS[seed % len(FORMS)]
         grasps = [grasp_like(rng, form) for _ in range(EACH)] if seed % 3 == 0 else [hand_like_grasp(rng, KINDS)] * EACH
         wrenches = random_wrenches(rng, EACH) * rng.uniform(0.1, 3.0, (EACH, 1))
-        frictions = rng.uniform(0.05, 1.5, EACH)
+        friction_factors = rng.uniform(0.05, 1.5, EACH)
         whose = grasps if seed % 3 == 0 else grasps[0]
-        many = sg.plan_many(whose, task, wrenches=wrenches, frictions=frictions, kernel=kernel)
+        many = sg.plan_many(whose, task, wrenches=wrenches, friction_factors=friction_factors, kernel=kernel)
         told["verified"] += int(many.verified.sum())
         told["one by one"] += int(many.one_by_one.sum())
-        for i, (grasp, wrench, friction) in enumerate(zip(grasps, wrenches, frictions, strict=True)):
+        for i, (grasp, wrench, friction) in enumerate(zip(grasps, wrenches, friction_factors, strict=True)):
             try:
                 one = alone(grasp, task, wrench, friction)
             except InputError as error:

@@ -121,7 +121,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "load_problem": {"problem": "tripod", "overrides": []},
     "plan": {"grasp": grasp, "task": task},
     "plan_many": {"grasp": [grasp], "task": sg.Task(knots=1, linearise="once"), "wrenches": [np.zeros(6)],
-                  "frictions": [1.0], "masses": None, "kernel": None, "threads": 1},
+                  "friction_factors": [1.0], "masses": None, "kernel": None, "threads": 1},
     "wrench_space_quality": {"grasp": grasp, "edges": 8},
     "exact_proof": {"no": sg.plan(unheld.grasp, unheld.task)},
     "synergies_needed": {"grasp": grasp, "task": task, "by": "effort", "most": 1, "up_to": 1, "along": False},

@@ -64,9 +64,9 @@ def test_one_grasp_with_many_loads_and_frictions_as_one_by_one(seed: int, goal: 
     limits = [*LIMITS, sg.SynergyReference(0.8)] if seed % 2 else [*LIMITS, sg.ActuatorEffort(1.0)]
     task = sg.Task(knots=1, limits=limits, goals=[goal])
     wrenches = random_wrenches(rng, N) * rng.uniform(0.1, 3.0, (N, 1))
-    frictions = rng.uniform(0.05, 1.5, N)
-    many = sg.plan_many(grasp, task, wrenches=wrenches, frictions=frictions)
-    each = [alone(grasp, task, wrench, friction) for wrench, friction in zip(wrenches, frictions, strict=True)]
+    friction_factors = rng.uniform(0.05, 1.5, N)
+    many = sg.plan_many(grasp, task, wrenches=wrenches, friction_factors=friction_factors)
+    each = [alone(grasp, task, wrench, friction) for wrench, friction in zip(wrenches, friction_factors, strict=True)]
     compare(many, each, wrenches)
     assert many.verified.all()
     assert not many.one_by_one.any()
@@ -76,11 +76,13 @@ def test_one_grasp_with_many_loads_and_frictions_as_one_by_one(seed: int, goal: 
 def test_many_grasps_each_with_its_load_as_one_by_one(kinds: list[str]) -> None:
     rng, N = np.random.default_rng(len(kinds)), 12
     grasps = [grasp_like(rng, kinds, n_z=4) for _ in range(N)]
-    wrenches, frictions = random_wrenches(rng, N), rng.uniform(0.3, 1.2, N)
+    wrenches, friction_factors = random_wrenches(rng, N), rng.uniform(0.3, 1.2, N)
     for goal in (sg.LargestMargin(), sg.LeastEffort()):
         task = sg.Task(knots=1, limits=[*LIMITS, sg.SynergyReference(0.8)], goals=[goal])
-        many = sg.plan_many(grasps, task, wrenches=wrenches, frictions=frictions)
-        compare(many, [alone(g, task, w, f) for g, w, f in zip(grasps, wrenches, frictions, strict=True)], wrenches)
+        many = sg.plan_many(grasps, task, wrenches=wrenches, friction_factors=friction_factors)
+        compare(
+            many, [alone(g, task, w, f) for g, w, f in zip(grasps, wrenches, friction_factors, strict=True)], wrenches
+        )
         assert not many.one_by_one.any()
     assert len(set(many.verdicts)) == 2  # both kinds of answers are among them
 
@@ -213,10 +215,13 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "another goal": ({"task": TASK.replace(goals=[sg.LeastPeak()])}, r"Task\.goals: expected \[LargestMargin"),
     "allowances": ({"task": TASK.replace(allow=sg.Allowances(load_box=np.ones(6)))}, r"Task\.allow"),
     "a hand along the motion": ({"grasp": held, "task": sg.Task(knots=1)}, r"linearise='once'"),
-    "counts": ({"wrenches": np.ones((2, 6)), "frictions": np.ones(3)}, "expected as many of each, got 2 wrenches, 3"),
+    "counts": (
+        {"wrenches": np.ones((2, 6)), "friction_factors": np.ones(3)},
+        "expected as many of each, got 2 wrenches, 3",
+    ),
     "wrenches of five": ({"wrenches": np.ones((2, 5))}, r"wrenches: .*shape \(N, 6\)"),
     "a wrench that is none": ({"wrenches": [[0, 0, np.nan, 0, 0, 0]]}, r"wrenches\[0\]: .*nan"),
-    "no friction": ({"frictions": [1.0, 0.0]}, r"frictions\[1\]: .*greater than 0.*got 0"),
+    "no friction": ({"friction_factors": [1.0, 0.0]}, r"friction_factors\[1\]: .*greater than 0.*got 0"),
     "a mass of matrices": ({"masses": [1.0]}, "masses: needs one grasp on an object"),
     "no threads": ({"threads": 0}, "threads: expected a whole number of threads from 1 to 1024; got 0"),
     "half a thread": ({"threads": 1.5}, "threads: expected a whole number"),

@@ -77,3 +77,10 @@ def test_the_statics_that_plans_go_by_are_those_of_the_full_analysis(kinds: list
         pairs += [(getattr(lean.spaces, f.name), getattr(whole.spaces, f.name)) for f in fields(Bases)]
         for one, other in pairs:
             assert np.abs(one - other).max(initial=0.0) <= 1e-12 * np.abs(other).max(initial=0.0)
+
+
+def test_kinds_of_ones_own_need_cones_of_one_contact_only() -> None:
+    values = {"friction": np.array([0.3, 0.6]), "spin_friction": np.array([0.002, 0.004])}
+    one_by_one = ContactKind.cones_with.__func__(SoftFinger, values)  # type: ignore[attr-defined]
+    (W,), (own,) = SoftFinger.cones_with(values), one_by_one
+    np.testing.assert_array_equal(W, own)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import ClassVar
@@ -54,9 +53,9 @@ class Leaning(ContactKind):
     name: ClassVar[str] = "leaning"
     components: ClassVar[tuple[str, ...]] = ("n", "t", "o", "m_o")
 
-    @classmethod
-    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
-        return (np.diag([0.5, 1.0, 1.0, 100.0]),)
+    @property
+    def cones(self) -> tuple[Array, ...]:
+        return (frozen(np.diag([0.5, 1.0, 1.0, 100.0])),)
 
 
 TIPS = "'finger1/tip','finger2/tip','finger3/tip'"

@@ -73,14 +73,18 @@ def _like(grasp: Grasp | Analysis | GraspStack) -> Grasp:
     return grasp.grasp if isinstance(grasp, Analysis) else grasp
 
 
-def asked(grasp: Any, task: Any, wrenches: Any, frictions: Any, masses: Any) -> Asked:
+def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: Any) -> Asked:
     """Return what is asked, or refuse it; arguments as of `plan_many`."""
     whose = _grasps(grasp)
     timed = _task(task, _like(whose))
-    factors = None if frictions is None else _numbers("frictions", frictions, (), "factors greater than 0", above=True)
+    factors = (
+        None
+        if friction_factors is None
+        else _numbers("friction_factors", friction_factors, (), "factors greater than 0", above=True)
+    )
     loads = _loads(whose, task, timed, wrenches, masses)
     counts = {"wrenches" if masses is None else "masses": len(loads)} if loads is not None else {}
-    counts |= {} if factors is None else {"frictions": len(factors)}
+    counts |= {} if factors is None else {"friction_factors": len(factors)}
     counts |= {"grasps": len(whose)} if isinstance(whose, GraspStack) else {}
     if len(set(counts.values())) > 1:
         told = ", ".join(f"{count} {name}" for name, count in counts.items())

@@ -42,7 +42,7 @@ def plan_many(
     task: Task | TimedTask,
     *,
     wrenches: Array | None = None,
-    frictions: Array | None = None,
+    friction_factors: Array | None = None,
     masses: Array | None = None,
     kernel: Literal["numpy", "numba"] | None = None,
     threads: int = 1,
@@ -59,7 +59,7 @@ def plan_many(
         task: what the tasks have in common: one knot, the object held, ``LargestMargin()`` or ``LeastEffort()`` as its
             goal, limits of slip margin, normal force, joint torque, actuator effort, synergy reference and joint range.
         wrenches: (N, 6) load of each, in place of the task's own: force [N] and moment about B [N m] on the object.
-        frictions: (N,) by which the friction of all contacts is multiplied.
+        friction_factors: (N,) by which the friction of all contacts is multiplied.
         masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
             first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
@@ -83,7 +83,7 @@ def plan_many(
         >>> many.verdicts.tolist()
         ['feasible', 'feasible', 'feasible']
     """
-    question = asked(grasp, task, wrenches, frictions, masses)
+    question = asked(grasp, task, wrenches, friction_factors, masses)
     like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
     solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)

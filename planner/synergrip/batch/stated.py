@@ -72,7 +72,7 @@ class Stated(Value):
 
 
 def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Array | None) -> Stated:
-    """Return the tasks with loads (N, 6) and frictions (N,) on one grasp."""
+    """Return the tasks with loads (N, 6) and friction factors (N,) on one grasp."""
     found = _formulated(analysis, task, wrench)
     return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), analysis.response.scale)
 
@@ -80,7 +80,7 @@ def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Arra
 def stated_each(
     group: AnalysisGroup, grasps: tuple[Grasp, ...], task: TimedTask, wrench: Array, friction: Array | None
 ) -> Stated:
-    """Return the tasks with loads (N, 6) and frictions (N,) on the N grasps of a group, each on its own."""
+    """Return the tasks with loads (N, 6) and friction factors (N,) on the N grasps of a group, each on its own."""
     found = replace(_formulated(group.at(0), task, wrench), each=_each(group, grasps))
     return Stated(task, _held_at_start(found, wrench), friction, grasps, group.response.grasps.metric)
 

@@ -9,13 +9,13 @@ from typing import ClassVar, Self
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ByFormula, Parameter, diagonal
 from synergrip.linalg import Array
 
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class EllipticSoftFinger(ContactKind):
+class EllipticSoftFinger(ByFormula):
     """Soft finger that slips more easily one way: ``(t / mu_t)^2 + (o / mu_o)^2 + (m / nu)^2 <= n^2``.
 
     For each normal force the forces and moments that it withstands fill an ellipsoid with semi-axes of their own: the

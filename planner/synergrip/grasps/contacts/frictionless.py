@@ -9,13 +9,13 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.contacts.kind import ByFormula
 from synergrip.linalg import Array
 
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class Frictionless(ContactKind):
+class Frictionless(ByFormula):
     """One component: the normal force. Its margin is the distance to lift-off, n itself.
 
     Example:

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, ContactKind, Parameter, diagonal
+from synergrip.grasps.contacts.kind import FRICTION, ByFormula, Parameter, diagonal
 from synergrip.linalg import Array
 
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class HardFinger(ContactKind):
+class HardFinger(ByFormula):
     """Point contact with friction: three force components; cone ``||(t, o)|| <= mu n``.
 
     Args:

@@ -109,20 +109,23 @@ class ContactKind(Finished, Kept, ABC):
             object.__setattr__(self, each.name, found)
         judge.finish()
 
-    @classmethod
+    @property
     @abstractmethod
-    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
-        """Return the cones W (..., d, rows) of one contact of this kind or of many, with values (...) of parameters.
+    def cones(self) -> tuple[Array, ...]:
+        """Cone matrices W (d, rows), one for each of `sides`; all must hold.
 
-        There is one for each of `sides`; all must hold. The slip margin of one is ``(W lambda)_0 - ||(W lambda)_1..||``
-        in newtons. The first row is a multiple of the normal force; the others name every other component at least
-        once, in one cone or another.
+        The slip margin of one is ``(W lambda)_0 - ||(W lambda)_1..||`` in newtons. The first row is a multiple of the
+        normal force; the others name every other component at least once, in one cone or another.
         """
 
-    @property
-    def cones(self) -> tuple[Array, ...]:
-        """Cone matrices W (d, rows) of this contact, as `cones_with` has them."""
-        return tuple(frozen(W) for W in self.cones_with({name: np.array(getattr(self, name)) for name in self.named()}))
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
+        """Return the cones W (..., d, rows) of many contacts of this kind, with values (...) of their parameters."""
+        shape = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+        columns = [np.broadcast_to(value, shape).ravel().tolist() for value in values.values()]
+        rows = zip(*columns, strict=True) if columns else [()]
+        each = [cls(**dict(zip(values, row, strict=True))).cones for row in rows]
+        return tuple(np.stack(W).reshape(*shape, *W[0].shape) for W in zip(*each, strict=True))
 
     @classmethod
     def named(cls) -> tuple[str, ...]:
@@ -167,3 +170,17 @@ class ContactKind(Finished, Kept, ABC):
     def with_friction(self, friction: float) -> Self:
         """Return it with another coefficient of friction; the same where it has none."""
         return replace(self, friction=friction) if hasattr(self, "friction") else self  # type: ignore[call-arg]
+
+
+class ByFormula(ContactKind):
+    """A kind whose cones are written down for one contact and for many at once."""
+
+    @classmethod
+    @abstractmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
+        """Return the cones W (..., d, rows) of one contact of this kind or of many, with values (...) of parameters."""
+
+    @property
+    def cones(self) -> tuple[Array, ...]:
+        """Cone matrices W (d, rows) of this contact, as `cones_with` has them."""
+        return tuple(frozen(W) for W in self.cones_with({name: np.array(getattr(self, name)) for name in self.named()}))

@@ -9,13 +9,13 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ByFormula, Parameter, diagonal
 from synergrip.linalg import Array
 
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class PatchContact(ContactKind):
+class PatchContact(ByFormula):
     """A flat round patch of radius r: six components, and two cones.
 
     It slips like a soft finger, ``sqrt((t^2 + o^2) / mu^2 + (m / nu)^2) <= n``, and it tips when the centre of

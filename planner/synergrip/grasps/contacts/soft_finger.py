@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ContactKind, Parameter, diagonal
+from synergrip.grasps.contacts.kind import FRICTION, SPIN_FRICTION, ByFormula, Parameter, diagonal
 from synergrip.linalg import Array
 
 
 @naming_arguments
 @dataclass(frozen=True, kw_only=True)
-class SoftFinger(ContactKind):
+class SoftFinger(ByFormula):
     """Four components; cone ``sqrt((t^2 + o^2) / mu^2 + (m / nu)^2) <= n``.
 
     Args:
