@@ -1,9 +1,9 @@
 """Plans of many tasks at once against one plan after the other: ``python tests/judged_many.py 2000``.
 
 Each grasp (hand-like, contacts of all kinds) gets 50 tasks with random loads and factors of friction; a third of the
-grasps come
-as stacks with a grasp for each task. Prints verdicts that differ, the largest difference of margin or effort in units
-of the load, how many were verified, and how many were planned one by one. With ``numba`` by the compiled kernel.
+grasps come as stacks with a grasp for each task. Prints verdicts that differ, the largest difference of margin or
+effort in units of the load, how many were verified, and how many were planned one by one. With ``numba`` by the
+compiled kernel.
 """
 
 from __future__ import annotations
