@@ -40,11 +40,11 @@ class Assembled(Value):
 
     def largest_margin(self) -> ConeProblems:
         """Return: maximise s, the last unknown."""
-        N, n = self.M.shape[0], self.M.shape[2]
+        n = self.M.shape[2]
         q = np.zeros((1, n + 1))
         q[0, -1] = -1.0
         A = np.concatenate([-self.M, self.head[:, :, None]], axis=2)
-        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, A, self.constant, self.sizes) if N else _none(self)
+        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, A, self.constant, self.sizes)
 
     def least_effort(self, of: Effort, margin: float) -> tuple[ConeProblems, Array]:
         """Return: the least effort at a margin [N]; and the constant (N,) of its objective."""
@@ -58,19 +58,8 @@ class Assembled(Value):
         stated, formulation = self.stated, self.stated.formulation
         value = {"contact": formulation.force, "torque": formulation.torque, "actuator": formulation.effort}[of]
         weights = stated.metric.force if of == "contact" else 1 / lengths(stated.metric)[..., None]
-        F = weights[..., None] * value.matrix * (self._columns() / self.unit[:, None])[:, None, :]
+        F = weights[..., None] * value.matrix * (columns(stated, self.unit) / self.unit[:, None])[:, None, :]
         return F, value.constant * weights / self.unit[:, None]
-
-    def _columns(self) -> Array:
-        return columns(self.stated, self.unit)
-
-
-def _none(assembled: Assembled) -> ConeProblems:
-    n = assembled.M.shape[2] + 1
-    return ConeProblems(
-        np.zeros((1, n, n)), np.zeros((1, n)), np.zeros((1, sum(assembled.sizes), n)), assembled.constant,
-        assembled.sizes,
-    )  # fmt: skip
 
 
 def columns(stated: Stated, unit: Array) -> Array:

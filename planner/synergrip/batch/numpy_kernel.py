@@ -82,7 +82,6 @@ def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSo
     with np.errstate(all="ignore"):  # of problems that come to nothing: they are told by their status
         for iteration in range(MOST):
             left = _residuals(state, tolerance)
-            stuck = np.zeros(len(left.gap), dtype=bool)
             through = active & (left.done != Status.NOTHING)
             _keep(found, state, left, through, iteration)
             active &= ~through

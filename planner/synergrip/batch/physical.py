@@ -18,12 +18,8 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array
+from synergrip.planning.verified import EXACT, LIMIT
 from synergrip.values import Value
-
-EXACT = 1e-8
-"""Relative tolerance of equilibrium, as in a plan of one task."""
-LIMIT = 1e-6
-"""Relative tolerance of limits, against the load, or the largest force of the contact, or the limit itself."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synergrip.conic.affine import times
 from synergrip.conic.limits.friction_cone import SLIPPERY
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp
@@ -33,8 +34,7 @@ class Cones(Value):
 
     def images(self, forces: Array) -> Array:
         """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
-        image = forces @ self.W.T if self.W.ndim == 2 else (self.W @ forces[:, :, None])[:, :, 0]
-        return np.asarray(image.reshape(len(forces), len(self.contacts), self.size))
+        return times(self.W, forces).reshape(len(forces), len(self.contacts), self.size)
 
 
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:

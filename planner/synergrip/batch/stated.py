@@ -118,7 +118,7 @@ def _each(group: AnalysisGroup, grasps: tuple[Grasp, ...]) -> Each:
         w_0 = np.broadcast_to(grasps[0].w_0, w_0.shape)
         begun = np.zeros((len(w_0), matrices.G.shape[-1]))
     elif all(grasp.lambda_0 is None for grasp in grasps):
-        begun = (group.response.dlambda_dw @ w_0[:, :, None])[:, :, 0]
+        begun = times(group.response.dlambda_dw, w_0)
     else:
         begun = np.array([forces_at_start(group.response.at(k)) for k in range(len(grasps))])
     grasp = EachGrasp(matrices.G, matrices.J, matrices.S, frozen(begun), frozen(w_0))

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.batch.cone_problems import ConeProblems
+from synergrip.conic.affine import times
 from synergrip.conic.certificate import DUAL_TOLERANCE, FAR, GAP_TOLERANCE, PRIMAL_TOLERANCE, ROUNDING
+from synergrip.conic.cones import project_second_order
 from synergrip.linalg import Array
 from synergrip.values import Value
 
@@ -42,11 +44,11 @@ def judge_optimal(problems: ConeProblems, x: Array, z: Array, bounds: Array, con
         bounds: (N, n) of |x|.
         constant: (N,) of objectives that are sums of squares; None for others.
     """
-    slack = problems.b - _times(problems.A, x)
+    slack = problems.b - times(problems.A, x)
     primal = np.maximum(outside(problems, slack), (np.abs(x) - bounds).max(axis=1, initial=-np.inf))
     moved = projected(problems, z)
-    of_P = _times(problems.P, x)
-    left = of_P + problems.q + _times(problems.A.mT, moved)
+    of_P = times(problems.P, x)
+    left = of_P + problems.q + times(problems.A.mT, moved)
     size = np.maximum(1.0, np.maximum(np.abs(problems.q).max(axis=1), np.abs(of_P).max(axis=1)))
     dual = np.abs(left).max(axis=1) / size
     half = (x * of_P).sum(axis=1) / 2
@@ -68,7 +70,7 @@ def judge_infeasible(problems: ConeProblems, y: Array, bounds: Array) -> Verifie
     drop = -(problems.b * inside).sum(axis=1)
     ray = inside / drop[:, None]
     moved = np.abs(ray - y / drop[:, None]).max(axis=1)
-    leak = np.abs(_times(problems.A.mT, ray))
+    leak = np.abs(times(problems.A.mT, ray))
     allowance = ROUNDING * (np.abs(problems.b) * np.abs(ray)).sum(axis=1)
     sign = -1.0 + (leak * bounds).sum(axis=1) + allowance
     verified = np.isfinite(y).all(axis=1) & (drop > 0) & (sign < 0)
@@ -92,16 +94,5 @@ def projected(problems: ConeProblems, y: Array) -> Array:
         if group.size == 1:
             continue
         part = y[:, group.rows].reshape(len(y), group.cones, group.size)
-        head, tail = part[..., 0], part[..., 1:]
-        length = np.linalg.norm(tail, axis=-1)
-        onto = np.where(length <= head, head, np.where(length <= -head, 0.0, (head + length) / 2))
-        factor = np.where(length <= head, 1.0, np.where(length > 0, onto / np.where(length > 0, length, 1.0), 0.0))
-        shrunk = tail * factor[..., None]
-        # the head is taken from the tail it belongs to, so that rounding cannot leave the point outside
-        heads = np.maximum(onto, np.linalg.norm(shrunk, axis=-1))
-        result[:, group.rows] = np.concatenate([heads[..., None], shrunk], axis=-1).reshape(len(y), -1)
+        result[:, group.rows] = project_second_order(part).reshape(len(y), -1)
     return result
-
-
-def _times(matrices: Array, vectors: Array) -> Array:
-    return np.asarray((matrices @ vectors[:, :, None])[:, :, 0])

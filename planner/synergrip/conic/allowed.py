@@ -4,8 +4,8 @@ References are what they are; forces answer to load and contacts by the complian
 are affine in both, cones are convex, and so a plan that keeps every limit at the corners of what is allowed keeps it
 for all that lies between. Each corner is the same task in the same unknowns, with other numbers (`Case`). Rows with one
 matrix in all of them are asked for once, with the least constant, which is as strict; second-order cones are asked for
-in each. What contacts that are off add is of either sign and small: a reserve in every cone, as large as all of them
-together can take.
+in each. What contacts that are off add is of either sign: cases of their own where these are few, else a reserve in
+every cone, as large as all of them together can take.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -23,13 +23,15 @@ from synergrip.conic.intersample import Intersample, Looks
 from synergrip.conic.reserve import lost
 from synergrip.conic.rows import Kind, Rows
 from synergrip.conic.sampled import Sampled
-from synergrip.equilibrium.setting import Setting
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Response
 from synergrip.values import Value
+
+if TYPE_CHECKING:
+    from synergrip.equilibrium.setting import Setting
 
 MOST_SAMPLED = 60_000
 """Samples times knots times contacts, at most."""
@@ -160,10 +162,14 @@ class Allowed(Value):
         return tuple(tuple(side * (i == j) for j in range(count)) for i in range(count) for side in (1, -1))
 
     @property
+    def corners(self) -> int:
+        """How many cases there are with all contacts that may be off to either side."""
+        return len(self.cases) << int(np.count_nonzero(self.gaps > 0))
+
+    @property
     def all_signs(self) -> bool:
         """Whether all sides of all contacts that may be off are few enough to look at them together."""
-        corners = len(self.cases) * 2 ** int(np.count_nonzero(self.gaps > 0))
-        return bool(corners <= MOST_CORNERS)
+        return self.corners <= MOST_CORNERS
 
     def narrowed(self, formulation: Formulation) -> Formulation:
         """Return a formulation with the least friction."""

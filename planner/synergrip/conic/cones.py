@@ -43,18 +43,18 @@ def project_on_dual(program: Program, y: Array) -> Array:
         if block.kind is Kind.NONNEGATIVE:
             result[rows] = np.maximum(result[rows], 0.0)
         elif block.kind is Kind.SECOND_ORDER:
-            result[rows] = _project_second_order(result[rows].reshape(-1, block.dim)).ravel()
+            result[rows] = project_second_order(result[rows].reshape(-1, block.dim)).ravel()
     return result
 
 
-def _project_second_order(points: Array) -> Array:
-    """Project rows (k, d) on the cone ``||x_1..|| <= x_0``, which is its own dual."""
-    heads, tails = points[:, 0], points[:, 1:]
-    lengths = np.linalg.norm(tails, axis=1)
+def project_second_order(points: Array) -> Array:
+    """Project points (..., d) on the cone ``||x_1..|| <= x_0``, which is its own dual."""
+    heads, tails = points[..., 0], points[..., 1:]
+    lengths = np.linalg.norm(tails, axis=-1)
     inside, opposite = lengths <= heads, lengths <= -heads
     onto = np.where(inside, heads, np.where(opposite, 0.0, (heads + lengths) / 2))
     with np.errstate(invalid="ignore", divide="ignore"):
         factor = np.where(inside, 1.0, np.where(lengths > 0, onto / lengths, 0.0))
     # the head is taken from the tail it belongs to, so that rounding cannot leave the point outside
-    shrunk = tails * factor[:, None]
-    return np.column_stack([np.maximum(onto, np.linalg.norm(shrunk, axis=1)), shrunk])
+    shrunk = tails * factor[..., None]
+    return np.concatenate([np.maximum(onto, np.linalg.norm(shrunk, axis=-1))[..., None], shrunk], axis=-1)

@@ -10,8 +10,7 @@ import numpy as np
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
-from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows
 from synergrip.equilibrium.execution import Execution
@@ -59,7 +58,7 @@ class MoreAtKnots(Value):
         shares = np.array(self.shares)
         of_instants = [i for i, limit in enumerate(task.kept) if not limit.couples_knots]
         for i, usage, over in zip(of_instants, others, short[1:], strict=True):
-            shares[i] += MORE * over * float((usage.excess / _whole(task.kept[i], usage)).max(initial=0.0))
+            shares[i] += MORE * over * float((usage.excess / task.kept[i].whole(usage)).max(initial=0.0))
         if self.rounds == ROUNDS or shares.max(initial=0.0) > MOST_SHARE:
             return None
         return MoreAtKnots(frozen(margin), tuple(shares.tolist()), self.rounds + 1)
@@ -99,13 +98,6 @@ class _MarginAtKnots(FrictionCone):
 
     def loosened(self, share: float) -> _MarginAtKnots:
         return replace(self, at_knots=frozen(self.at_knots - share * np.abs(self.at_knots)))
-
-
-def _whole(limit: Limit, usage: Usage) -> Array:
-    """Return (m,) of what `Limit.loosened` gives a share: of normal forces the bound itself."""
-    ends = np.where(usage.value.max(axis=0) > usage.upper, np.abs(usage.upper), np.abs(usage.lower))
-    known = np.isfinite(ends) & (ends > 0)
-    return np.where(known, ends, usage.scale) if isinstance(limit, NormalForce) else usage.scale
 
 
 def margins_at(executed: Execution, looks: Looks) -> Array:

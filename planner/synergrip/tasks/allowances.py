@@ -29,8 +29,8 @@ class Allowances(ByContent):
     Friction: the smallest decides, since the cone of less friction lies in those of more. Loads: forces are affine in
     the load at given references, ``lambda = lambda_0 - G+ dw + E_s alpha``, so that the corners of what is allowed
     decide. Contact gap: a contact that meets the object early or late by g changes the forces by
-    ``(I - G+ G) K g``, which is kept as a reserve in every cone. All of them together are allowed for. On a hand
-    corners are executed, too, with contacts early and late.
+    ``(I - G+ G) K g``: more corners, or where these are many a reserve in every cone. All of them together are allowed
+    for. On a hand corners are executed, too, with contacts early and late.
 
     Args:
         friction: least and largest coefficient of all contacts, or of those named: ``{"thumb": (0.4, 0.6)}``. Spin

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -72,9 +72,8 @@ def allowed_on(task: Task, grasp: Grasp, weight: tuple[Profile, ...]) -> Allowed
         if share or np.any(wrench):
             said = ", ".join(part for part in (mass, _said(wrench)) if part)
             cases.append(Case(said, More(share, weight, frozen(wrench), task.load_factor)))
-    gaps = _gaps(allow, grasp)
-    few = len(cases) * 2 ** int(np.count_nonzero(gaps)) <= FEW
-    return Allowed(_kinds(allow, grasp), tuple(cases), gaps, scenarios=allow.scenarios, cornered=few)
+    found = Allowed(_kinds(allow, grasp), tuple(cases), _gaps(allow, grasp), scenarios=allow.scenarios)
+    return replace(found, cornered=found.corners <= FEW)
 
 
 def _unknown(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:

@@ -49,7 +49,7 @@ def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Itera
             yield Issue(message, key=f"Task.loads[{place}]")
     if isinstance(task, Task) and task.allow is not None:
         yield from _beside_what_is_stated(task.allow, grasp)
-        yield from _far_off(task.allow, grasp)
+        yield from _far_off(task.allow, timed, grasp)
     yield from _large_motion(timed, grasp)
 
 
@@ -99,12 +99,12 @@ def _beside_what_is_stated(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
             return
 
 
-def _far_off(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
+def _far_off(allow: Allowances, timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
     """Yield contacts that are allowed to be off by about as much as the grasp is large."""
-    gaps = allow.contact_gap.values() if isinstance(allow.contact_gap, Mapping) else (allow.contact_gap,)
+    gap = 0.0 if timed.allowed is None else float(timed.allowed.gaps.max())
     position = 0.0 if allow.scenarios is None else allow.scenarios.position
     length = scale_of(grasp).length
-    for key, most in (("contact_gap", max(gaps, default=0.0)), ("scenarios.position", position)):
+    for key, most in (("contact_gap", gap), ("scenarios.position", position)):
         if most > OFF * length:
             message = (
                 f"contacts that are off by {1e3 * most:.4g} mm are off by much of the grasp, in which they are "

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from synergrip.conic.sampled import started
 from synergrip.documents.judging import described, is_whole
 from synergrip.documents.naming import naming_arguments
-from synergrip.equilibrium.setting import Setting
 from synergrip.errors import InputError
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.grasp import Grasp, grasp_matrix
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Response, respond
 from synergrip.tasks.arguments import TaskArguments, keep
-from synergrip.tasks.scenario_on_hand import Errors, sample_of
 from synergrip.tasks.shares import largest_share, samples_for
 from synergrip.values import ByContent
+
+if TYPE_CHECKING:
+    from synergrip.equilibrium.setting import Setting
 
 LOOKS = 3
 """How often fresh samples on a hand may be looked at; each time they are others."""
@@ -113,6 +115,8 @@ class Scenarios(ByContent):
             OffTheFaceError: a contact would be beyond the edge of its face.
         """
         from scipy.spatial.transform import Rotation
+
+        from synergrip.tasks.scenario_on_hand import Errors, sample_of
 
         rng = np.random.default_rng([self.seed, part, number])
         (across, size, around, tilt), factors = rng.random((4, grasp.n_c)), rng.uniform(-1, 1, 3)

@@ -12,7 +12,8 @@ from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
-from synergrip.conic.limits.limit import Limit, Usage, norm_usage
+from synergrip.conic.limits.limit import Limit, Usage
+from synergrip.conic.limits.object_error import norm_usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
 from synergrip.documents.naming import naming_arguments

@@ -190,6 +190,10 @@ class Limit(Complete, ByContent, ABC):
         """Return the same limit with that share of itself more room, for rounding: that much in its rows."""
         return _Roomier(self, share)
 
+    def whole(self, usage: Usage) -> Array:
+        """Return (m,) what `loosened` gives a share of, for each item of a usage of the limit."""
+        return usage.scale
+
     def on(self, grasp: Grasp) -> Limit:
         """Return the limit for one grasp: numbers one for each, and what its hand states filled in.
 
@@ -251,9 +255,3 @@ class _Roomier(InOtherRows):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         return [with_room(part, self.share) for part in self.limit.rows(formulation)]
-
-
-def norm_usage(title: str, unit: str, item: str, norm: Array, limit: float, times: Array) -> Usage:
-    """Return the usage of ``norm <= limit``, norm (T,)."""
-    none, bound = frozen([-np.inf]), frozen([limit])
-    return Usage(title, unit, (item,), norm[:, None], none, bound, bound, times)

@@ -110,6 +110,11 @@ class NormalForce(Limit):
         """Return it with a range wider by `share` of its ends."""
         return replace(self, lower=self.lower - share * abs(self.lower), upper=self.upper + share * abs(self.upper))
 
+    def whole(self, usage: Usage) -> Array:
+        """Return the bound that is nearer to being missed; what forces are measured against where there is none."""
+        ends = np.where(usage.value.max(axis=0) > usage.upper, np.abs(usage.upper), np.abs(usage.lower))
+        return np.where(np.isfinite(ends) & (ends > 0), ends, usage.scale)
+
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the normal forces."""
         starts = formulation.response.grasp.normal_rows

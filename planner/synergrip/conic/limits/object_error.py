@@ -12,14 +12,14 @@ from synergrip.conic.arguments import size
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
-from synergrip.conic.limits.limit import Limit, Usage, norm_usage
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Rows, norm_within
 from synergrip.documents.fields import Size
 from synergrip.documents.judging import Arguments, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
 
 AxisName = Literal["x", "y", "z", "rx", "ry", "rz"]
@@ -119,3 +119,9 @@ def axis_weights(axes: Sequence[AxisName], length: float) -> Array:
 IN_FILE = FileKey(
     "drift", ObjectError, Size, "how far the object may be from where it is wanted, sag under load included",
 )  # fmt: skip
+
+
+def norm_usage(title: str, unit: str, item: str, norm: Array, limit: float, times: Array) -> Usage:
+    """Return the usage of ``norm <= limit``, norm (T,)."""
+    none, bound = frozen([-np.inf]), frozen([limit])
+    return Usage(title, unit, (item,), norm[:, None], none, bound, bound, times)

@@ -6,7 +6,8 @@ for is looked at, too, with one factor on its times: the hand may follow that on
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -58,7 +59,9 @@ class Attained(Value):
         return float(np.asarray(self.path.times)[-1])
 
 
-def attained(grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing) -> Attained | None:
+def attained(
+    grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, given: Array
+) -> Attained | None:
     """Return what plans of the hand that moves attain of a timing of the linear model; None where there is none.
 
     Args:
@@ -67,6 +70,7 @@ def attained(grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, .
         palm: with the timing that was asked for.
         path: of the palm, by its length.
         found: the fastest timing of the linear model of the start posture.
+        given: (K,) the share of the way that is passed after equal parts of the time that was asked for.
     """
     posed, share = _posed(grasp, task, palm, path, found)
 
@@ -79,13 +83,11 @@ def attained(grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, .
         if best is not None:
             break
         bad = factor
-    for _ in range(HALVES if bad and best is not None else 0):
-        middle = (good + bad) / 2
-        nearer = planned(middle)
-        best, good, bad = (best, good, middle) if nearer is None else (nearer, middle, bad)
+    if best is not None and bad:
+        best, good = _nearer(planned, best, good, bad, HALVES)
     if best is not None and good <= MUCH:
         return best
-    return _as_asked(grasp, task, palm, found.seconds, None if best is None else best.seconds) or best
+    return _as_asked(grasp, task, palm, found.seconds, None if best is None else best.seconds, given) or best
 
 
 def given_share(grasp: Grasp, task: Task, palm: Palm | PalmPath) -> Array:
@@ -94,7 +96,20 @@ def given_share(grasp: Grasp, task: Task, palm: Palm | PalmPath) -> Array:
     return passed_as_given(palm, start, end, scale_of(grasp).length, DRAWN)
 
 
-def _as_asked(grasp: Grasp, task: Task, palm: Palm | PalmPath, least: float, most: float | None) -> Attained | None:
+def _nearer(
+    planned: Callable[[float], Attained | None], best: Attained, good: float, bad: float, times: int
+) -> tuple[Attained, float]:
+    """Return the plan of a factor nearer to one without a plan, halved a few times, and that factor."""
+    for _ in range(times):
+        middle = (good + bad) / 2
+        nearer = planned(middle)
+        best, good, bad = (best, good, middle) if nearer is None else (nearer, middle, bad)
+    return best, good
+
+
+def _as_asked(
+    grasp: Grasp, task: Task, palm: Palm | PalmPath, least: float, most: float | None, given: Array
+) -> Attained | None:
     """Return the fastest plan of the timing that was asked for, with one factor on its times; None where that is none.
 
     Args:
@@ -103,24 +118,19 @@ def _as_asked(grasp: Grasp, task: Task, palm: Palm | PalmPath, least: float, mos
         palm: with that timing.
         least: what the linear model takes [s].
         most: what is to be bettered [s]; None where there is nothing yet.
+        given: (K,) as of `attained`.
     """
     start, end = task.timed(grasp).times[[0, -1]].tolist()
-    given = _sampled(palm, start, end)
-    passed = given_share(grasp, task, palm)
-    share = frozen(np.interp(np.asarray(given.times), np.linspace(0.0, end - start, len(passed)), passed))
+    path = _sampled(palm, start, end)
+    share = frozen(np.interp(np.asarray(path.times), np.linspace(0.0, end - start, len(given)), given))
 
     def planned(factor: float) -> Attained | None:
-        made = _planned(grasp, task, palm, given.stretched(factor), share)
-        return None if made is None else Attained(made.path, share, made.plan, as_asked=True)
+        return _planned(grasp, task, palm, path.stretched(factor), share)
 
     bad, good = least / (end - start), 1.0 if most is None else min(1.0, WORTH * most / (end - start))
     if good <= bad or (best := planned(good)) is None:
         return None
-    for _ in range(HALVES_AS_ASKED):
-        middle = float(np.sqrt(good * bad))
-        nearer = planned(middle)
-        best, good, bad = (best, good, middle) if nearer is None else (nearer, middle, bad)
-    return best
+    return replace(_nearer(planned, best, good, bad, HALVES_AS_ASKED)[0], as_asked=True)
 
 
 def _sampled(palm: Palm | PalmPath, start: float, end: float) -> PalmPath:

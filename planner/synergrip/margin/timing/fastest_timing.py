@@ -160,13 +160,14 @@ def _attained(
     grasp: Grasp, task: Task, palm: Palm | PalmPath, path: tuple[Leg, ...], found: Timing, given: float
 ) -> FastestTiming:
     """Return the timing as it is planned along the hand that moves."""
-    best = attained(grasp, task, palm, path, found)
+    asked = given_share(grasp, task, palm)
+    best = attained(grasp, task, palm, path, found, asked)
     if best is None:
         why = f"no plan verified up to {SLOWER[-1]:g} times the time of the linear model, {found.seconds:.4g} s"
         return _none(given, f"{why}, nor of the timing that is asked for", found.least)
     return FastestTiming(
         best.seconds, found.least, best.seconds, found.least is not None, found.local, given,
-        _claim(found, best), best.path, best.share, given_share(grasp, task, palm), best.plan,
+        _claim(found, best), best.path, best.share, asked, best.plan,
     )  # fmt: skip
 
 
