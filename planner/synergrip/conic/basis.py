@@ -39,10 +39,13 @@ def inverse(basis: sparse.csc_matrix) -> sparse.csr_matrix:
 
 def moves(basis: sparse.csc_matrix, matrix: Array) -> bool:
     """Return whether any of the columns changes ``matrix v_k`` at some knot, for a matrix (m, n_v)."""
-    from scipy import sparse
-
-    rows = sparse.kron(sparse.eye_array(basis.shape[0] // matrix.shape[1]), matrix, format="csc")
-    return bool(in_basis(sparse.csc_matrix(rows), basis, 0).nnz)
+    knot, unknown = np.divmod(basis.indices.astype(np.int64), matrix.shape[1])
+    column = np.repeat(np.arange(basis.shape[1]), np.diff(basis.indptr))
+    _, place = np.unique(knot * basis.shape[1] + column, return_inverse=True)
+    pieces = np.zeros((int(place.max(initial=-1)) + 1, matrix.shape[1]))  # of a column at a knot, where it is not 0
+    pieces[place, unknown] = basis.data
+    size = np.abs(matrix).max(axis=1, initial=0.0)
+    return bool(np.any(np.abs(pieces @ matrix.T) > ROUNDING * size))
 
 
 def longest(basis: sparse.csc_matrix, n_v: int) -> int:

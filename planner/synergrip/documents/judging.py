@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cache
 from numbers import Real
 from typing import Any, TypeGuard
 
@@ -173,9 +174,14 @@ def places_of(key: str, value: Any, count: int) -> Any:
 
 def unfinished(value: Any) -> str:
     """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
-    kind, known = type(value), fields(value) if is_dataclass(value) else ()
-    left = next((each.name for each in known if not hasattr(value, each.name)), "")
+    kind = type(value)
+    left = next((name for name in _names_of(kind) if not hasattr(value, name)), "")
     return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
+
+
+@cache
+def _names_of(kind: type[Any]) -> tuple[str, ...]:
+    return tuple(each.name for each in fields(kind)) if is_dataclass(kind) else ()
 
 
 def described(value: object) -> str:
@@ -238,6 +244,8 @@ def is_number(value: object) -> bool:
 
 def as_numbers(value: object) -> Array | None:
     """Return real numbers as an array of floats; None for anything else, masked entries too, which are no numbers."""
+    if type(value) is np.ndarray and value.dtype == np.float64:  # as most are that the library makes itself
+        return value
     if isinstance(value, list | tuple) and any(isinstance(each, np.ma.MaskedArray) for each in value):
         value = np.ma.array(value)
     if value is None or isinstance(value, bool | str | bytes) or np.ma.is_masked(value):

@@ -16,7 +16,7 @@ AT_REST = 1e-11
 """Error of `Balance.error` that counts as equilibrium."""
 FINE = 1e-12
 """An error from which another iteration is made, if only one: two ways to the same state then agree to its digits."""
-ROUGH = 1e-8
+ROUGH = 1e-6
 """An error of states that are known well enough to tell promise from truth."""
 NEAR = 1e-3
 """An error below which the derivatives of the state before are as good: they leave out as much."""

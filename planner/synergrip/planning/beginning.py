@@ -6,6 +6,7 @@ import numpy as np
 
 from synergrip.linalg import Array, frozen
 from synergrip.planning.brought import brought
+from synergrip.planning.fewer_knots import FewerKnots
 from synergrip.planning.growing import grown
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
@@ -15,17 +16,47 @@ from synergrip.statics.motion import Motion
 def walk_from_plan(walker: Walker, linear: Motion) -> Walk:
     """Return the walk that the passes end with, from the motion that a plan for the start posture promises.
 
-    Where what then happens has nothing to do with the promise, a hold is brought along first.
+    Where what then happens has nothing to do with the promise, a hold is brought along first. Of many knots, some show
+    the way.
     """
-    begun = walker.executed(linear.dz_r, linear.forces, linear, fewer=True)
-    alpha, beta, gamma = walker.start.coordinates.coordinates(linear.dz_r)
-    hold = frozen(walker.start.coordinates.references(alpha, np.zeros_like(beta), gamma))
-    if begun.nowhere and (nearer := _brought_along(walker, hold)) is not None and _done(walker, nearer):
-        return nearer
-    whole = walker.on(begun)
+    if fewer := FewerKnots.of(walker):
+        there = _from_plan(fewer.walker, linear.at(fewer.knots))
+        if (walk := _on_from(fewer, there, linear.dz_r)) is not None:
+            return walk
+    whole = _from_plan(walker, linear)
     if not walker.effort.rounds or whole.interrupted or (whole.true and whole.behind <= walker.allowed):
         return whole
-    return walk_from_hold(walker, hold).after(whole)
+    return walk_from_hold(walker, _hold(walker, linear)).after(whole)
+
+
+def _from_plan(walker: Walker, linear: Motion) -> Walk:
+    begun = walker.executed(linear.dz_r, linear.forces, linear, fewer=True)
+    if begun.nowhere:
+        nearer = _brought_along(walker, _hold(walker, linear))
+        if nearer is not None and _done(walker, nearer):
+            return nearer
+    return walker.on(begun)
+
+
+def _on_from(fewer: FewerKnots, there: Walk, smooth: Array) -> Walk | None:
+    """Return the walk of all knots that one of some of them leads to; None where it leads nowhere.
+
+    Args:
+        fewer: whose knots some of them are.
+        there: the walk at these.
+        smooth: (T, n_z) references where it began, at all knots.
+    """
+    if not fewer.walker.arrived(there) and not there.interrupted:
+        return None
+    begun = fewer.at_all_knots(there, smooth)
+    whole = None if begun is None else fewer.whole.on(begun)
+    return whole if whole is not None and _done(fewer.whole, whole) else None
+
+
+def _hold(walker: Walker, linear: Motion) -> Array:
+    """Return references (T, n_z) that hold the object, of those that move it."""
+    alpha, beta, gamma = walker.start.coordinates.coordinates(linear.dz_r)
+    return frozen(walker.start.coordinates.references(alpha, np.zeros_like(beta), gamma))
 
 
 def walk_from_hold(walker: Walker, hold: Array) -> Walk:

@@ -32,7 +32,7 @@ def brought(walker: Walker, hold: Array) -> Walk | None:
         hold: (T, n_z) references that hold the object where it is, under the loads of the task.
     """
     start, share = walker.executor.setting.start, 0.0
-    here = walker.executed(hold, None, start.taken(np.zeros(len(hold), dtype=int)))
+    here = walker.executed(hold, None, start.taken(np.zeros(len(hold), dtype=int)), fewer=True)
     held = here.executed.states.forces
     for count in range(1, MOST + 1):
         if here.way is None or share == 1.0:
@@ -40,7 +40,7 @@ def brought(walker: Walker, hold: Array) -> Walk | None:
         references, share = _taken(here, held)
         if share < DEAR:
             return None
-        here = replace(walker.executed(references, None, here.executed), passes=count)
+        here = replace(walker.executed(references, None, here.executed, fewer=True), passes=count)
     return here if here.way is not None and share == 1.0 else None
 
 

@@ -69,6 +69,8 @@ class Walker:
     effort: Effort = WHOLE
     scenarios: Known | None = None
     """What is known of random samples of the grasp; None before any of them was executed."""
+    leads: bool = False
+    """Whether it only leads to where passes over more knots begin: these end sooner, and do the rest."""
 
     def kept_between(self, walk: Walk) -> Walk:
         """Return a walk whose margins hold between the knots, too; the same where they do, or none such is found."""
@@ -86,7 +88,8 @@ class Walker:
 
     def arrived(self, walk: Walk) -> bool:
         """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
-        return walk.true and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+        good = walk.close and not walk.left_out if self.leads else walk.true
+        return good and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
 
     @property
     def allowed(self) -> float:
@@ -100,11 +103,12 @@ class Walker:
             best: where they begin.
             roughly: whether they end where promise and truth are near each other, or with the first that is no better.
         """
-        pace = best.pace.again
+        pace = best.pace if best.stage is None else best.pace.again
         for count in range(best.passes + 1, self.effort.until(best.passes) + 1):
             there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
-            done = done or best.interrupted or (roughly and (pace.tries > 0 or self.near(best)))
+            done = done or best.interrupted or (self.leads and self.arrived(best))
+            done = done or (roughly and (pace.tries > 0 or self.near(best)))
             if best.way is None or done or pace.ends(best):
                 break
             try:

@@ -17,6 +17,8 @@ from synergrip.values import Value
 
 TRUE, OF_FORCES = 1e-3, 1e-4
 """A promise is true when it is to this many newtons, or to this share of the largest force where that is more."""
+CLOSE = 20.0
+"""How many times that a promise may be off from which a pass or two make it true."""
 KEPT, OF_FORCES_KEPT = 1e-3, 1e-3
 """A limit on forces is kept to this many newtons, or to this share of the largest force where that is more."""
 ROUGH = 0.05
@@ -29,6 +31,14 @@ BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
 FOLLOWED = 1e-5
 """[m] How near the object is brought to where it is wanted, as long as passes bring it nearer by `NEARER`."""
+
+
+@dataclass(frozen=True)
+class FirstPasses:
+    """What was done at some of the knots before passes over all of them."""
+
+    passes: int
+    knots: int
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,7 +64,9 @@ class Walk(Value):
     stopped: bool = False
     """Whether somebody interrupted it."""
     left_out: bool = False
-    """Whether goals after the first are left for a later pass."""
+    """Whether goals are left for a later pass."""
+    first: FirstPasses | None = None
+    """What led to where the passes over all knots begin."""
     pace: Pace = field(default_factory=Pace)
     """How far the next pass goes."""
 
@@ -67,6 +79,11 @@ class Walk(Value):
     def true(self) -> bool:
         """Whether what was promised is what happens."""
         return self.way is not None and self.gap <= self.room
+
+    @property
+    def close(self) -> bool:
+        """Whether one more pass or two make what was promised what happens."""
+        return self.way is not None and self.gap <= CLOSE * self.room
 
     @property
     def rough(self) -> bool:

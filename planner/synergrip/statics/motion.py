@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Response
 from synergrip.values import Value
 
@@ -33,7 +33,11 @@ class Motion(Value):
 
     def first(self, count: int) -> Motion:
         """Return the first knots of it."""
-        return replace(self, **{each.name: frozen(getattr(self, each.name)[:count]) for each in fields(self)})
+        return self.at(slice(count))
+
+    def at(self, knots: Places | slice) -> Motion:
+        """Return some of its knots, in order."""
+        return replace(self, **{each.name: frozen(getattr(self, each.name)[knots]) for each in fields(self)})
 
 
 def forces_at_start(response: Response | EachResponse) -> Array:
