@@ -175,7 +175,8 @@ def places_of(key: str, value: Any, count: int) -> Any:
 def unfinished(value: Any) -> str:
     """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
     kind = type(value)
-    left = next((name for name in _names_of(kind) if not hasattr(value, name)), "")
+    names = _names_of(kind)  # type: ignore[arg-type]  # every class is hashable
+    left = next((name for name in names if not hasattr(value, name)), "")
     return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
 
 

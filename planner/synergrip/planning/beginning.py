@@ -19,11 +19,13 @@ def walk_from_plan(walker: Walker, linear: Motion) -> Walk:
     Where what then happens has nothing to do with the promise, a hold is brought along first. Of many knots, some show
     the way.
     """
-    if fewer := FewerKnots.of(walker):
+    fewer = FewerKnots.of(walker)
+    if fewer is None:
+        whole = _from_plan(walker, linear)
+    else:
         there = _from_plan(fewer.walker, linear.at(fewer.knots))
-        if (walk := _on_from(fewer, there, linear.dz_r)) is not None:
-            return walk
-    whole = _from_plan(walker, linear)
+        walk = _on_from(fewer, there, linear.dz_r) or _from_plan(walker, linear)
+        whole = fewer.told(walk, there)
     if not walker.effort.rounds or whole.interrupted or (whole.true and whole.behind <= walker.allowed):
         return whole
     return walk_from_hold(walker, _hold(walker, linear)).after(whole)

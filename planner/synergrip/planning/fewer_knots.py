@@ -11,8 +11,9 @@ from functools import cached_property
 import numpy as np
 
 from synergrip.linalg import Array, Places, frozen
+from synergrip.planning.pace import FirstPasses
 from synergrip.planning.walk import Walker
-from synergrip.planning.walk_so_far import FirstPasses, Walk
+from synergrip.planning.walk_so_far import Walk
 
 FEWEST, PER_KNOT = 10, 1 / 40
 """Into how many pieces the knots are split at least, and into how many more for each of them."""
@@ -65,10 +66,11 @@ class FewerKnots:
         walk = self.whole.executed(result, None, near, fewer=True)
         if walk.way is None:
             return None
-        first = FirstPasses(found.passes, len(self.knots))
-        return replace(
-            walk, gap=found.gap, pace=found.pace, tried=found.tried, stopped=found.stopped, first=first, left_out=True
-        )
+        return replace(walk, gap=found.gap, pace=found.pace, stopped=found.stopped, left_out=True)
+
+    def told(self, walk: Walk, found: Walk) -> Walk:
+        """Return a walk at all knots, which tells of the passes at some of them before it."""
+        return replace(walk, first=FirstPasses(found.passes, len(self.knots)), tried=(*found.tried, *walk.tried))
 
 
 def _corners(walker: Walker) -> Places:

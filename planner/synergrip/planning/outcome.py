@@ -24,6 +24,7 @@ from synergrip.planning.arrays import Moved
 from synergrip.planning.between import Between
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase
+from synergrip.planning.pace import FirstPasses
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.task import Task
@@ -87,7 +88,9 @@ class Plan(Tabled):
     """The same references if pads stayed where they are on link and object: what it costs to be wrong about rolling;
     None where nothing rolls."""
     passes: int = 0
-    """How often the grasp was linearised anew along the motion."""
+    """How often the grasp was linearised anew along the motion, at all knots."""
+    first_passes: FirstPasses | None = None
+    """How often it was at some of the knots before that; None where all knots were looked at from the start."""
     interrupted: bool = False
     """Whether somebody stopped it before all goals were through; the plan holds all the same."""
     cases: tuple[InCase, ...] = ()

@@ -25,6 +25,16 @@ NEARER = 0.9
 
 
 @dataclass(frozen=True)
+class FirstPasses:
+    """What was done at some of the knots before passes over all of them."""
+
+    passes: int
+    """How often the grasp was linearised anew there."""
+    knots: int
+    """How many knots they were at."""
+
+
+@dataclass(frozen=True)
 class Effort:
     """How much is tried along a motion before it is given up."""
 

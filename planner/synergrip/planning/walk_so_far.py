@@ -10,7 +10,7 @@ from synergrip.conic.decide import Decision
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array
 from synergrip.planning.hindrances import Hindrance
-from synergrip.planning.pace import NEARER, Pace
+from synergrip.planning.pace import NEARER, FirstPasses, Pace
 from synergrip.planning.stages import Stage
 from synergrip.tasks.tracking_along import Steps
 from synergrip.values import Value
@@ -31,14 +31,6 @@ BETTER = 0.75
 """Share of the last difference between promise and truth that a step must get below."""
 FOLLOWED = 1e-5
 """[m] How near the object is brought to where it is wanted, as long as passes bring it nearer by `NEARER`."""
-
-
-@dataclass(frozen=True)
-class FirstPasses:
-    """What was done at some of the knots before passes over all of them."""
-
-    passes: int
-    knots: int
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,6 +66,11 @@ class Walk(Value):
     def interrupted(self) -> bool:
         """Whether somebody interrupted it, or the goals of its last pass."""
         return self.stopped or (self.stage is not None and self.stage.interrupted)
+
+    @property
+    def all_passes(self) -> int:
+        """Passes over all knots, and those at some of them before."""
+        return self.passes + (0 if self.first is None else self.first.passes)
 
     @property
     def true(self) -> bool:
@@ -128,7 +125,8 @@ class Walk(Value):
 
     def after(self, before: Walk) -> Walk:
         """Return it with the passes of another one, which led nowhere, before it."""
-        return replace(self, passes=before.passes + self.passes, tried=(*before.tried, *self.tried))
+        tried, first = (*before.tried, *self.tried), self.first or before.first
+        return replace(self, passes=before.passes + self.passes, tried=tried, first=first)
 
     def better_than(self, other: Walk) -> bool:
         """Tell whether a pass was worth it: nearer to what was promised, or, once that is true, to what is wanted."""

@@ -93,7 +93,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
             return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
     if not walk.true:
-        why = f"after {walk.passes} passes what is promised and what the hand does still differ"
+        why = f"after {walk.all_passes} passes what is promised and what the hand does still differ"
         why += f" by {walk.gap:.3g} N" if np.isfinite(walk.gap) else ", or an equilibrium is not found"
         return _unknown(walker, linear, why, walk, figures(walk, walker, linear.formulation, linear.between))
     if (walk := walker.kept_between(walk)).interrupted:
@@ -143,7 +143,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     Raises:
         KeyboardInterrupt: it does not; with how far it had come.
     """
-    come = f"after {walk.passes} pass{'es' * (walk.passes != 1)} along the motion, "
+    come = f"after {walk.all_passes} pass{'es' * (walk.all_passes != 1)} along the motion, "
     if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
@@ -155,7 +155,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
         missed = "it was not looked at which share of scenarios holds"
     if missed:
         raise KeyboardInterrupt(come + missed)
-    note = f"interrupted after {walk.passes} passes along the motion; it holds, and may not be the best"
+    note = f"interrupted after {walk.all_passes} passes along the motion; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
     return _with(plan, walk, walker, found, cases, Judged(), (*_goal_notes(walk), note))
 
@@ -188,8 +188,9 @@ def _with(
     return replace(
         plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, between=found.between,
-        executed=walk.executed, fixed=fixed, passes=walk.passes, elastic_motion=found.elastic_motion, notes=tuple(told),
+        executed=walk.executed, fixed=fixed, passes=walk.passes, first_passes=walk.first, notes=tuple(told),
         checks=(*found.checks, *cases.checks, *samples.checks), cases=cases.cases, fresh=samples.fresh,
+        elastic_motion=found.elastic_motion,
     )  # fmt: skip
 
 

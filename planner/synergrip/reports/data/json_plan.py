@@ -85,8 +85,11 @@ def _plan(plan: Plan) -> dict[str, Any]:
     if (execution := execution_document(plan)) is not None:
         document[EXECUTION] = execution
     if plan.executed is not None:
-        passes = {"programs": len(plan.decisions), "iterations": plan.executed.iterations, "passes": plan.passes}
-        document["true"] = true_document(plan.executed, plan.usages[0], plan.fixed) | passes
+        first = None if plan.first_passes is None else vars(plan.first_passes)
+        document["true"] = true_document(plan.executed, plan.usages[0], plan.fixed) | {
+            "programs": len(plan.decisions), "iterations": plan.executed.iterations, "passes": plan.passes,
+            "first_passes": first,
+        }  # fmt: skip
     return document | {
         "largest_margin_N": plan.largest_margin,
         "force_unit_N": units_of(plan.analysis, plan.task).force,

@@ -115,6 +115,8 @@ def _executed(plan: Plan) -> Iterator[str]:
         told = "not executed: matrices have no kinematics, and the figures are those of their linear model"
     else:
         how = f"linearised anew {many(plan.passes, 'time')} along the motion" if plan.passes else "planned at its start"
+        if (first := plan.first_passes) is not None:
+            how += f", after {many(first.passes, 'time')} at {first.knots} of its knots"
         told = (
             f"the figures are those of the hand that moves, {how}; {_model(plan.executed, plan.fixed)}; "
             f"the object is held with {1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
