@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
-from functools import cache
 from numbers import Real
 from typing import Any, TypeGuard
 
@@ -174,15 +173,9 @@ def places_of(key: str, value: Any, count: int) -> Any:
 
 def unfinished(value: Any) -> str:
     """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
-    kind = type(value)
-    names = _names_of(kind)  # type: ignore[arg-type]  # every class is hashable
-    left = next((name for name in names if not hasattr(value, name)), "")
+    kind, known = type(value), fields(value) if is_dataclass(value) else ()
+    left = next((each.name for each in known if not hasattr(value, each.name)), "")
     return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
-
-
-@cache
-def _names_of(kind: type[Any]) -> tuple[str, ...]:
-    return tuple(each.name for each in fields(kind)) if is_dataclass(kind) else ()
 
 
 def described(value: object) -> str:
