@@ -1,10 +1,11 @@
 """What plans promise, against the equilibria that a second execution of their references finds.
 
-    python tests/judged_execution.py [COUNT [MODEL [FIRST_SEED]]]
+    python tests/judged_execution.py [COUNT [MODEL [FIRST_SEED [KNOTS]]]]
 
 plans COUNT (100) random variations of the bundled problems on hands: motions of 0.5 to 40 mm and 1 to 30 degrees
 along what the synergies can move, or those of the problem; loads and squeezes times 0.3 to 3. Each plan is executed
-with round pads that are "rolling" (MODEL) or "fixed", or as the plan says that it was made (when it does). Prints what
+with round pads that are "rolling" (MODEL) or "fixed", or as the plan says that it was made (when it does). KNOTS is how
+many knots they have, where these fit their corners; else as many as the problems. Prints what
 became of each: the answer, how long it took, why there is no plan, promised and true margins; and at the end the shares
 of the answers and how far the true margins are below the promised ones. A plan is wrong where they differ by more than
 0.01 N and 1 % of the largest force, or where its true state misses the asked margin.
@@ -145,12 +146,12 @@ def on_hands() -> list[Problem]:
     return [problem for problem in map(load_problem, bundled_problems()) if problem.held is not None]
 
 
-def judged(problem: Problem, seed: int, model: str) -> Judged:
+def judged(problem: Problem, seed: int, model: str, knots: int | None = None) -> Judged:
     """Plan a variation of a problem, and execute the plan."""
     task, told = varied(problem, np.random.default_rng([11, seed]))
     title, start = f"seed {seed}: {told}", time.process_time()
     try:
-        answer = plan(problem.grasp, task)
+        answer = plan(problem.grasp, task if knots is None else task.replace(knots=knots))
     except SynergripError as error:
         return Judged(title, "refused", time.process_time() - start, str(error))
     seconds = time.process_time() - start
@@ -193,11 +194,11 @@ def told(results: Iterable[Judged]) -> int:
     return len(wrong)
 
 
-def main(count: int = 100, model: str = "rolling", first: int = 0) -> int:
+def main(count: int = 100, model: str = "rolling", first: int = 0, knots: int | None = None) -> int:
     """Judge variations of seeds first to first + count - 1, and return how many plans are wrong."""
     problems, results = on_hands(), []
     for seed in range(first, first + count):
-        results.append(result := judged(problems[seed % len(problems)], seed, model))
+        results.append(result := judged(problems[seed % len(problems)], seed, model, knots))
         found = result.found
         figures = result.why if found is None else (
             f"promised {found.promised:.4f}, true {found.true:.4f} N, between {found.between:.4f} N, of "
@@ -210,4 +211,4 @@ def main(count: int = 100, model: str = "rolling", first: int = 0) -> int:
 
 if __name__ == "__main__":
     words = sys.argv[1:]
-    sys.exit(bool(main(*map(int, words[:1]), *words[1:2], *map(int, words[2:3]))))
+    sys.exit(bool(main(*map(int, words[:1]), *words[1:2], *map(int, words[2:4]))))
