@@ -229,7 +229,7 @@ def test_an_interrupt_keeps_what_is_found() -> None:
 
 @pytest.mark.parametrize("during", ["least_change", "when"])
 def test_an_interrupt_while_it_is_searched_keeps_what_was_said(during: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stop(*args: object) -> None:
+    def stop(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     answer = refused("tripod", 'limits.normal_force="1 N"')

@@ -91,9 +91,11 @@ def with_room(dial: Dial[Asked], value: float, more: float = 0.0) -> float:
     return dial.easier(value, max(more * abs(value), ROOM * max(abs(value), abs(value - dial.value))))
 
 
-def narrowed(good: float, bad: float, has_plan: Callable[[float], bool]) -> tuple[float, float]:
-    """Return values near each other, one with a plan and one without, between two such."""
-    while abs(good - bad) > CLOSE * max(abs(good), abs(bad)):
+def narrowed(
+    good: float, bad: float, has_plan: Callable[[float], bool], close: Callable[[float], float] = lambda bad: CLOSE
+) -> tuple[float, float]:
+    """Return values near each other, one with a plan and one without, between two such; how near, by the latter."""
+    while abs(good - bad) > close(bad) * max(abs(good), abs(bad)):
         value = between(good, bad)
         good, bad = (value, bad) if has_plan(value) else (good, value)
     return good, bad

@@ -29,6 +29,8 @@ BEST = 3
 UNANSWERED = "solver"
 """Stage of an answer that ended at the start posture: what is short is not looked for along the motion, which takes
 many times as long."""
+ROUGH = 2e-3
+"""Share of a change within which the short form bisects, on a hand, which is asked for 2 % more anyway."""
 SMALL = math.log(FIRST[0])
 """Change than which no smaller one is tried."""
 
@@ -57,7 +59,8 @@ def explained(
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
     numbers = dials(asked, timed, posed.analysis)
     try:
-        found = [least_change(dial, posed, program) for dial in numbers]
+        rough = ROUGH if short and no.grasp.held is not None else 0.0
+        found = [least_change(dial, posed, program, rough=rough) for dial in numbers]
     except KeyboardInterrupt:  # what plan said is known all the same
         cause, known = _blamed(no, (), [])
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)

@@ -11,10 +11,9 @@ from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.repairs import Repair
-from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
+from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_briefly, missing_synergies
 from synergrip.explain.when import NOT_KNOWN, When
 from synergrip.planning.outcome import Infeasible, Unknown
-from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import ControlError
 from synergrip.tasks.tracking import RIGID_TOLERANCE, out_of_reach, target_displacement, wish_size
@@ -45,7 +44,7 @@ def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | Non
     """Return which synergies are missing for a motion."""
     if not isinstance(no, Infeasible) or no.stage == "restraint" or _of_control(no):
         return None
-    return missing_synergies(no, most=FEW, judge=plan_of_start_posture) if short else missing_synergies(no)
+    return missing_briefly(no, FEW) if short else missing_synergies(no)
 
 
 def _of_control(no: Infeasible | Unknown) -> bool:

@@ -8,7 +8,7 @@ from shlex import quote
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
-from synergrip.explain.words import changed, values
+from synergrip.explain.words import changed, nearer, values
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
@@ -63,6 +63,7 @@ def _repairs(found: Explanation) -> Iterator[str]:
             yield from wrapped(
                 "", f"no plan was found with {told}, where the linear model of the start posture has one"
             )
+        yield from _nearer(with_plan, whole=found.whole)
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
     if found.others:
@@ -82,6 +83,13 @@ def _repairs(found: Explanation) -> Iterator[str]:
         yield from wrapped("No help  ", f"proven of the linear model of the start posture, whatever the value: {words}")
         if _moves(found):
             yield from wrapped("         ", "on the hand as it moves they may help all the same")
+
+
+def _nearer(repairs: Sequence[Repair], *, whole: bool) -> Iterator[str]:
+    """Yield how far values that the hand that moves has a plan with are from what its start posture takes."""
+    if told := [said for said in map(nearer, repairs) if said]:
+        between = "" if whole else "; synergrip explain tries values between"
+        yield from wrapped("         ", f"the linear model of the start posture takes {', '.join(told)}{between}")
 
 
 def _moves(found: Explanation) -> bool:
@@ -119,7 +127,8 @@ def _missing(missing: MissingSynergies) -> Iterator[str]:
         for each in missing.candidates:
             said = each.verdict if not each.stage else f"{each.verdict} (stage: {each.stage})"
             setting = f"--set {quote(each.setting)}" if each.setting else ""
-            rows.append((" + ".join(each.names), each.set, said, setting))
+            names = f"all {len(each.names)} instead" if each.whole else " + ".join(each.names)
+            rows.append((names, each.set, said, setting))
         yield from ("", "Columns that would give the motion")
         yield table(("columns", "of", "with them", "with"), rows)
 
