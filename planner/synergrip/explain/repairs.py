@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import between, outcome_at, with_room
@@ -15,6 +16,7 @@ from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.values import Value
 
+T = TypeVar("T")
 SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
 ENOUGH = (0.02, 0.1)
@@ -75,13 +77,17 @@ def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
 
     Those that would leave next to nothing of a number, or make it more than anybody has, are no help.
     """
-    helping = sorted((each for each in found if each.value is not None and each.size < BEYOND), key=lambda e: e.size)
-    result: list[LeastChange] = []
-    while helping:
-        smallest = helping[0].size
-        tied = [each for each in helping if each.size <= smallest * (1 + TIE)]
-        chosen = min(tied, key=lambda each: (ORDER.get(each.dial.cause, 0), each.size))
-        helping.remove(chosen)
+    helping = [each for each in found if each.value is not None and each.size < BEYOND]
+    return by_size(helping, lambda each: each.size, lambda each: each.dial.cause)
+
+
+def by_size(every: Sequence[T], size: Callable[[T], float], cause: Callable[[T], str]) -> list[T]:
+    """Return changes in the order of their sizes; of such as tie a user's limit before friction and load."""
+    left, result = sorted(every, key=size), list[T]()
+    while left:
+        tied = [each for each in left if size(each) <= size(left[0]) * (1 + TIE)]
+        chosen = min(tied, key=lambda each: (ORDER.get(cause(each), 0), size(each)))
+        left.remove(chosen)
         result.append(chosen)
     return result
 

@@ -98,6 +98,15 @@ def missing_briefly(no: Infeasible, most: int) -> MissingSynergies:
     return _looked_for(no, None, most, (), briefly, columns_too=False)
 
 
+def another_set(no: Infeasible) -> MissingSynergies | None:
+    """Return the set of the hand with whose synergies, in place of those that there are, a task has a plan, if any."""
+    found = in_place_of(Extending(no, plan))
+    if found is None:
+        return None
+    nothing, why = frozen(np.zeros((no.grasp.n_q, 0))), "the synergies of another set control what is asked for"
+    return MissingSynergies(None, False, nothing, "", no.grasp.joints, (found,), why)
+
+
 def _looked_for(
     no: Infeasible, forces: Array | None, most: int, sets: Sequence[SynergySet], judge: Judge, *,
     columns_too: bool = True,

@@ -129,7 +129,7 @@ def _missing(missing: MissingSynergies) -> Iterator[str]:
             setting = f"--set {quote(each.setting)}" if each.setting else ""
             names = f"all {len(each.names)} instead" if each.whole else " + ".join(each.names)
             rows.append((names, each.set, said, setting))
-        yield from ("", "Columns that would give the motion")
+        yield from ("", "With other synergies")
         yield table(("columns", "of", "with them", "with"), rows)
 
 
