@@ -13,6 +13,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.relaxed import proving
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SynergripError
+from synergrip.log import LONG
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
 
@@ -47,7 +48,10 @@ def decided_at(dial: Dial[Asked], value: float, posed: Posed) -> Decision | None
 def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outcome | None:
     """Return what planning says with another value; None where it is refused as bad input."""
     try:
-        return dial.turned(value).outcome(effort)
+        asked = dial.turned(value)
+        if asked.executes_samples:
+            LONG.info("planning with %s", dial.set(value))
+        return asked.outcome(effort)
     except SynergripError:
         return None
 

@@ -192,11 +192,11 @@ def friction_dial(asked: Asked) -> Dial[Asked] | None:
 
 def knots_dial(asked: Asked) -> Dial[Asked] | None:
     """Return how many knots a task has, which more may help that are between those there are; None without a number."""
-    if not isinstance(asked.task, Task) or asked.task.knots < 2:
+    if not isinstance(asked.task, Task) or asked.task.knots is None or asked.task.knots < 2:
         return None
     return Dial(
-        "reach", "task.knots", asked.task.knots, "", lambda value: asked.with_task(knots=round(value)), smooth=False,
-        nested=False,
+        "reach", "task.knots", float(asked.task.knots), "", lambda value: asked.with_task(knots=round(value)),
+        smooth=False, nested=False,
     )  # fmt: skip
 
 

@@ -23,7 +23,7 @@ from synergrip.explain.repairs import Repair, by_size, ranked, repaired
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown
-from synergrip.planning.pace import BRIEF, WHOLE
+from synergrip.planning.pace import BRIEF, SHORT, WHOLE
 from synergrip.planning.walked import MORE_KNOTS
 
 BEST = 3
@@ -33,6 +33,8 @@ UNANSWERED = "solver"
 many times as long."""
 ROUGH = 2e-3
 """Share of a change within which the short form bisects, on a hand, which is asked for 2 % more anyway."""
+SAMPLED = "allow.scenarios."
+"""How the keys begin of what is tried first where samples of the grasp miss."""
 SMALL = math.log(FIRST[0])
 """Change than which no smaller one is tried."""
 
@@ -68,7 +70,7 @@ def explained(
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
     walked = isinstance(no, Unknown) and no.stage != UNANSWERED
-    most, effort = (BEST, WHOLE if walked else BRIEF) if short else (None, WHOLE)
+    most, effort = (BEST, WHOLE if walked else SHORT) if short else (None, WHOLE)
     planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
     others: list[Repair] = []
     if isinstance(no, Unknown) and (walked or not short) and not interrupted:
@@ -114,7 +116,7 @@ def _of_the_motion(
 ) -> Explanation:
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
-    numbers = dials(asked, no.task, posed.analysis)
+    numbers = sorted(dials(asked, no.task, posed.analysis), key=lambda dial: not dial.key.startswith(SAMPLED))
     knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.why.endswith(MORE_KNOTS) else ()
     found, interrupted = _as_found(chain(knots, (tried_briefly if short else tried)(numbers, heard)))
     others = tuple(sorted(found, key=lambda each: each.size))
@@ -143,7 +145,7 @@ def _cause(
     if helping:
         return helping[0].dial.cause
     chief = next((each for each in no.conflicts if not each.friction), None)
-    own = next((dial.cause for dial in numbers if chief is not None and dial.key == chief.key), "limit")
+    own: Cause = next((dial.cause for dial in numbers if chief is not None and dial.key == chief.key), "limit")
     return "friction" if chief is None else own
 
 

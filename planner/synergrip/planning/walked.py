@@ -134,6 +134,8 @@ def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker
     """
     counts = found.at_knots if walker.task.between == "report" or found.between is None else found.between
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
+    if more.rounds >= walker.effort.harder:
+        return None
     if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
     return walked_harder(walk, replace(walker, more=more_still))
