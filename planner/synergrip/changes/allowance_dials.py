@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,15 @@ from synergrip.changes.asked import Asked
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.linalg import Array
 from synergrip.tasks.allowances import Allowances
+from synergrip.tasks.scenarios import Scenarios
 from synergrip.tasks.task import Task
 
 LEAST = 1e-6
 """Share of what is allowed for that is as good as none."""
+SIZES: tuple[tuple[str, Cause, str], ...] = (
+    ("position", "tolerance", "m"), ("normal", "tolerance", "rad"), ("compliance", "stiffness", ""),
+)  # fmt: skip
+"""Sizes of scenarios, what they are told as, and their units."""
 FRICTION_END = 100.0
 """How many times its friction a contact is asked to have at most."""
 
@@ -49,6 +55,8 @@ class _Dials:
             values = np.asarray(getattr(allow, key))
             if np.any(values):
                 yield self._wrenches(key, values, float(np.abs(values).max()))
+        if self.asked.executes_samples:
+            yield from self._sizes()
         if isinstance(allow.contact_gap, float) and allow.contact_gap > 0:
             yield self._less("tolerance", "contact_gap", allow.contact_gap, "m", lambda v: v)
 
@@ -59,6 +67,16 @@ class _Dials:
             return self.asked.with_task(allow=replace(self.allow, **{key: made(number)}))
 
         return Dial(cause, f"allow.{key}", value, unit, turned, "down", LEAST * value)
+
+    def _sizes(self) -> Iterator[Dial[Asked]]:
+        """Yield how far samples of the grasp may be off; that smaller ones help is likely, and nothing is proven."""
+        scenarios = self.allow.scenarios
+        assert scenarios is not None
+        for key, cause, unit in SIZES:
+            value = getattr(scenarios, key)
+            if value > 0:
+                found = self._less(cause, "scenarios", value, unit, partial(_sized, scenarios, key))
+                yield replace(found, key=f"allow.scenarios.{key}", smooth=False, nested=False)
 
     def _friction(self, low: float, high: float) -> Dial[Asked]:
         found = self._less("friction", "friction", low, "", lambda v: (v, max(v, high)))
@@ -81,3 +99,9 @@ class _Dials:
         forces, moments = np.any(values[..., :3]), np.any(values[..., 3:])
         unit = "" if forces and moments else "N" if forces else "N m"
         return replace(self._less("load", key, largest, unit, lambda v: values * (v / largest)), written=written)
+
+
+def _sized(scenarios: Scenarios, key: str, value: float) -> Scenarios:
+    """Return scenarios with another size of one kind."""
+    sizes: dict[str, Any] = {key: value}
+    return replace(scenarios, **sizes)

@@ -68,6 +68,12 @@ class Asked(Value):
         """The task at its knots."""
         return self.task.timed(self.grasp) if isinstance(self.task, Task) else self.task.on(self.grasp)
 
+    @property
+    def executes_samples(self) -> bool:
+        """Whether each plan takes many executions: of samples of a grasp on a hand."""
+        allowed = self.task.allow if isinstance(self.task, Task) else self.task.allowed
+        return self.grasp.held is not None and allowed is not None and allowed.scenarios is not None
+
     def outcome(self, effort: Effort = WHOLE) -> Outcome | None:
         """Return what planning with an effort says of it; None where it is refused as bad input.
 

@@ -13,6 +13,7 @@ from synergrip.conic.program import Program
 from synergrip.conic.relaxed import proving
 from synergrip.conic.solvers import clarabel_
 from synergrip.errors import SynergripError
+from synergrip.log import LONG
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
 
@@ -47,7 +48,10 @@ def decided_at(dial: Dial[Asked], value: float, posed: Posed) -> Decision | None
 def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outcome | None:
     """Return what planning says with another value; None where it is refused as bad input."""
     try:
-        return dial.turned(value).outcome(effort)
+        asked = dial.turned(value)
+        if asked.executes_samples:
+            LONG.info("planning with %s", dial.set(value))
+        return asked.outcome(effort)
     except SynergripError:
         return None
 
@@ -91,9 +95,11 @@ def with_room(dial: Dial[Asked], value: float, more: float = 0.0) -> float:
     return dial.easier(value, max(more * abs(value), ROOM * max(abs(value), abs(value - dial.value))))
 
 
-def narrowed(good: float, bad: float, has_plan: Callable[[float], bool]) -> tuple[float, float]:
-    """Return values near each other, one with a plan and one without, between two such."""
-    while abs(good - bad) > CLOSE * max(abs(good), abs(bad)):
+def narrowed(
+    good: float, bad: float, has_plan: Callable[[float], bool], close: Callable[[float], float] = lambda bad: CLOSE
+) -> tuple[float, float]:
+    """Return values near each other, one with a plan and one without, between two such; how near, by the latter."""
+    while abs(good - bad) > close(bad) * max(abs(good), abs(bad)):
         value = between(good, bad)
         good, bad = (value, bad) if has_plan(value) else (good, value)
     return good, bad

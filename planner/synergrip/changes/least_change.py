@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import decided_at, narrowed, no_plan, posed_at, solved
+from synergrip.changes.at_a_value import CLOSE, decided_at, narrowed, no_plan, posed_at, solved
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Block, Program
@@ -46,13 +46,14 @@ class LeastChange(Value):
         return np.inf if self.value is None else self.dial.size(self.value)
 
 
-def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChange:
+def least_change(dial: Dial[Asked], posed: Posed, program: Program, *, rough: float = 0.0) -> LeastChange:
     """Return the least change of a number.
 
     Args:
         dial: the number.
         posed: what was asked, as a program of the start posture.
         program: that program, which has no plan.
+        rough: share of the change within which a bisection may end.
     """
     if dial.smooth:
         column = turning_column(dial, posed, program)
@@ -60,7 +61,7 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program) -> LeastChan
             found = _by_one_program(dial, posed, program, column)
             if found is not None:
                 return found
-    return _by_bisection(dial, posed)
+    return _by_bisection(dial, posed, rough)
 
 
 def turning_column(dial: Dial[Asked], posed: Posed, program: Program) -> Array | None:
@@ -153,7 +154,7 @@ def with_turns(program: Program, columns: Sequence[Array], far: Sequence[float],
     )  # fmt: skip
 
 
-def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
+def _by_bisection(dial: Dial[Asked], posed: Posed, rough: float) -> LeastChange:
     """Return the nearest of some values with a plan, and from there, where sets of plans are nested, the least one."""
     decided: dict[float, Decision | None] = {}
 
@@ -164,7 +165,7 @@ def _by_bisection(dial: Dial[Asked], posed: Posed) -> LeastChange:
     low, high = dial.value, None
     for value in _tries(dial):
         if has_plan(value):
-            high, low = narrowed(value, low, has_plan)
+            high, low = narrowed(value, low, has_plan, lambda bad: max(CLOSE, rough * dial.size(bad)))
             break
         low = value
     last = decided.get(low)

@@ -190,6 +190,16 @@ def friction_dial(asked: Asked) -> Dial[Asked] | None:
     return _friction(asked, tuple(contact.name for contact in asked.grasp.contacts), least) if least > 0 else None
 
 
+def knots_dial(asked: Asked) -> Dial[Asked] | None:
+    """Return how many knots a task has, which more may help that are between those there are; None without a number."""
+    if not isinstance(asked.task, Task) or asked.task.knots is None or asked.task.knots < 2:
+        return None
+    return Dial(
+        "reach", "task.knots", float(asked.task.knots), "", lambda value: asked.with_task(knots=round(value)),
+        smooth=False, nested=False,
+    )  # fmt: skip
+
+
 def contact_dials(asked: Asked) -> dict[str, Dial[Asked]]:
     """Return by its name the friction of each contact that has any, by itself."""
     contacts = [contact for contact in asked.grasp.contacts if contact.friction > 0]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import signal
 import sys
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.progress import telling
+from synergrip.cli.progress import PATIENCE, tell_what_takes_long, telling
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -60,6 +61,7 @@ def explain(
         from synergrip.signals import held_back
 
         picture_place(picture)
+        tell_what_takes_long()
         folder, wrote = output or Path("out") / loaded.name, list[str]()
         possible("--output", folder, refuse_explanation_place)
         with held_back(signal.SIGINT):
@@ -83,14 +85,16 @@ def explain(
 
 def _explained(no: Infeasible | Unknown) -> Explanation:
     """Return all that is known of a no; an interrupt keeps what is found."""
-    with heard():
-        return no.explain(heard=_tell)
+    begun = time.monotonic()
 
-
-def _tell(repair: Repair) -> None:
-    if sys.stderr.isatty():
+    def tell(repair: Repair) -> None:
+        if not (sys.stderr.isatty() or time.monotonic() - begun > PATIENCE):
+            return
         said = "a plan" if repair.verified else "no plan"
         print(f"planned  with {repair.set}: {said}", file=sys.stderr, flush=True)
+
+    with heard():
+        return no.explain(heard=tell)
 
 
 def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:

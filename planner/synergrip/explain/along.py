@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import between, first_plan
-from synergrip.changes.turning import dials
+from synergrip.changes.turning import dials, knots_dial
 from synergrip.conic.limits.dial import Dial
 from synergrip.explain.repairs import Repair, beyond
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
@@ -18,6 +18,8 @@ FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
 """Of each number, toward more room."""
 FIRST = (1.25, 2.0)
 """The same in the short form."""
+PARTS = (2, 4)
+"""Into how many each step from knot to knot is parted."""
 HALVES = 3
 """How often what lies between the last factor without and the first with a plan is halved."""
 FEW = 3
@@ -41,6 +43,17 @@ def tried(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> It
             yield nearer
 
 
+def more_knots(asked: Asked, heard: Callable[[Repair], None], effort: Effort = WHOLE) -> Iterator[Repair]:
+    """Yield the first of some more knots with which there is a plan, those that there are among them."""
+    dial = knots_dial(asked)
+    if dial is None:
+        return
+    found = first_repair(dial, [parts * (dial.value - 1) + 1 for parts in PARTS], effort)
+    if found is not None:
+        heard(found)
+        yield found
+
+
 def _nearer(dial: Dial[Asked], found: Repair) -> Repair:
     """Return a smaller change that has a plan, too, by halves of what lies before the one that was found."""
     factors = [value for value in _values(dial, FACTORS) if abs(value - dial.value) < abs(found.to - dial.value)]
@@ -52,12 +65,14 @@ def _nearer(dial: Dial[Asked], found: Repair) -> Repair:
     return found
 
 
-def tried_briefly(numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None]) -> Iterator[Repair]:
-    """Yield a few numbers with the smallest factor that a plan is soon found with; arguments as of `tried`."""
+def tried_briefly(
+    numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None], effort: Effort = BRIEF
+) -> Iterator[Repair]:
+    """Yield a few numbers with the smallest factor that a plan is soon found with, by an effort; else as `tried`."""
     told = 0
     for factor in FIRST:
         for dial in numbers:
-            found = first_repair(dial, _values(dial, (factor,)), BRIEF)
+            found = first_repair(dial, _values(dial, (factor,)), effort)
             if found is not None:
                 heard(found)
                 yield found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from synergrip.changes.asked import STATED, Asked, Posed
 from synergrip.changes.at_a_value import solved
@@ -14,21 +15,26 @@ from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.friction_cone import FRICTION
 from synergrip.conic.limits.slip_margin import KEY
-from synergrip.explain.along import FIRST, tried, tried_briefly
+from synergrip.explain.along import FIRST, more_knots, tried, tried_briefly
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
-from synergrip.explain.repairs import Repair, ranked, repaired
+from synergrip.explain.repairs import Repair, by_size, ranked, repaired
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.planning.outcome import Infeasible, Unknown
-from synergrip.planning.pace import BRIEF, WHOLE
+from synergrip.planning.pace import BRIEF, SHORT, WHOLE
+from synergrip.planning.walked import MORE_KNOTS
 
 BEST = 3
 """Repairs of the short form."""
 UNANSWERED = "solver"
 """Stage of an answer that ended at the start posture: what is short is not looked for along the motion, which takes
 many times as long."""
+ROUGH = 2e-3
+"""Share of a change within which the short form bisects, on a hand, which is asked for 2 % more anyway."""
+SAMPLED = "allow.scenarios."
+"""How the keys begin of what is tried first where samples of the grasp miss."""
 SMALL = math.log(FIRST[0])
 """Change than which no smaller one is tried."""
 
@@ -57,21 +63,24 @@ def explained(
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
     numbers = dials(asked, timed, posed.analysis)
     try:
-        found = [least_change(dial, posed, program) for dial in numbers]
+        rough = ROUGH if short and no.grasp.held is not None else 0.0
+        found = [least_change(dial, posed, program, rough=rough) for dial in numbers]
     except KeyboardInterrupt:  # what plan said is known all the same
-        cause, known = _blamed(no, (), [])
+        cause, known = _blamed(no, (), [], numbers)
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)
     helping = ranked([each for each in found if each.size > 0])
     walked = isinstance(no, Unknown) and no.stage != UNANSWERED
-    most, effort = (BEST, WHOLE if walked else BRIEF) if short else (None, WHOLE)
+    most, effort = (BEST, WHOLE if walked else SHORT) if short else (None, WHOLE)
     planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
     others: list[Repair] = []
     if isinstance(no, Unknown) and (walked or not short) and not interrupted:
         known_to_help = short and any(each.verified for each in planned)
         turned = [each.dial for each in helping] if known_to_help else numbers
-        others, interrupted = _as_found((tried_briefly if short else tried)(_with_room(turned, planned), heard))
+        numbers_left = _with_room(turned, planned)
+        more = tried_briefly(numbers_left, heard, WHOLE if known_to_help else BRIEF) if short else None
+        others, interrupted = _as_found(tried(numbers_left, heard) if more is None else more)
     held, rest = _smaller(planned, others)
-    cause, known = _blamed(no, held, helping)
+    cause, known = _blamed(no, held, helping, numbers)
     text, in_vain = _text(no, held, known), _in_vain(found)
     text = f"{text}; {STATED}" if sampled and not missed and held else text
     known = _without_margins(known) if "margin" in in_vain else known
@@ -94,10 +103,12 @@ def _smaller(planned: Sequence[Repair], others: Sequence[Repair]) -> tuple[tuple
     """Return the changes, the smaller of two where the hand that moves needs less than its start, and others."""
     if not others:
         return tuple(planned), ()
-    other = {each.key: each for each in others}
+    least = {each.key: each.least for each in planned}
+    other = {each.key: replace(each, least=least.get(each.key)) for each in others}
     held = [min(each, other.get(each.key, each), key=lambda one: (not one.verified, one.size)) for each in planned]
     keys = {each.key for each in held}
-    return tuple(sorted(held, key=lambda each: each.size)), tuple(each for each in others if each.key not in keys)
+    ordered = by_size(held, lambda each: each.size, lambda each: each.cause)
+    return tuple(ordered), tuple(each for each in others if each.key not in keys)
 
 
 def _of_the_motion(
@@ -105,8 +116,9 @@ def _of_the_motion(
 ) -> Explanation:
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
-    numbers = dials(asked, no.task, posed.analysis)
-    found, interrupted = _as_found((tried_briefly if short else tried)(numbers, heard))
+    numbers = sorted(dials(asked, no.task, posed.analysis), key=lambda dial: not dial.key.startswith(SAMPLED))
+    knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.why.endswith(MORE_KNOTS) else ()
+    found, interrupted = _as_found(chain(knots, (tried_briefly if short else tried)(numbers, heard)))
     others = tuple(sorted(found, key=lambda each: each.size))
     return Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short, interrupted, others=others)
 
@@ -122,7 +134,10 @@ def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:
     return found, False
 
 
-def _cause(no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange]) -> Cause:
+def _cause(
+    no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange], numbers: Sequence[Dial[Asked]] = ()
+) -> Cause:
+    """Return what is to blame: the smallest change, or the stage, or else the limit with most of the proof."""
     if held:
         return held[0].cause
     if isinstance(no, Unknown):
@@ -130,7 +145,8 @@ def _cause(no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[Lea
     if helping:
         return helping[0].dial.cause
     chief = next((each for each in no.conflicts if not each.friction), None)
-    return "friction" if chief is None else "limit"
+    own: Cause = next((dial.cause for dial in numbers if chief is not None and dial.key == chief.key), "limit")
+    return "friction" if chief is None else own
 
 
 def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...]) -> str:
@@ -146,10 +162,10 @@ def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Confl
 
 
 def _blamed(
-    no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange]
+    no: Infeasible | Unknown, held: tuple[Repair, ...], helping: list[LeastChange], numbers: Sequence[Dial[Asked]]
 ) -> tuple[Cause, tuple[Conflict, ...]]:
     """Return what is to blame, and what clashes, with what is to blame first."""
-    cause = _cause(no, held, helping)
+    cause = _cause(no, held, helping, numbers)
     known = no.conflicts if isinstance(no, Infeasible) else ()
     blamed = next((each.dial.key for each in helping if each.dial.cause == cause), "")
     if cause == "friction":

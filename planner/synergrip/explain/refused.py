@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from synergrip.changes.asked import Asked
 from synergrip.changes.at_a_value import first_plan, with_room
-from synergrip.conic.limits.dial import Dial
+from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.repairs import Repair
-from synergrip.explain.synergies.missing_synergies import MissingSynergies, missing_synergies
+from synergrip.explain.synergies.missing_synergies import (
+    MissingSynergies,
+    another_set,
+    missing_briefly,
+    missing_synergies,
+)
 from synergrip.explain.when import NOT_KNOWN, When
 from synergrip.planning.outcome import Infeasible, Unknown
-from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analysis import Analysis
-from synergrip.tasks.control import ControlError
+from synergrip.tasks.control import ControlError, most_controlled, written
 from synergrip.tasks.tracking import RIGID_TOLERANCE, out_of_reach, target_displacement, wish_size
 
 FEW = 3
@@ -36,6 +41,8 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
     try:
         if no.analysis is not None and no.stage in ("direction", "count") and not _of_control(no):
             known = _out_of_reach(known, no, no.analysis, asked)
+        if no.analysis is not None and _of_control(no):
+            known = replace(known, repairs=tuple(_less_control(no.analysis, asked, cause)))
         return replace(known, missing_synergies=_missing(no, short=short))
     except KeyboardInterrupt:  # what plan said is known all the same
         return replace(known, interrupted=True)
@@ -43,14 +50,30 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
 
 def _missing(no: Infeasible | Unknown, *, short: bool) -> MissingSynergies | None:
     """Return which synergies are missing for a motion."""
-    if not isinstance(no, Infeasible) or no.stage == "restraint" or _of_control(no):
+    if not isinstance(no, Infeasible) or no.stage == "restraint":
         return None
-    return missing_synergies(no, most=FEW, judge=plan_of_start_posture) if short else missing_synergies(no)
+    if _of_control(no):
+        return None if short else another_set(no)
+    return missing_briefly(no, FEW) if short else missing_synergies(no)
 
 
 def _of_control(no: Infeasible | Unknown) -> bool:
     """Return whether it is `task.control` that is refused, which no tolerance helps."""
     return isinstance(no, Infeasible) and isinstance(no.refusal, ControlError)
+
+
+def _less_control(analysis: Analysis, asked: Asked, cause: Cause) -> Iterator[Repair]:
+    """Yield the most of what is asked for that the synergies do control, where there is a plan with it."""
+    control = asked.task.control
+    assert control is not None
+    less = most_controlled(analysis, control)
+    dial: Dial[Asked] = Dial(
+        cause, "task.control", control.asked, "", lambda v: asked.with_task(control=less), "down", 0.0,
+        written=lambda v: written(less),
+    )  # fmt: skip
+    found = first_plan(dial, [float(less.asked)])
+    if found is not None:
+        yield Repair.of(dial, *found)
 
 
 def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analysis, asked: Asked) -> Explanation:

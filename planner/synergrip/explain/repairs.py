@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import outcome_at, with_room
+from synergrip.changes.at_a_value import between, outcome_at, with_room
 from synergrip.changes.least_change import LeastChange, short_of
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.documents.naming import made_by
@@ -15,12 +16,16 @@ from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.values import Value
 
+T = TypeVar("T")
 SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
-MORE = (0.0, 0.002, 0.01, 0.05, 0.2, 0.5, 1.0)
-"""How much farther than the least change of the start posture is tried, where the hand that moves needs more."""
 ENOUGH = (0.02, 0.1)
-"""The same in the short form; the first alone once some change has a plan: each is one along the motion."""
+"""How much farther than the least change of the start posture is tried in the short form, where the hand that moves
+needs more; the first alone once some change has a plan: each is one along the motion."""
+MORE = (0.0, 0.005, *ENOUGH, 0.2, 0.5, 1.0)
+"""The same in the long form, which tells no more than the short one."""
+NEAR = 0.02
+"""Within how much of a value that is told one was tried in vain, in the long form."""
 BEYOND = math.log(1e3)
 """How large a change is at most."""
 TIE = 0.01
@@ -55,6 +60,10 @@ class Repair(Value):
     """Whether a certificate shows that 0.1 % short of it there is no plan, in the linear model of the start posture."""
     outcome: Outcome | None = None
     """What planning says with it."""
+    least: float | None = None
+    """What the linear model of the start posture takes at least; None where that was not looked for."""
+    in_vain: float | None = None
+    """The nearest smaller change that was tried and that no plan was found with; None where none was."""
 
     @classmethod
     def of(cls, dial: Dial[Asked], to: float, outcome: Outcome | None, *, proven: bool = False) -> Repair:
@@ -68,13 +77,17 @@ def ranked(found: Sequence[LeastChange]) -> list[LeastChange]:
 
     Those that would leave next to nothing of a number, or make it more than anybody has, are no help.
     """
-    helping = sorted((each for each in found if each.value is not None and each.size < BEYOND), key=lambda e: e.size)
-    result: list[LeastChange] = []
-    while helping:
-        smallest = helping[0].size
-        tied = [each for each in helping if each.size <= smallest * (1 + TIE)]
-        chosen = min(tied, key=lambda each: (ORDER.get(each.dial.cause, 0), each.size))
-        helping.remove(chosen)
+    helping = [each for each in found if each.value is not None and each.size < BEYOND]
+    return by_size(helping, lambda each: each.size, lambda each: each.dial.cause)
+
+
+def by_size(every: Sequence[T], size: Callable[[T], float], cause: Callable[[T], str]) -> list[T]:
+    """Return changes in the order of their sizes; of such as tie a user's limit before friction and load."""
+    left, result = sorted(every, key=size), list[T]()
+    while left:
+        tied = [each for each in left if size(each) <= size(left[0]) * (1 + TIE)]
+        chosen = min(tied, key=lambda each: (ORDER.get(cause(each), 0), size(each)))
+        left.remove(chosen)
         result.append(chosen)
     return result
 
@@ -95,25 +108,79 @@ def repaired(
     """
     farther: tuple[float, ...] = MORE if prove else ENOUGH
     for change in changes[:most]:
-        repair = _planned(change, posed, farther, effort, prove=prove)
+        search, stopped = _Search(change), False
+        try:
+            for known in _tries(search, posed, farther, effort, nearer=prove):
+                search = known
+        except KeyboardInterrupt:
+            if search.plan is None:
+                raise
+            stopped = True
+        proven = prove and not stopped and short_of(change.dial, search.value, posed, SHORT)
+        repair = search.repair(proven=proven)
         farther = ENOUGH[:1] if repair.verified and not prove else farther
         heard(repair)
         yield repair
+        if stopped:
+            raise KeyboardInterrupt
 
 
-def _planned(change: LeastChange, posed: Posed, farther: Sequence[float], effort: Effort, *, prove: bool) -> Repair:
-    """Return a change with the first value beyond the least one of which there is a verified plan."""
-    dial, least = change.dial, change.value
+@dataclass(frozen=True, eq=False, repr=False)
+class _Search(Value):
+    """Values of a number that were planned with."""
+
+    change: LeastChange
+    to: float | None = None
+    """The nearest one with a plan, `plan`."""
+    plan: Outcome | None = None
+    in_vain: float | None = None
+    """The nearest one without."""
+    last: Outcome | None = None
+    """What became of the one that was tried last."""
+
+    @property
+    def value(self) -> float:
+        """What is told."""
+        assert self.change.value is not None
+        return beyond(self.change.dial, self.change.value, 0.0) if self.to is None else self.to
+
+    def tried(self, value: float, effort: Effort) -> _Search:
+        """Return it with another value."""
+        outcome = outcome_at(self.change.dial, value, effort)
+        if isinstance(outcome, Plan):
+            return replace(self, to=value, plan=outcome, last=outcome)
+        return replace(self, in_vain=value, last=outcome)
+
+    def repair(self, *, proven: bool) -> Repair:
+        """Return what is told."""
+        outcome = self.last if self.plan is None else self.plan
+        found = Repair.of(self.change.dial, self.value, outcome, proven=proven)
+        return replace(found, least=self.change.value, in_vain=None if self.plan is None else self.in_vain)
+
+
+def _tries(
+    search: _Search, posed: Posed, farther: Sequence[float], effort: Effort, *, nearer: bool
+) -> Iterator[_Search]:
+    """Yield what is known of a change after each value that is tried: beyond the least one, and then nearer again."""
+    dial, least = search.change.dial, search.change.value
     assert least is not None
-    tried = None
     for more in farther if posed.analysis.grasp.held is not None else (0.0,):
-        value = beyond(dial, least, more)
-        tried = outcome_at(dial, value, effort)
-        if isinstance(tried, Plan):
+        search = search.tried(beyond(dial, least, more), effort)
+        yield search
+        if search.plan is not None:
             break
-    else:
-        value = beyond(dial, least, 0.0)
-    return Repair.of(dial, value, tried, proven=prove and short_of(dial, value, posed, SHORT))
+    while nearer and (value := _between(search)) is not None:
+        search = search.tried(value, effort)
+        yield search
+
+
+def _between(search: _Search) -> float | None:
+    """Return a value between those with a plan and without; None where they are near each other, or one is missing."""
+    good, bad, dial = search.to, search.in_vain, search.change.dial
+    if good is None or bad is None or abs(good - bad) <= NEAR * max(abs(good), abs(bad)):
+        return None
+    value = dial.rounded(between(good, bad))
+    return value if value not in (good, bad) else None
 
 
 def beyond(dial: Dial[Asked], least: float, more: float) -> float:

@@ -24,6 +24,8 @@ FACTORS = {
     "limits.joint_range": "times the ranges",
 }  # fmt: skip
 """Key -> what its number is a multiple of."""
+SAME = 1e-3
+"""Relative difference of values that are told as one."""
 
 
 def blamed(repair: Repair) -> str:
@@ -49,12 +51,28 @@ def most_margin(no: Infeasible) -> str:
 
 def values(repair: Repair) -> tuple[str, str]:
     """Return the value and the one that would do, in units that people read."""
-    factor, unit = SHOWN_IN.get(repair.unit, (1.0, repair.unit))
-    if repair.unit == "kg" and max(repair.was, repair.to) < 1:
-        factor, unit = 1e3, "g"
+    factor, unit = _unit(repair)
     was, to = apart(factor * repair.was, factor * repair.to)
-    unit = unit or FACTORS.get(repair.key, "")
     return f"{was} {unit}".strip(), f"{_digits(factor * repair.to, to)} {unit}".strip()
+
+
+def nearer(repair: Repair) -> str:
+    """Return what the start posture takes at least, and what was tried in vain; nothing where that is what is told."""
+    if repair.least is None or abs(repair.to - repair.least) <= SAME * abs(repair.to):
+        return ""
+    factor, unit = _unit(repair)
+    vain = (
+        "" if repair.in_vain is None else f" (with {factor * repair.in_vain:.5g} {unit}".rstrip() + " none was found)"
+    )
+    return f"{changed(repair)} {factor * repair.least:.5g} {unit}".rstrip() + vain
+
+
+def _unit(repair: Repair) -> tuple[float, str]:
+    """Return the unit in which people read a number, and by what its values are multiplied."""
+    if repair.unit == "kg" and max(repair.was, repair.to) < 1:
+        return 1e3, "g"
+    factor, unit = SHOWN_IN.get(repair.unit, (1.0, repair.unit))
+    return factor, unit or FACTORS.get(repair.key, "")
 
 
 def _digits(value: float, short: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.errors import InputError, one_of
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.hand import SynergySet
 from synergrip.linalg import Array, block_diagonal, frozen
 
 Origins = Sequence[int | None]
@@ -80,17 +81,35 @@ def of_whole_set(grasp: Grasp) -> tuple[Grasp, Origins]:
     known = None if grasp.held is None else grasp.held.hand.synergy_sets.get(grasp.held.synergies.name)
     if known is None or len(known.S) != grasp.n_q:
         return grasp, own
-    places = [_place(grasp, name, column) for name, column in zip(known.synergies, known.S.T, strict=True)]
+    places = _places(grasp, known)
     if sorted(at for at in places if at is not None) != own:
         return grasp, own
+    return of_set(grasp, known)
+
+
+def of_set(grasp: Grasp, chosen: SynergySet) -> tuple[Grasp, Origins]:
+    """Return the grasp with the synergies of a set in place of its own, and where each of them was among these.
+
+    Those that it has not yield as its own do, where these yield alike, or else not at all.
+
+    Args:
+        grasp: on a hand.
+        chosen: with a row for each joint of it.
+    """
+    places = _places(grasp, chosen)
     alike = np.array_equal(grasp.C_z, grasp.C_z[0, 0] * np.eye(grasp.n_z))
     C_z = (grasp.C_z[0, 0] if alike else 0.0) * np.eye(len(places))
     kept = [i for i, at in enumerate(places) if at is not None]
     C_z[np.ix_(kept, kept)] = grasp.C_z[np.ix_(*[[at for at in places if at is not None]] * 2)]
-    whole = _with(grasp, known.synergies, known.S, C_z, places)
+    whole = _with(grasp, chosen.synergies, chosen.S, C_z, places)
     if whole.held is not None:
-        whole = replace(whole, held=replace(whole.held, synergies=known))
+        whole = replace(whole, held=replace(whole.held, synergies=chosen))
     return whole, places
+
+
+def _places(grasp: Grasp, chosen: SynergySet) -> list[int | None]:
+    """Return where each synergy of a set is among those of a grasp; None for one that it has not."""
+    return [_place(grasp, name, column) for name, column in zip(chosen.synergies, chosen.S.T, strict=True)]
 
 
 def _place(grasp: Grasp, name: str, column: Array) -> int | None:

@@ -44,13 +44,16 @@ class Effort:
     """Whether there may be any number of rounds: a motion is followed a little farther at a time where passes over the
     whole of it do not do."""
 
+    harder: int = 3
+    """How often more is asked for at the knots than before, for what is missed between them."""
+
     def until(self, passes: int) -> int:
         """Return the number of the last pass of a round that begins after some."""
         return passes + self.passes if self.rounds else self.passes
 
 
-WHOLE, BRIEF = Effort(16, rounds=True), Effort(6, rounds=False)
-"""What an answer is worth, and what a change that is looked at beside others is."""
+WHOLE, BRIEF, SHORT = Effort(16, rounds=True), Effort(6, rounds=False), Effort(6, rounds=False, harder=1)
+"""What an answer is worth, what a change that is looked at beside others is, and one of those that go with a no."""
 
 
 @dataclass(frozen=True)

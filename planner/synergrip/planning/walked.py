@@ -72,6 +72,8 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     return _with(plan, walk, walker, found, cases, samples, (worth, *plan.notes))
 
 
+MORE_KNOTS = "more knots straighten it"
+"""What is advised where limits are missed between the knots only."""
 ALONG = 'task.linearise = "along" plans for the hand that moves'
 
 
@@ -132,6 +134,8 @@ def _with_more(walk: Walk, walker: Walker, found: Figures) -> tuple[Walk, Walker
     """
     counts = found.at_knots if walker.task.between == "report" or found.between is None else found.between
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
+    if more.rounds >= walker.effort.harder:
+        return None
     if (more_still := more.for_what_is_missing(counts, walker.task)) is None:
         return None
     return walked_harder(walk, replace(walker, more=more_still))
@@ -208,7 +212,7 @@ def _missed(found: Figures) -> str:
         return ""
     told = [*found.missed, *(_of_state(check) for check in failed if "stability" in check.name)]
     told = told or [f"{check.name}, by {check.error:.3g}" for check in failed]
-    advice = "; more knots straighten it" if all(BETWEEN in check.name for check in failed) else ""
+    advice = f"; {MORE_KNOTS}" if all(BETWEEN in check.name for check in failed) else ""
     return f"at the true equilibrium limits are missed: {'; '.join(told)}{advice}"
 
 

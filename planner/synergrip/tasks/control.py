@@ -92,8 +92,8 @@ def refuse_control(analysis: Analysis, control: Control) -> None:
     for what, space, asked, place in kinds:
         if asked > dimensions[place]:
             message = (
-                f"asks for {asked} independent directions of {what}, these synergies control {dimensions[place]} "
-                f"(dim {space}); {_competing(control)}"
+                f"asks for {asked} independent direction{'s' * (asked != 1)} of {what}, these synergies control "
+                f"{dimensions[place]} (dim {space}); {_competing(control)}"
             )
             raise ControlError(message, "direction", asked, dimensions[place])
     if out := outside(analysis, control.motions):
@@ -102,6 +102,29 @@ def refuse_control(analysis: Analysis, control: Control) -> None:
             f"synergies (Gamma_ucs) have dimension {dimensions[1]}, and this is none of them"
         )
         raise ControlError(message, "direction", len(control.motions), dimensions[1])
+
+
+def most_controlled(analysis: Analysis, control: Control) -> Control:
+    """Return as much of what is asked for as the synergies control."""
+    forces, _, reconfiguration = (min(each, most) for each, most in zip(
+        (control.forces, 0, control.reconfiguration), analysis.spaces.dimensions, strict=True,
+    ))  # fmt: skip
+    out = outside(analysis, control.motions)
+    return Control(
+        forces=forces, motions=tuple(axis for axis in control.motions if axis not in out),
+        reconfiguration=reconfiguration,
+    )  # fmt: skip
+
+
+def written(control: Control) -> str:
+    """Return what is to be controlled as TOML."""
+    axes = ", ".join(f'"{axis}"' for axis in control.motions)
+    parts = (
+        f"forces = {control.forces}" if control.forces else "",
+        f"motions = [{axes}]" if axes else "",
+        f"reconfiguration = {control.reconfiguration}" if control.reconfiguration else "",
+    )
+    return f"{{ {', '.join(part for part in parts if part)} }}"
 
 
 def outside(analysis: Analysis, motions: Sequence[AxisName]) -> tuple[AxisName, ...]:

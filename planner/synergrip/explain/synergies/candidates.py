@@ -9,9 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.errors import SynergripError
+from synergrip.explain.synergies.brief_judge import Verdict
 from synergrip.explain.synergies.further_columns import Further, Subset
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.other_synergies import extended
+from synergrip.grasps.other_synergies import extended, of_set
+from synergrip.hands.hand import SynergySet
+from synergrip.hands.synergies.matrix import ALL, JOINTS
 from synergrip.hands.synergies.select import select
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Infeasible, Outcome
@@ -20,7 +23,8 @@ from synergrip.values import Value
 
 MOVES_NOT = ("direction", "count")
 """Stages at which a motion is refused before its forces are looked at."""
-Judge = Callable[[Grasp, TimedTask], Outcome]
+INTERRUPTED = "interrupted; these candidates are finished"
+Judge = Callable[[Grasp, TimedTask], Outcome | Verdict]
 """What judges a task on a grasp: `plan`, or the linear model alone."""
 
 
@@ -39,6 +43,8 @@ class Candidate(Value):
     """The same in words; else empty."""
     setting: str
     """The KEY=VALUE that chooses them in a problem file; empty where none does."""
+    whole: bool = False
+    """Whether they are all synergies of a set, in place of those that the grasp has."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,7 +54,7 @@ class Extending(Value):
     no: Infeasible
     judge: Judge
 
-    def outcome(self, names: Sequence[str], columns: Array) -> Outcome | SynergripError:
+    def outcome(self, names: Sequence[str], columns: Array) -> Outcome | Verdict | SynergripError:
         """Return what becomes of the task, or the error that it ends in.
 
         Args:
@@ -70,10 +76,19 @@ class Extending(Value):
         """Return some of further columns as a candidate with its verdict."""
         names = tuple(further.names[i] for i in picks)
         outcome = self.outcome(names, further.columns[:, list(picks)])
-        stage, why = getattr(outcome, "stage", ""), getattr(outcome, "why", "")
-        if isinstance(outcome, SynergripError):
-            why = str(outcome)
+        stage, why = _reason(outcome)
         return Candidate(further.set, names, _verdict(outcome), stage, why, self._setting(further, names))
+
+    def in_place(self, chosen: SynergySet) -> Candidate:
+        """Return all synergies of a set of the hand in place of those that there are, with the verdict."""
+        grasp, origins = of_set(self.no.grasp, chosen)
+        try:
+            outcome: Outcome | Verdict | SynergripError = self.judge(grasp, self.no.task.for_synergies(origins))
+        except SynergripError as error:
+            outcome = error
+        setting = f"hand.synergies={json.dumps(ALL if chosen.name == JOINTS else chosen.name, ensure_ascii=False)}"
+        stage, why = _reason(outcome)
+        return Candidate(chosen.name, chosen.synergies, _verdict(outcome), stage, why, setting, whole=True)
 
     def _setting(self, further: Further, names: tuple[str, ...]) -> str:
         """Return what to write into a problem file, where names of one set of the hand say it."""
@@ -88,6 +103,18 @@ class Extending(Value):
         added = further.columns[:, [further.names.index(name) for name in names]]
         listed = ", ".join(json.dumps(name, ensure_ascii=False) for name in every)
         return f"hand.synergies=[{listed}]" if np.array_equal(again, np.hstack([grasp.S, added])) else ""
+
+
+def in_place_of(extending: Extending) -> Candidate | None:
+    """Return the first set of the hand whose synergies, in place of those that there are, have a plan; joints last."""
+    grasp = extending.no.grasp
+    sets = () if grasp.held is None else grasp.held.hand.synergy_sets.values()
+    others = [each for each in sets if len(each.S) == grasp.n_q and not np.array_equal(each.S, grasp.S)]
+    for chosen in sorted(others, key=lambda each: each.name == JOINTS):
+        found = extending.in_place(chosen)
+        if found.verdict == "feasible":
+            return found
+    return None
 
 
 def judged(
@@ -112,9 +139,15 @@ def judged(
             if each.stage not in MOVES_NOT:  # a rank that rounding decided
                 found.append(each)
     except KeyboardInterrupt:
-        notes = ("interrupted; these candidates are finished",)
+        notes = (INTERRUPTED,)
     return tuple(sorted(found, key=lambda each: each.verdict != "feasible")), notes
 
 
-def _verdict(outcome: Outcome | SynergripError) -> str:
+def _reason(outcome: Outcome | Verdict | SynergripError) -> tuple[str, str]:
+    """Return the stage of a verdict that is not feasible, and why."""
+    why = str(outcome) if isinstance(outcome, SynergripError) else getattr(outcome, "why", "")
+    return getattr(outcome, "stage", ""), why
+
+
+def _verdict(outcome: Outcome | Verdict | SynergripError) -> str:
     return "unknown" if isinstance(outcome, SynergripError) else outcome.verdict

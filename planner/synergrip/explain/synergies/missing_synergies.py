@@ -9,7 +9,8 @@ import numpy as np
 
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by, naming_arguments
-from synergrip.explain.synergies.candidates import Candidate, Extending, Judge, judged
+from synergrip.explain.synergies.brief_judge import briefly
+from synergrip.explain.synergies.candidates import INTERRUPTED, Candidate, Extending, Judge, in_place_of, judged
 from synergrip.explain.synergies.further_columns import Further, Subset, further_columns, repairing
 from synergrip.explain.synergies.lacking import Lacking, lacking
 from synergrip.explain.synergies.lacking_forces import columns_of, helping, plan_of_all_joints
@@ -20,6 +21,7 @@ from synergrip.planning.planning import plan, plan_of_start_posture
 from synergrip.tasks.tracking import in_motions
 from synergrip.values import Value
 
+Notes = tuple[str, ...]
 MOST = 12
 """Candidates that are planned with."""
 NAME = "missing"
@@ -44,7 +46,7 @@ class MissingSynergies(Value):
     columns: Array
     """(n_q, count) joint motions [rad or m], an orthonormal basis of those of least norm that, appended to S, do."""
     verdict: str
-    """Of planning the task with these columns; empty when there are none."""
+    """Of planning the task with these columns; empty when there are none, and in the short form of an explanation."""
     joints: tuple[str, ...]
     """Names of the rows."""
     candidates: tuple[Candidate, ...]
@@ -88,6 +90,28 @@ def missing_synergies(
         count = np.shape(forces)[1] if np.ndim(forces) == 2 else 1
         forces = asked.array("forces", forces, (no.grasp.n_l, count), ": a column for each direction")
         asked.finish()
+    return _looked_for(no, forces, most, sets, judge)
+
+
+def missing_briefly(no: Infeasible, most: int) -> MissingSynergies:
+    """Return the same, candidates judged by one program of the start posture each, and the least columns not at all."""
+    return _looked_for(no, None, most, (), briefly, columns_too=False)
+
+
+def another_set(no: Infeasible) -> MissingSynergies | None:
+    """Return the set of the hand with whose synergies, in place of those that there are, a task has a plan, if any."""
+    found = in_place_of(Extending(no, plan))
+    if found is None:
+        return None
+    nothing, why = frozen(np.zeros((no.grasp.n_q, 0))), "the synergies of another set control what is asked for"
+    return MissingSynergies(None, False, nothing, "", no.grasp.joints, (found,), why)
+
+
+def _looked_for(
+    no: Infeasible, forces: Array | None, most: int, sets: Sequence[SynergySet], judge: Judge, *,
+    columns_too: bool = True,
+) -> MissingSynergies:  # fmt: skip
+    """Return what is missing; `columns_too`: whether those of least norm are judged as well."""
     analysis = no.analysis
     if analysis is None:
         return _none(no, 0, "the object is not held, whatever the synergies are")
@@ -99,13 +123,15 @@ def missing_synergies(
     if lack.forces_beyond:
         return _none(no, None, f"no synergies help: not even all {no.grasp.n_q} joints control these forces")
     if lack.count:
-        return _by_rank(no, lack, judge, most, sets)
+        return _by_rank(no, lack, judge, most, sets, columns_too=columns_too)
     if no.stage != "magnitude":
         return _none(no, 0, "the synergies can follow the motion")
     return _by_planning(no, judge, most, sets)
 
 
-def _by_rank(no: Infeasible, lack: Lacking, judge: Judge, most: int, sets: Sequence[SynergySet]) -> MissingSynergies:
+def _by_rank(
+    no: Infeasible, lack: Lacking, judge: Judge, most: int, sets: Sequence[SynergySet], *, columns_too: bool
+) -> MissingSynergies:
     """Return the columns of least norm, and those of the hand's own that do."""
     extending, notes = Extending(no, judge), list[str]()
     columns = canonical(np.hstack([each.least_columns(_weights(no)) for each in lack.lacks]))
@@ -117,8 +143,9 @@ def _by_rank(no: Infeasible, lack: Lacking, judge: Judge, most: int, sets: Seque
                 notes.append(f"of '{further.set}' fewer may do than the {len(found.picks[0])} that are named")
             yield from ((further, picks) for picks in found.picks)
 
-    verdict = extending.verdict(_names(columns), columns)
+    verdict = extending.verdict(_names(columns), columns) if columns_too else ""
     candidates, more = judged(extending, subsets(), most)
+    candidates, more = _with_whole_set(extending, candidates, more) if columns_too else (candidates, more)
     why = f"{_synergies(lack.count)} missing: what is asked for takes {lack.count} more than J S reaches"
     told = (*notes, *more)
     return MissingSynergies(lack.count, lack.proven, columns, verdict, no.grasp.joints, candidates, why, told)
@@ -142,7 +169,21 @@ def _by_planning(no: Infeasible, judge: Judge, most: int, sets: Sequence[Synergy
     count = min(sizes, default=None)
     will = f"{_synergies(count)} more will do in the linear model" if count else "none were found that will do"
     why = f"the limits can be kept when all joints move by themselves; {will}"
+    candidates, notes = _with_whole_set(extending, candidates, notes)
     return MissingSynergies(count, count == 1, columns, verdict, no.grasp.joints, candidates, why, notes)
+
+
+def _with_whole_set(
+    extending: Extending, found: tuple[Candidate, ...], notes: Notes
+) -> tuple[tuple[Candidate, ...], Notes]:
+    """Return candidates, and where none with a plan can be chosen in a problem file a set of the hand that has one."""
+    if INTERRUPTED in notes or any(each.verdict == "feasible" and each.setting for each in found):
+        return found, notes
+    try:
+        whole = in_place_of(extending)
+    except KeyboardInterrupt:
+        return found, (*notes, INTERRUPTED)
+    return (found if whole is None else (whole, *found)), notes
 
 
 def _none(no: Infeasible, count: int | None, why: str) -> MissingSynergies:

@@ -11,7 +11,7 @@ def missing_document(missing: MissingSynergies) -> dict[str, Any]:
     """Return the keys of ``missing_synergies``: columns [n_q][count] as in S, and who has columns that do."""
     candidates = [
         {"set": each.set, "names": list(each.names), "verdict": each.verdict, "stage": each.stage or None,
-         "why": each.why or None, "setting": each.setting or None} for each in missing.candidates
+         "why": each.why or None, "setting": each.setting or None, "whole": each.whole} for each in missing.candidates
     ]  # fmt: skip
     return {
         "count": missing.count, "proven": missing.proven, "columns": missing.columns.tolist(),

@@ -45,4 +45,5 @@ def repair_document(repair: Repair) -> dict[str, Any]:
     return {
         "cause": repair.cause, "key": repair.key, "from": repair.was, "to": repair.to, "unit": repair.unit,
         "set": repair.set, "verified": repair.verified, "size": finite(repair.size), "proven_short": repair.proven,
+        "least_at_start": repair.least, "in_vain": repair.in_vain,
     }  # fmt: skip

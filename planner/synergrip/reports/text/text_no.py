@@ -8,7 +8,7 @@ from shlex import quote
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
-from synergrip.explain.words import changed, values
+from synergrip.explain.words import changed, nearer, values
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
@@ -54,15 +54,7 @@ def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) ->
 
 def _repairs(found: Explanation) -> Iterator[str]:
     if found.repairs:
-        smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
-        with_plan = [each for each in found.repairs if each.verified]
-        yield from ("", f"What would help{smallest}")
-        yield _changes([(each,) for each in with_plan or found.repairs])
-        if with_plan and (rest := [each for each in found.repairs if not each.verified]):
-            told = ", ".join(f"{changed(each)} {values(each)[1]}" for each in rest)
-            yield from wrapped(
-                "", f"no plan was found with {told}, where the linear model of the start posture has one"
-            )
+        yield from _helping(found)
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
     if found.others:
@@ -84,6 +76,25 @@ def _repairs(found: Explanation) -> Iterator[str]:
             yield from wrapped("         ", "on the hand as it moves they may help all the same")
 
 
+def _helping(found: Explanation) -> Iterator[str]:
+    """Yield the changes that help, and what is to be said of their values."""
+    smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
+    yield from ("", f"What would help{smallest}")
+    yield _changes([(each,) for each in found.repairs])
+    yield from _nearer([each for each in found.repairs if each.verified], whole=found.whole)
+    if not all(each.verified for each in found.repairs):
+        farther = "" if found.whole else "; synergrip explain plans with larger changes, too"
+        told = "where no plan is found, the linear model of the start posture has one with that value"
+        yield from wrapped("         ", f"{told}, and the hand that moves was tried with more{farther}")
+
+
+def _nearer(repairs: Sequence[Repair], *, whole: bool) -> Iterator[str]:
+    """Yield how far values that the hand that moves has a plan with are from what its start posture takes."""
+    if told := [said for said in map(nearer, repairs) if said]:
+        between = "" if whole else "; synergrip explain tries values between"
+        yield from wrapped("         ", f"the linear model of the start posture takes {', '.join(told)}{between}")
+
+
 def _moves(found: Explanation) -> bool:
     """Return whether the answer is about a hand that is linearised anew along its motion."""
     posed = found.posed
@@ -93,7 +104,7 @@ def _moves(found: Explanation) -> bool:
 def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
     """Return a table of changes, each of one number or of several."""
     cells = [
-        (changed(each) if k == 0 else f"and {changed(each)}", *values(each), f"--set {quote(each.set)}")
+        (changed(each) if k == 0 else f"and {changed(each)}", *values(each), f"--set {quote(each.set)}" * each.verified)
         for row in rows
         for k, each in enumerate(row)
     ]
@@ -119,8 +130,9 @@ def _missing(missing: MissingSynergies) -> Iterator[str]:
         for each in missing.candidates:
             said = each.verdict if not each.stage else f"{each.verdict} (stage: {each.stage})"
             setting = f"--set {quote(each.setting)}" if each.setting else ""
-            rows.append((" + ".join(each.names), each.set, said, setting))
-        yield from ("", "Columns that would give the motion")
+            names = f"all {len(each.names)} instead" if each.whole else " + ".join(each.names)
+            rows.append((names, each.set, said, setting))
+        yield from ("", "With other synergies")
         yield table(("columns", "of", "with them", "with"), rows)
 
 
