@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from synergrip.batch.asked import Asked, asked
 from synergrip.batch.chunks import on_threads, threads_asked
 from synergrip.batch.decided import Decided, Solver, decided
-from synergrip.batch.kernel import chosen
+from synergrip.batch.kernel import QuickStatics, chosen, quick_statics
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
-from synergrip.batch.stated import Stated, stated_each, stated_on
+from synergrip.batch.stated import Stated, each_of, stated_each, stated_on
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import Refusal, RigidContactError
 from synergrip.grasps.grasp import Grasp
@@ -26,12 +26,15 @@ from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analyses import AnalysisGroup, analyses_for_plans
 from synergrip.statics.analysis import Analysis, analyse
+from synergrip.statics.each import Each
 from synergrip.statics.response import shares
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 
 Answers = tuple[NDArray[np.intp], Decided, NDArray[np.bool_]]
 """Where among the places of a chunk tasks stand, what verified of them, and whose maps are known well enough."""
+Part = tuple[NDArray[np.intp], Stated, NDArray[np.bool_]]
+"""Where among the places of a chunk tasks stand, the tasks, and whose maps are known well enough."""
 CHUNK = 2048
 """Tasks that are worked out together: enough to make calls cheap, few enough for memory and for an interrupt."""
 
@@ -87,10 +90,12 @@ def plan_many(
     like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
     solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)
+    quick = quick_statics(question.count, kernel) if isinstance(whole, GraspStack) else None
     LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
     chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
+    work = partial(_answers, question, whole, solver=solver, quick=quick)
     try:
-        for places, answers in on_threads(chunks, partial(_answers, question, whole, solver=solver), many_at_a_time):
+        for places, answers in on_threads(chunks, work, many_at_a_time):
             _keep(question, places, answers, found)
             if progress is not None:
                 progress("planning", (int(places[-1]) + 1) / question.count)
@@ -110,13 +115,19 @@ def _analysed(grasp: Grasp) -> Analysis | None:
 
 
 def _answers(
-    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp], *, solver: Solver
+    question: Asked,
+    whole: Analysis | GraspStack | None,
+    places: NDArray[np.intp],
+    *,
+    solver: Solver,
+    quick: QuickStatics | None,
 ) -> list[Answers]:
     """Return what verifies of the tasks at some places, those of like dimensions together."""
-    return [
-        (within, decided(stated, question.wrench[places[within]], solver), known)
-        for within, stated, known in _stated(question, whole, places)
-    ]
+    stacked = _on_stack(question, whole, places, quick) if isinstance(whole, GraspStack) else _on_one(
+        question, whole, places
+    )  # fmt: skip
+    return [(within, decided(stated, question.wrench[places[within]], solver), known)
+            for within, stated, known in stacked]  # fmt: skip
 
 
 def _keep(question: Asked, places: NDArray[np.intp], answers: list[Answers], found: Unfinished) -> None:
@@ -130,29 +141,36 @@ def _keep(question: Asked, places: NDArray[np.intp], answers: list[Answers], fou
     found.flags["finished"][places] = True
 
 
-def _stated(
-    question: Asked, whole: Analysis | GraspStack | None, places: NDArray[np.intp]
-) -> Iterator[tuple[NDArray[np.intp], Stated, NDArray[np.bool_]]]:
-    """Yield stated tasks, where among the places they are, and which rest on maps that are known well enough."""
-    friction = None if question.friction is None else question.friction[places]
-    if isinstance(whole, Analysis):
-        doubt = max(each.doubt for each in whole.response.accuracy.values())
-        if doubt <= SHOWN and whole.response.restrained:
-            every = np.arange(len(places))
-            known = np.ones(len(places), dtype=bool)
-            yield every, stated_on(whole, question.task, question.wrench[places], friction), known
+def _on_one(question: Asked, whole: Analysis | None, places: NDArray[np.intp]) -> Iterator[Part]:
+    """Yield the tasks at some places on one grasp, if it holds its object and its maps are known well enough."""
+    if whole is None or not whole.response.restrained:
         return
-    if whole is None:
+    if max(each.doubt for each in whole.response.accuracy.values()) <= SHOWN:
+        friction = None if question.friction is None else question.friction[places]
+        stated = stated_on(whole, question.task, question.wrench[places], friction)
+        yield np.arange(len(places)), stated, np.ones(len(places), dtype=bool)
+
+
+def _on_stack(
+    question: Asked, stack: GraspStack, places: NDArray[np.intp], quick: QuickStatics | None
+) -> Iterator[Part]:
+    """Yield tasks on grasps of like dimensions: first what is clear by the compiled lanes, if there are any."""
+    part, left = stack.taken(slice(int(places[0]), int(places[-1]) + 1)), np.arange(len(places))
+
+    def stated(like: Analysis, each: Each, whose: GraspStack, within: NDArray[np.intp]) -> Stated:
+        own = None if question.friction is None else question.friction[places[within]]
+        return stated_each(like, each, whose.given or (part.like,), question.task, question.wrench[places[within]], own)
+
+    if quick is not None and (found := quick(part)) is not None:
+        yield found.places, stated(found.like, found.each, found.grasps, found.places), np.ones(len(found.places), bool)
+        if len(left := np.setdiff1d(left, found.places)):
+            part = part.taken(left)
+    if not len(left):
         return
-    part = whole.taken(slice(int(places[0]), int(places[-1]) + 1))
     for group in analyses_for_plans(part):
-        known = _known(group)
-        if not known.any():
-            continue
-        within = group.places
-        own = None if friction is None else friction[within]
-        grasps = group.response.grasps.given or (part.like,)
-        yield within, stated_each(group, grasps, question.task, question.wrench[places[within]], own), known
+        known, within = _known(group), left[group.places]
+        if known.any():
+            yield within, stated(group.at(0), each_of(group), group.response.grasps, within), known
 
 
 def _known(group: AnalysisGroup) -> NDArray[np.bool_]:
