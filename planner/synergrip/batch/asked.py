@@ -104,7 +104,8 @@ def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
     stack = GraspStack.of(grasp)
     first = stack.like
     for place, each in enumerate(stack.given):
-        alike = each.joints == first.joints and (each.held is None) == (first.held is None)
+        same = each.joints is first.joints or each.joints == first.joints
+        alike = same and (each.held is None) == (first.held is None)
         if not alike or (each.held is not None and first.held is not None and each.held.hand is not first.held.hand):
             message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
             raise InputError.at(f"grasp[{place}]", message)

@@ -31,7 +31,7 @@ def _balanced(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
     matrices, metric, maps = stack.matrices, stack.metric, each.response
     rng, N = np.random.default_rng(1), len(each)
     force = metric.force
-    size = np.abs(force[..., None] * maps.dlambda_dzr).max(axis=(-2, -1))
+    size = np.sqrt(np.einsum("Nij,Nij->N", maps.dlambda_dzr, maps.dlambda_dzr))
     dz_r = rng.normal(size=maps.dlambda_dzr.shape[-1]) / size[:, None]
     w = times(metric.motion.mT, np.broadcast_to(rng.normal(size=6), (N, 6)))
 
@@ -43,11 +43,9 @@ def _balanced(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
     moved = times(matrices.S, dz_r - times(matrices.C_z, times(matrices.S.mT, torques)))
     yielding = times(matrices.C_q, torques)
     terms = (times(matrices.J, moved - yielding), -times(matrices.C_s, forces), -times(matrices.G.mT, motion))
-    fits = _nothing(sum(terms) / force, *(term / force for term in terms))
-    held = times(matrices.G, forces)
-    balance = np.linalg.solve(metric.motion.mT, (held + w)[:, :, None])[:, :, 0]
-    holds = np.abs(balance).max(axis=1) <= EQUAL * np.abs(forces * force).max(axis=1)
-    return fits & holds & _nothing(moved - yielding - joints, moved, yielding)
+    fits = _nothing((terms[0] + terms[1] + terms[2]) / force, *(term / force for term in terms))
+    balance = metric.scaled_wrenches(times(matrices.G, forces) + w)
+    return fits & _nothing(balance, forces * force) & _nothing(moved - yielding - joints, moved, yielding)
 
 
 def _controlled(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
@@ -68,7 +66,7 @@ def _controlled(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
         return right
     scaled = metric.motion @ spaces.Gamma_ucs
     along = times(scaled.mT, times(metric.motion, times(maps.du_dzr, dz_r)))
-    right &= np.abs(along).max(axis=1) <= EQUAL * lengths.max(axis=1) * np.linalg.norm(dz_r, axis=1)
+    right &= _size(along) <= EQUAL * lengths.max(axis=1) * _size(dz_r)
     beta = np.broadcast_to(rng.normal(size=n_beta), (len(each), n_beta))
     of_hand = times(matrices.J, times(matrices.S, times(spaces.Gamma_zcs, beta))) / metric.force
     of_object = times(matrices.G.mT, times(spaces.Gamma_ucs, beta)) / metric.force
@@ -77,5 +75,9 @@ def _controlled(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
 
 def _nothing(rest: Array, *terms: Array) -> NDArray[np.bool_]:
     """Return (N,) whether a rest (N, m) is nothing beside its terms."""
-    size = np.max([np.abs(term).max(axis=1) for term in terms], axis=0)
-    return np.asarray(np.abs(rest).max(axis=1) <= EQUAL * size)
+    return np.asarray(_size(rest) <= EQUAL * np.max([_size(term) for term in terms], axis=0))
+
+
+def _size(values: Array) -> Array:
+    """Return (N,) the lengths of vectors (N, m)."""
+    return np.sqrt(np.einsum("Nj,Nj->N", values, values))

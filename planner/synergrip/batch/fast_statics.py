@@ -98,7 +98,7 @@ class Clear(NamedTuple):
     each: Each
     """Their statics, by the names of the maps and bases."""
     like: Analysis
-    """That of the first of them."""
+    """That of one such grasp, by NumPy: its subspaces have the same dimensions."""
 
 
 def _made(stamp: int) -> Any:
@@ -115,24 +115,31 @@ def _prepare(function: Any) -> None:
 compiled = Compiled("statics", SOURCES, _made, _prepare)
 
 
-def clear_statics(stack: GraspStack) -> Clear | None:
-    """Return what is clear of the statics of many grasps, and confirmed; None where nothing is."""
-    matrices = stack.matrices
-    layout = Layout.of(matrices.G.shape[-1], *matrices.S.shape[-2:])
-    if layout is None:
-        return None
-    arrays = tuple(_given(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
-    found = compiled()(arrays, layout, _others(layout), len(stack), (layout.clear, layout.end))
-    each = _each(found, layout, stack)
-    clear = (found[:, 0] > 0) & confirmed(stack, each)
-    places = np.flatnonzero(clear)
-    if not len(places):
-        return None
-    if not clear.all():
-        stack = stack.taken(places)
-        each = _each(found[places], layout, stack)
-    (first,) = analyses_for_plans(stack.taken(slice(1)))
-    return Clear(places, stack, each, first.at(0)) if first.dimensions == (layout.r, layout.d, 0) else None
+class ClearStatics:
+    """The statics of the chunks of one stack."""
+
+    def __init__(self) -> None:
+        """Make it, of grasps that nothing is known of."""
+        self._like: dict[Layout, Analysis] = {}
+
+    def __call__(self, stack: GraspStack) -> Clear | None:
+        """Return what is clear of the statics of many grasps, and confirmed; None where nothing is."""
+        matrices = stack.matrices
+        layout = Layout.of(matrices.G.shape[-1], *matrices.S.shape[-2:])
+        if layout is None:
+            return None
+        arrays = tuple(_given(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
+        found = compiled()(arrays, layout, _others(layout), len(stack), (layout.clear, layout.end))
+        each = _each(found, layout, stack)
+        clear = (found[:, 0] > 0) & confirmed(stack, each)
+        places = np.flatnonzero(clear)
+        if not len(places):
+            return None
+        if not clear.all():
+            stack = stack.taken(places)
+            each = _each(found[places], layout, stack)
+        like = self._like.get(layout) or self._like.setdefault(layout, analyses_for_plans(stack.taken([0]))[0].at(0))
+        return Clear(places, stack, each, like) if like.spaces.dimensions == (layout.r, layout.d, 0) else None
 
 
 def _given(values: Array) -> Array:

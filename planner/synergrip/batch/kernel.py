@@ -42,7 +42,7 @@ def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
     """Return what works out the statics of many grasps by compiled lanes; None where that does not repay."""
     there = find_spec("numba") is not None
     if kernel == "numba" or (kernel is None and there and _repays(fast_statics.compiled, count, STATICS_COMPILED)):
-        return fast_statics.clear_statics
+        return fast_statics.ClearStatics()
     return None
 
 
