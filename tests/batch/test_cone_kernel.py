@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from random_cone_problems import by_clarabel, certificates, proofs, random_problems, values

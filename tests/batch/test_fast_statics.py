@@ -1,4 +1,4 @@
-"""The statics in compiled lanes, against those of one grasp after the other; what is not clear, or wrong, is left out."""
+"""The statics in compiled lanes, against those of one grasp after the other; what is doubtful or wrong is left out."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_what_is_doubtful_is_left_to_others() -> None:
     grasps = grasps_of(["soft"] * 4, 8)
     doubtful = {
         2: replace(grasps[2], S=np.hstack([grasps[2].S[:, :-1], grasps[2].S[:, :1] * (1 + 1e-7)])),  # hardly 8 of them
-        5: replace(grasps[5], C_s=grasps[5].C_s * np.logspace(0, 14, 16)),  # compliances that float64 keeps no digits of
+        5: replace(grasps[5], C_s=grasps[5].C_s * np.logspace(0, 14, 16)),  # no digits are left in float64
         7: replace(grasps[7], S=0 * grasps[7].S),
     }
     mixed = [doubtful.get(k, grasp) for k, grasp in enumerate(grasps)]

@@ -22,7 +22,7 @@ REGULAR = 1e7
 
 @np.errstate(all="ignore")
 def confirmed(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
-    """Return (N,) whether maps and bases are those of the grasps: forces, motions and what of them synergies control."""
+    """Return (N,) whether maps and bases are those of the grasps: forces, motions, what synergies control."""
     return _balanced(stack, each) & _controlled(stack, each)
 
 
@@ -80,4 +80,4 @@ def _nothing(rest: Array, *terms: Array) -> NDArray[np.bool_]:
 
 def _size(values: Array) -> Array:
     """Return (N,) the lengths of vectors (N, m)."""
-    return np.sqrt(np.einsum("Nj,Nj->N", values, values))
+    return np.asarray(np.sqrt(np.einsum("Nj,Nj->N", values, values)))

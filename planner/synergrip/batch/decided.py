@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +60,7 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
     if every:
         right, kept = largest >= task.margin - AT_LEAST * programs.unit, np.fmax(task.margin, largest)
     else:
-        x, right = _least_effort(programs, goal, np.flatnonzero(~infeasible), solver)
+        x, right = _best(programs, goal, np.flatnonzero(~infeasible), solver)
         kept, largest = np.full(N, task.margin), np.where(infeasible, largest, np.nan)
     plans = judged(programs, x, kept, wrench)
     return _told(stated, right & plans.holds, infeasible, largest, plans)
@@ -99,24 +98,40 @@ def _proven(programs: Assembled, places: NDArray[np.intp], z: Array) -> NDArray[
     return verifier.judge_infeasible(at_margin, z, programs.bounds[places]).verified
 
 
-def _least_effort(programs: Assembled, goal: Goal, possible: Any, solver: Solver) -> tuple[Array, NDArray[np.bool_]]:
+def _best(
+    programs: Assembled, goal: Goal, possible: NDArray[np.intp], solver: Solver
+) -> tuple[Array, NDArray[np.bool_]]:
     """Return the best unknowns (N, n) of the tasks that are possible, and which of them verify."""
-    assert isinstance(goal, LeastEffort)
     N, n = programs.M.shape[0], programs.M.shape[2]
     x, right = np.full((N, n), np.nan), np.zeros(N, dtype=bool)
     if not len(possible):
         return x, right
-    problems, constant = programs.least_effort(goal.of, programs.stated.task.margin)
-    for tolerance in OF_EFFORT:
+    problems, constant, bounds, tolerances = _stated_goal(programs, goal)
+    for tolerance in tolerances:
         every = len(possible) == N
-        theirs, own = problems if every else problems.taken(possible), constant[possible]
+        theirs, own = problems if every else problems.taken(possible), None if constant is None else constant[possible]
         found = solver(theirs, tolerance, np.full(len(possible), -np.inf))
-        x[possible] = found.x
-        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, programs.bounds[possible], own).verified
+        x[possible] = found.x[:, :n]
+        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, bounds[possible], own).verified
         possible = possible[~right[possible]]
         if not len(possible):
-            break
+            return x, right
+    nothing = np.zeros((len(possible), 1))  # without a load, to do nothing may be the best
+    theirs, own = problems.taken(possible), None if constant is None else constant[possible]
+    x_0, z_0 = nothing + np.zeros(problems.q.shape[-1]), nothing + np.zeros(problems.b.shape[1])
+    still = verifier.judge_optimal(theirs, x_0, z_0, bounds[possible], own).verified
+    x[possible[still]], right[possible[still]] = 0.0, True
     return x, right
+
+
+def _stated_goal(programs: Assembled, goal: Goal) -> tuple[ConeProblems, Array | None, Array, Sequence[Tolerance]]:
+    """Return the programs of a goal at the margin asked for, constants, bounds, and to what they are solved in turn."""
+    margin = programs.stated.task.margin
+    if isinstance(goal, LeastEffort):
+        problems, constant = programs.least_effort(goal.of, margin)
+        return problems, constant, programs.bounds, OF_EFFORT
+    free = np.full((len(programs.bounds), 1), np.inf)
+    return programs.least_peak(margin), None, np.hstack([programs.bounds, free]), (OF_MARGIN,)
 
 
 def _told(

@@ -26,7 +26,7 @@ PLAIN = 1e-8
 
 @compiled
 def _factors(w: Any, at: Any) -> Any:
-    """Write the factors of the equilibrium, ``C = L L'``, ``L^-1 G' = Y`` and ``Y'Y = R R'``; return the least pivot."""
+    """Write the factors ``C = L L'``, ``L^-1 G' = Y`` and ``Y'Y = R R'``; return the least share of a pivot."""
     kept_apart()
     l, q, z = at.l, at.q, at.z  # noqa: E741 - the usual letter
     S, J = Matrix(at.S, z, 1), Matrix(at.J, q, 1)
@@ -119,7 +119,7 @@ def _added(w: Any, at: Any, a: int, b: int) -> None:
 
 @compiled
 def _largest(w: Any, at: Any, values: int, out: int, times: float, beside: int, share: float) -> None:
-    """Raise the twelve largest entries of maps to those of ``times |values| + share |beside|``, in scaled coordinates."""
+    """Raise the largest entries of the twelve maps to those of ``times |values| + share |beside|``, scaled."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741
     ends, first = (l, l + 6, l + 6 + q, l + 6 + q + z, l + 6 + q + 2 * z, l + 6 + 2 * q + 2 * z), 0

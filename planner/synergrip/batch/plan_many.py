@@ -16,7 +16,7 @@ from synergrip.batch.kernel import QuickStatics, chosen, quick_statics
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
 from synergrip.batch.stated import Stated, each_of, stated_each, stated_on
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import Refusal, RigidContactError
+from synergrip.errors import InputError, Refusal, RigidContactError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array
@@ -59,8 +59,9 @@ def plan_many(
 
     Args:
         grasp: one grasp for all tasks, or its `Analysis`; or a `GraspStack`, or a list, with a grasp for each.
-        task: what the tasks have in common: one knot, the object held, ``LargestMargin()`` or ``LeastEffort()`` as its
-            goal, limits of slip margin, normal force, joint torque, actuator effort, synergy reference and joint range.
+        task: what the tasks have in common: one knot, the object held, ``LargestMargin()``, ``LeastEffort()`` or
+            ``LeastPeak()`` as its goal, limits of slip margin, normal force, joint torque, actuator effort, synergy
+            reference and joint range. With other limits or goals all are planned one by one, which is told.
         wrenches: (N, 6) load of each, in place of the task's own: force [N] and moment about B [N m] on the object.
         friction_factors: (N,) by which the friction of all contacts is multiplied.
         masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
@@ -75,7 +76,8 @@ def plan_many(
         arrays with a row for each task. An interrupt (Ctrl-C) keeps the rows that are finished.
 
     Raises:
-        InputError: arguments that do not fit each other, or a task with what is not covered; the goal is unbounded.
+        InputError: arguments that do not fit each other, or a task with what is not covered; nothing bounds the goal
+            of any task. What is wrong with some tasks alone stands in `refusals`.
 
     Example:
         >>> import numpy as np
@@ -93,9 +95,11 @@ def plan_many(
     quick = quick_statics(question.count, kernel) if isinstance(whole, GraspStack) else None
     LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
     chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
+    if question.beyond:
+        LOG.warning("%d tasks are planned one by one: %s is not for many at once", question.count, question.beyond)
     work = partial(_answers, question, whole, solver=solver, quick=quick)
     try:
-        for places, answers in on_threads(chunks, work, many_at_a_time):
+        for places, answers in on_threads(chunks, work, many_at_a_time):  # in order, whatever is ready first
             _keep(question, places, answers, found)
             if progress is not None:
                 progress("planning", (int(places[-1]) + 1) / question.count)
@@ -123,6 +127,8 @@ def _answers(
     quick: QuickStatics | None,
 ) -> list[Answers]:
     """Return what verifies of the tasks at some places, those of like dimensions together."""
+    if question.beyond:
+        return []
     stacked = _on_stack(question, whole, places, quick) if isinstance(whole, GraspStack) else _on_one(
         question, whole, places
     )  # fmt: skip
@@ -136,8 +142,10 @@ def _keep(question: Asked, places: NDArray[np.intp], answers: list[Answers], fou
     for within, each, known in answers:
         _fill(found, places[within], each, known)
         open_[within] = ~(known & (each.feasible | each.infeasible))
+    alone = not open_.all()  # what is wrong with every task is raised
     for place in places[open_].tolist():
-        _one_by_one(question, place, found)
+        _one_by_one(question, place, found, refusing=alone)
+        alone |= place in found.refusals or bool(found.flags["verified"][place])
     found.flags["finished"][places] = True
 
 
@@ -189,13 +197,14 @@ def _fill(found: Unfinished, places: NDArray[np.intp], answers: Decided, known: 
         values[places[right]] = getattr(answers, name)[right]
 
 
-def _one_by_one(question: Asked, place: int, found: Unfinished) -> None:
-    """Let `plan` answer a task: the same model, one program at a time."""
+def _one_by_one(question: Asked, place: int, found: Unfinished, *, refusing: bool) -> None:
+    """Let `plan` answer a task: the same model, one program at a time; `refusing`, what it raises is kept."""
     found.flags["one_by_one"][place] = True
     try:
         outcome: Any = plan_of_start_posture(question.grasp_at(place), question.task_at(place))
-    except RigidContactError as error:
-        if not isinstance(question.grasp, GraspStack):
+    except InputError as error:
+        rigid = isinstance(error, RigidContactError) and isinstance(question.grasp, GraspStack)
+        if not (refusing or rigid):
             raise
         found.refusals[place] = error
         return
