@@ -54,7 +54,7 @@ def _put(w: Any, place: int, value: Any, times: Any, add: float) -> None:
 
 @compiled
 def cholesky(w: Any, a: int, n: int) -> Any:
-    """Write L of ``A = L L'`` over A (n, n), its diagonal inverted; return the least pivot as a share of the diagonal."""
+    """Write L of ``A = L L'`` over A (n, n), its diagonal inverted; return the least pivot over its diagonal."""
     kept_apart()
     one, least = all_of(1.0), all_of(1.0)
     for j in range(n):

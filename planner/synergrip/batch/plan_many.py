@@ -90,7 +90,7 @@ def plan_many(
     """
     question = asked(grasp, task, wrenches, friction_factors, masses)
     like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
-    whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else _analysed(question.grasp)
+    whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else analysed(question.grasp)
     solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)
     quick = quick_statics(question.count, kernel) if isinstance(whole, GraspStack) else None
     LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
@@ -110,7 +110,7 @@ def plan_many(
     return many
 
 
-def _analysed(grasp: Grasp) -> Analysis | None:
+def analysed(grasp: Grasp) -> Analysis | None:
     """Return the analysis of a grasp; None where `plan` has to say why there is none."""
     try:
         return analyse(grasp)

@@ -23,7 +23,7 @@ SMALL = 1e-2
 """Value of a sum of squares below which the gap has to be small beside the value, not beside 1."""
 
 NOTHING = 1e-5
-"""Value of a sum of squares that is nothing: with a gap that is small beside it, forces are known to 1e-6 of the unit."""
+"""Value of a sum of squares that is nothing: with a gap that is small beside it, forces are known to 1e-6 of a unit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
