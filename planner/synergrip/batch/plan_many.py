@@ -67,7 +67,8 @@ def plan_many(
         masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
             first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
-            machine; from then on 20,000 to load it, and any number when it is loaded.
+            machine (a million grasps for what it does of their statics); from then on 20,000 to load it, and any
+            number when it is loaded.
         threads: how many chunks of 2,048 tasks are worked out at a time, on threads of their own; the answers are the
             same to the last digit. One if not told: who plans in several processes at once has no cores left.
         progress: told what is under way and which share of it is done, after every 2,048 tasks.
