@@ -50,7 +50,18 @@ ONLY_IN = {
     "llvmlite": {"batch/lanes.py"},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
-COMPILED = {f"batch/{name}.py" for name in ("lanes", "lanes_algebra", "lanes_linear", "lanes_kernel")}
+COMPILED = {
+    f"batch/{name}.py"
+    for name in (
+        "lanes",
+        "lanes_algebra",
+        "lanes_linear",
+        "lanes_kernel",
+        "lanes_dense",
+        "lanes_bases",
+        "lanes_statics",
+    )
+}
 """Files that Numba compiles: of its types from the first line on, and imported by others inside functions alone."""
 FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*.py"))
 

@@ -122,6 +122,9 @@ RIGHT: dict[str, dict[str, Any]] = {
     "plan": {"grasp": grasp, "task": task},
     "plan_many": {"grasp": [grasp], "task": sg.Task(knots=1, linearise="once"), "wrenches": [np.zeros(6)],
                   "friction_factors": [1.0], "masses": None, "kernel": None, "threads": 1},
+    "margins_many": {"grasp": [grasp], "task": sg.Task(knots=1, linearise="once"), "of": "load_factor",
+                     "wrenches": [np.zeros(6)], "friction_factors": [1.0], "masses": None, "kernel": None,
+                     "threads": 1},
     "wrench_space_quality": {"grasp": grasp, "edges": 8},
     "exact_proof": {"no": sg.plan(unheld.grasp, unheld.task)},
     "synergies_needed": {"grasp": grasp, "task": task, "by": "effort", "most": 1, "up_to": 1, "along": False},
@@ -131,7 +134,8 @@ MADE_OF_OTHERS = {"within", "norm_within", "squares_of", "below_scalar"}
 OTHERS = {
     "Hand", "Shape", "ContactKind", "Frictionless", "read_matrices", "Analysis", "GraspStack", "Analyses", "Execution",
     "Limit", *MADE_OF_OTHERS, "Goal",
-    "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "ManyPlans", "Infeasible", "Unknown",
+    "Program", "Certificate", "Hold", "TimedTask", "Problem", "Plan", "ManyPlans", "ManyMargins", "Infeasible",
+    "Unknown",
     "ExactProof", "NoExactProof",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
@@ -179,7 +183,8 @@ def test_a_misspelt_argument_and_too_many_of_them_are_refused_by_name(name: str)
 
 MADE_BY = {
     "Analysis": "analyse(", "Analyses": "analyse_many(", "Execution": "execute(", "Problem": "load_problem(",
-    "Plan": "plan(", "ManyPlans": "plan_many(", "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
+    "Plan": "plan(", "ManyPlans": "plan_many(", "ManyMargins": "margins_many(",
+    "Infeasible": "plan(", "Unknown": "plan(", "Simulation": "simulate(",
     "Explanation": "explain(", "Repair": "explain(", "When": "explain(",
     "MissingSynergies": "missing_synergies(", "SynergiesNeeded": "synergies_needed(",
     "GraspProperties": "grasp_properties(", "Margins": "margins(", "Measure": "margins(", "DirectNumber": "margins(",

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from random_cone_problems import by_clarabel, certificates, proofs, random_problems, values
 
-from synergrip.batch import fast_kernel, kernel, numpy_kernel, verifier
+from synergrip.batch import fast_kernel, fast_statics, kernel, numpy_kernel, verifier
+from synergrip.batch.compiling import Compiled
 from synergrip.batch.cone_problems import ConeProblems, Status, Tolerance
 from synergrip.batch.decided import Solver
 from synergrip.batch.scaling import Scaling
@@ -159,24 +158,25 @@ def test_arrays_that_do_not_fit_are_refused_by_name() -> None:
         ConeProblems(good.P[:, :1], good.q, good.A, good.b, good.sizes)
 
 
-def test_the_compiled_kernel_is_chosen_where_that_repays(monkeypatch: pytest.MonkeyPatch) -> None:
-    there, loaded, kept = [True], [False], [False]
+def test_what_is_compiled_is_chosen_where_that_repays(monkeypatch: pytest.MonkeyPatch) -> None:
+    there, kept = [True], [False]
     monkeypatch.setattr(kernel, "find_spec", lambda name: object() if there[0] else None)
-    monkeypatch.setattr(fast_kernel, "kept", lambda: kept[0])
-    told = SimpleNamespace(cache_info=lambda: SimpleNamespace(currsize=int(loaded[0])))
-    monkeypatch.setattr(fast_kernel, "compiled", told)
+    monkeypatch.setattr(Compiled, "kept", lambda self: kept[0])
+    for each in (fast_kernel.compiled, fast_statics.compiled):
+        monkeypatch.setattr(each, "loaded", False)
 
-    def fast(count: int, name: str | None = None) -> bool:
-        return kernel.chosen(count, name) is fast_kernel.solve
+    def fast(count: int, name: str | None = None) -> tuple[bool, bool]:
+        return kernel.chosen(count, name) is fast_kernel.solve, kernel.quick_statics(count, name) is not None
 
-    assert [fast(count) for count in (10, 20_000, 199_999, 200_000)] == [False, False, False, True]
-    assert fast(1, "numba")
+    every = [fast(count) for count in (10, 20_000, 199_999, 200_000, 1_000_000)]
+    assert every == [(False, False)] * 3 + [(True, False), (True, True)]
+    assert fast(1, "numba") == (True, True)
     kept[0] = True
-    assert [fast(count) for count in (10, 19_999, 20_000)] == [False, False, True]
-    loaded[0] = True
-    assert fast(1)
-    assert not fast(10**6, "numpy")
-    there[0] = loaded[0] = False
-    assert not fast(10**6)
+    assert [fast(count) for count in (10, 19_999, 20_000)] == [(False, False)] * 2 + [(True, True)]
+    fast_kernel.compiled.loaded = True
+    assert fast(1) == (True, False)
+    assert fast(10**6, "numpy") == (False, False)
+    there[0] = fast_kernel.compiled.loaded = False
+    assert fast(10**6) == (False, False)
     with pytest.raises(InputError, match="pip install"):
         kernel.chosen(1, "numba")

@@ -53,6 +53,19 @@ class Assembled(Value):
         problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], -self.M, b, self.sizes)
         return problems, (f**2).sum(axis=-1) / 2
 
+    def least_peak(self, margin: float) -> ConeProblems:
+        """Return: the least peak of the normal forces at a margin [N], the last unknown, in units of the load."""
+        stated, n = self.stated, self.M.shape[2]
+        force, normal = stated.formulation.force, stated.grasps[0].normal_rows
+        matrix = (force.matrix[..., normal, :] * columns(stated, self.unit)[:, None, :]) / self.unit[:, None, None]
+        below = np.concatenate([matrix, np.full((*matrix.shape[:2], 1), -1.0)], axis=2)
+        others = np.concatenate([-self.M, np.zeros((*self.M.shape[:2], 1))], axis=2)
+        b = self.constant - self.head * (margin / self.unit)[:, None]
+        b = np.concatenate([-force.constant[:, normal] / self.unit[:, None], b], axis=1)
+        q = np.eye(n + 1)[-1:]
+        sizes = (1,) * len(normal) + self.sizes
+        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, np.concatenate([below, others], axis=1), b, sizes)
+
     def _effort(self, of: Effort) -> tuple[Array, Array]:
         """Return F (N, p, n) and f (N, p) of the squares ``||F v + f||^2 / 2``, in units of the load."""
         stated, formulation = self.stated, self.stated.formulation

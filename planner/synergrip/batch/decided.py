@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,52 +55,83 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
     none = np.zeros(N, dtype=bool)
     if not stated.formulation.n_v:
         return _told(stated, none, none, np.full(N, np.nan), None)
-    asked = task.margin / programs.unit
-    widest = programs.largest_margin()
     every = isinstance(goal, LargestMargin)
-    found = solver(widest, OF_MARGIN, np.full(N, -np.inf) if every else -asked - ENOUGH)
-    bounds = np.hstack([programs.bounds, np.full((N, 1), np.inf)])
-    optimal = verifier.judge_optimal(widest, found.x, found.z, bounds)
-    optimal.verified[found.status == Status.ENOUGH] = False
-    reached = found.x[:, -1]
-    close = optimal.verified & (reached >= asked - AT_LEAST)
-    # where limits clash without any friction, the multipliers grow into a proof of that by themselves
-    infeasible = ~close & (found.status != Status.ENOUGH) & _proven(programs, widest, found.z, asked)
-    largest = np.where(optimal.verified, reached * programs.unit, np.nan)
-    largest = np.where(np.abs(reached) > AT_LEAST, largest, 0.0 * largest)
+    x, largest, infeasible = _widest(programs, solver, every=every)
     if every:
-        kept = np.maximum(task.margin, largest)
-        plans = judged(programs, found.x[:, :-1], kept, wrench)
-        return _told(stated, close & plans.holds, infeasible, largest, plans)
-    x, right = _least_effort(programs, goal, np.flatnonzero(~infeasible), solver)
-    plans = judged(programs, x, np.full(N, task.margin), wrench)
-    return _told(stated, right & plans.holds, infeasible, np.where(infeasible, largest, np.nan), plans)
+        right, kept = largest >= task.margin - AT_LEAST * programs.unit, np.fmax(task.margin, largest)
+    else:
+        x, right = _best(programs, goal, np.flatnonzero(~infeasible), solver)
+        kept, largest = np.full(N, task.margin), np.where(infeasible, largest, np.nan)
+    plans = judged(programs, x, kept, wrench)
+    return _told(stated, right & plans.holds, infeasible, largest, plans)
 
 
-def _proven(programs: Assembled, widest: ConeProblems, z: Array, asked: Array) -> NDArray[np.bool_]:
-    """Return (N,) whether the multipliers of the largest margin prove that the one asked for is out of reach."""
-    b = programs.constant - programs.head * asked[:, None]
-    at_margin = ConeProblems(widest.P[:, :-1, :-1], widest.q[:, :-1], -programs.M, b, programs.sizes)
-    return verifier.judge_infeasible(at_margin, z, programs.bounds).verified
+def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Return unknowns (N, n) of the largest margin, the margins (N,) [N] that verify, and what is proven infeasible.
+
+    A margin is nan that does not verify, or, but for `every`, that is known to be more than what is asked for.
+    """
+    margin, N = programs.stated.task.margin, programs.stated.count
+    asked, widest = margin / programs.unit, programs.largest_margin()
+    found = solver(widest, OF_MARGIN, np.full(N, -np.inf) if every else -asked - ENOUGH)
+    largest, infeasible = np.full(N, np.nan), np.zeros(N, dtype=bool)
+    left = np.flatnonzero(found.status != Status.ENOUGH)
+    if not len(left):
+        return found.x[:, :-1], largest, infeasible
+    own, x, z = widest if len(left) == N else widest.taken(left), found.x[left], found.z[left]
+    bounds = np.hstack([programs.bounds[left], np.full((len(left), 1), np.inf)])
+    right = verifier.judge_optimal(own, x, z, bounds).verified
+    reached = x[:, -1]
+    largest[left] = np.where(right, np.where(np.abs(reached) > AT_LEAST, reached, 0.0) * programs.unit[left], np.nan)
+    # where limits clash without any friction, the multipliers grow into a proof of that by themselves
+    far = ~(right & (reached >= asked[left] - AT_LEAST))
+    if far.any():
+        infeasible[left[far]] = _proven(programs, left[far], z[far])
+    return found.x[:, :-1], largest, infeasible
 
 
-def _least_effort(programs: Assembled, goal: Goal, possible: Any, solver: Solver) -> tuple[Array, NDArray[np.bool_]]:
+def _proven(programs: Assembled, places: NDArray[np.intp], z: Array) -> NDArray[np.bool_]:
+    """Return whether the multipliers of the largest margin prove that the one asked for is out of reach."""
+    n, margin = programs.M.shape[-1], programs.stated.task.margin
+    b = programs.constant[places] - programs.head[places] * (margin / programs.unit[places])[:, None]
+    at_margin = ConeProblems(np.zeros((1, n, n)), np.zeros((1, n)), -programs.M[places], b, programs.sizes)
+    return verifier.judge_infeasible(at_margin, z, programs.bounds[places]).verified
+
+
+def _best(
+    programs: Assembled, goal: Goal, possible: NDArray[np.intp], solver: Solver
+) -> tuple[Array, NDArray[np.bool_]]:
     """Return the best unknowns (N, n) of the tasks that are possible, and which of them verify."""
-    assert isinstance(goal, LeastEffort)
     N, n = programs.M.shape[0], programs.M.shape[2]
     x, right = np.full((N, n), np.nan), np.zeros(N, dtype=bool)
     if not len(possible):
         return x, right
-    problems, constant = programs.least_effort(goal.of, programs.stated.task.margin)
-    for tolerance in OF_EFFORT:
-        theirs, own = problems.taken(possible), constant[possible]
+    problems, constant, bounds, tolerances = _stated_goal(programs, goal)
+    for tolerance in tolerances:
+        every = len(possible) == N
+        theirs, own = problems if every else problems.taken(possible), None if constant is None else constant[possible]
         found = solver(theirs, tolerance, np.full(len(possible), -np.inf))
-        x[possible] = found.x
-        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, programs.bounds[possible], own).verified
+        x[possible] = found.x[:, :n]
+        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, bounds[possible], own).verified
         possible = possible[~right[possible]]
         if not len(possible):
-            break
+            return x, right
+    nothing = np.zeros((len(possible), 1))  # without a load, to do nothing may be the best
+    theirs, own = problems.taken(possible), None if constant is None else constant[possible]
+    x_0, z_0 = nothing + np.zeros(problems.q.shape[-1]), nothing + np.zeros(problems.b.shape[1])
+    still = verifier.judge_optimal(theirs, x_0, z_0, bounds[possible], own).verified
+    x[possible[still]], right[possible[still]] = 0.0, True
     return x, right
+
+
+def _stated_goal(programs: Assembled, goal: Goal) -> tuple[ConeProblems, Array | None, Array, Sequence[Tolerance]]:
+    """Return the programs of a goal at the margin asked for, constants, bounds, and to what they are solved in turn."""
+    margin = programs.stated.task.margin
+    if isinstance(goal, LeastEffort):
+        problems, constant = programs.least_effort(goal.of, margin)
+        return problems, constant, programs.bounds, OF_EFFORT
+    free = np.full((len(programs.bounds), 1), np.inf)
+    return programs.least_peak(margin), None, np.hstack([programs.bounds, free]), (OF_MARGIN,)
 
 
 def _told(

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import time
-from functools import cache
 from itertools import accumulate
-from pathlib import Path
 from typing import Any, NamedTuple
-from zlib import crc32
 
 import numpy as np
 
+from synergrip.batch.compiling import Compiled
 from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Tolerance
 from synergrip.linalg import Array
-from synergrip.log import LOG
 
 SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_linear.py", "lanes_kernel.py", "numpy_kernel.py")
-"""What the compiled kernel is made of: when it changes, the one that is kept on the disk is none of it."""
+"""What the compiled kernel is made of."""
 
 
 class Layout(NamedTuple):
@@ -93,33 +89,15 @@ def _in_lanes(problems: ConeProblems, enough: Array) -> Array:
     return given
 
 
-@cache
-def _function() -> Any:
+def _made(stamp: int) -> Any:
     from synergrip.batch.lanes_kernel import made
 
-    folder = Path(__file__).parent
-    return made(crc32(b"".join((folder / name).read_bytes() for name in SOURCES)))
+    return made(stamp)
 
 
-def kept() -> bool:
-    """Return whether a compiled kernel is kept on the disk."""
-    folder = _function().stats.cache_path
-    return bool(folder) and any(Path(folder).glob("lanes_kernel.made.*.nbi"))
-
-
-@cache
-def compiled() -> Any:
-    """Return the compiled kernel: from the disk, or compiled once, which is told."""
-    function, start = _function(), time.perf_counter()
-    LOG.info("loading the compiled kernel; the first time on a machine it is compiled, which takes about half a minute")
-    _ready(function)
-    hits = sum(function.stats.cache_hits.values())
-    if not hits and not function.stats.cache_path:
-        LOG.warning("the compiled kernel cannot be kept: no folder for it can be written; it is compiled in every run")
-    LOG.info("the kernel was %s in %.1f s", "loaded" if hits else "compiled", time.perf_counter() - start)
-    return function
-
-
-def _ready(function: Any) -> None:
-    """Have a function compiled: it solves no problem at all."""
+def _prepare(function: Any) -> None:
+    """Solve no problem at all."""
     function(np.zeros((0, 1, 1)), Layout.of(1, 1, 1), np.ones((1, 2), dtype=np.int64), *Tolerance())
+
+
+compiled = Compiled("kernel", SOURCES, _made, _prepare)

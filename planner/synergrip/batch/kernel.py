@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.util import find_spec
 
-from synergrip.batch import fast_kernel, numpy_kernel
+from synergrip.batch import fast_kernel, fast_statics, numpy_kernel
+from synergrip.batch.compiling import Compiled
 from synergrip.batch.decided import Solver
 from synergrip.documents.judging import is_word
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.stack import GraspStack
 
 LOADED = 20_000
 """Problems for which it repays to load the compiled kernel (two seconds), where it is kept on the disk."""
 COMPILED = 200_000
 """Problems for which it repays to compile it, once on a machine (half a minute)."""
+STATICS_COMPILED = 1_000_000
+"""Grasps for which it repays to compile their statics, too (a minute)."""
+QuickStatics = Callable[[GraspStack], fast_statics.Clear | None]
 KERNELS = ("numpy", "numba")
 
 
@@ -27,12 +33,19 @@ def chosen(count: int, kernel: str | None = None) -> Solver:
     there = find_spec("numba") is not None
     if kernel == "numba" and not there:
         raise InputError.at("kernel", "'numba' needs Numba: pip install 'synergrip[fast]'")
-    if kernel == "numba" or (kernel is None and there and _repays(count)):
+    if kernel == "numba" or (kernel is None and there and _repays(fast_kernel.compiled, count, COMPILED)):
         return fast_kernel.solve
     return numpy_kernel.solve
 
 
-def _repays(count: int) -> bool:
-    """Return whether so many problems are worth the time until the compiled kernel is there."""
-    loaded = fast_kernel.compiled.cache_info().currsize > 0
-    return loaded or count >= COMPILED or (count >= LOADED and fast_kernel.kept())
+def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
+    """Return what works out the statics of many grasps by compiled lanes; None where that does not repay."""
+    there = find_spec("numba") is not None
+    if kernel == "numba" or (kernel is None and there and _repays(fast_statics.compiled, count, STATICS_COMPILED)):
+        return fast_statics.ClearStatics()
+    return None
+
+
+def _repays(what: Compiled, count: int, compiled: int) -> bool:
+    """Return whether so many problems are worth the time until something compiled is there."""
+    return what.loaded or count >= compiled or (count >= LOADED and what.kept())

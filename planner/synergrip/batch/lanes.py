@@ -112,6 +112,17 @@ def any_above_zero(typing: Any, value: Any) -> Any:
     return types.boolean(lanes), made
 
 
+@intrinsic  # type: ignore[untyped-decorator]
+def kept_apart(typing: Any) -> Any:
+    """Have the function it is called in compiled once, and called: copied to where it is used it takes far longer."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return types.void(), made
+
+
 def _binary(name: str) -> Any:
     @intrinsic  # type: ignore[untyped-decorator]
     def made(typing: Any, a: Any, b: Any) -> Any:

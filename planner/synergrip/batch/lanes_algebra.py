@@ -13,12 +13,16 @@ import numpy as np
 from synergrip.batch.lanes import all_of, load, root, store, where_less
 
 
-def compiled(function: Any) -> Any:
-    """Return a function as Numba compiles it: kept on the disk, where there is a folder for that."""
+def compiled(function: Any, *, inner: bool = True) -> Any:
+    """Return a function as Numba compiles it: kept on the disk, where there is a folder for that.
+
+    An inner one is called by others that are compiled, and by nobody else.
+    """
+    options = {"error_model": "numpy", "nogil": True, "no_cpython_wrapper": inner, "no_cfunc_wrapper": True}
     try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+        return numba.njit(cache=True, **options)(function)
     except RuntimeError:  # no folder can be written
-        return numba.njit(error_model="numpy", nogil=True)(function)
+        return numba.njit(**options)(function)
 
 
 @compiled

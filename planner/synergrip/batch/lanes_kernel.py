@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.batch.lanes import LANES, all_of, any_above_zero, load, store, where_less
+from synergrip.batch.lanes import LANES, all_of, any_above_zero, load, root, store, where_less
 from synergrip.batch.lanes_algebra import (
     add_scaled,
     carried_on,
@@ -75,7 +75,22 @@ def _begin(w: Any, at: Any, cones: Any) -> None:
 
 
 @compiled
-def _judged(w: Any, at: Any, residual: float, most_gap: float) -> Any:
+def _inside(w: Any, at: Any, cones: Any) -> Any:
+    """Return how far ``b - A x`` is inside all cones: the least of head less length of the tail."""
+    least = all_of(np.inf)
+    for c in range(len(cones)):
+        first, size = cones[c, 0], cones[c, 1]
+        squares = all_of(0.0)
+        for i in range(first + 1, first + size):
+            part = load(w, at.s + i) - load(w, at.rs + i)
+            squares = squares + part * part
+        inside = load(w, at.s + first) - load(w, at.rs + first) - root(squares)
+        least = where_less(inside, least, inside, least)
+    return least
+
+
+@compiled
+def _judged(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Any:
     """Return what is found in every lane, and the gap."""
     zero, one = all_of(0.0), all_of(1.0)
     of_x, of_s, size, value = _residuals(w, at)
@@ -85,7 +100,8 @@ def _judged(w: Any, at: Any, residual: float, most_gap: float) -> Any:
     kept = where_less(of_s, all_of(residual), one, zero)
     right = where_less(of_x, all_of(residual) * size, kept, zero)
     right = where_less(gap, all_of(most_gap) * larger(one, magnitude(value)), right, zero)
-    good = where_less(load(w, at.enough), value, zero, kept)
+    good = where_less(zero, _inside(w, at, cones), one, zero)
+    good = where_less(load(w, at.enough), value, zero, good)
     found = where_less(zero, right, all_of(SOLVED), where_less(zero, good, all_of(ENOUGH), all_of(NOTHING)))
     return found, gap
 
@@ -150,7 +166,7 @@ def _eight(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Non
     active, status, count = one, all_of(NOTHING), zero
     _begin(w, at, cones)
     for iteration in range(MOST + 1):
-        found, gap = _judged(w, at, residual, most_gap)
+        found, gap = _judged(w, at, cones, residual, most_gap)
         status = where_less(zero, active, found, status)
         active = where_less(found, all_of(NOTHING), zero, active)
         if iteration == MOST or not any_above_zero(active):
@@ -172,7 +188,6 @@ def made(stamp: int) -> Any:
     what comes after the problems in each workspace: x, s, z, status, iterations.
     """
 
-    @compiled
     def solved(given: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Any:
         entries, answers = at.x, at.v - at.x
         found = np.empty((given.shape[0], answers, LANES))
@@ -187,4 +202,4 @@ def made(stamp: int) -> Any:
                     found[group, k, lane] = w[(entries + k) * LANES + lane]
         return found
 
-    return solved
+    return compiled(solved, inner=False)

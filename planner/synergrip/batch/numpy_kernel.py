@@ -134,8 +134,9 @@ def _residuals(state: _State, tolerance: Tolerance) -> _Residuals:
     size = np.maximum(1.0, np.abs(of_P).max(axis=-1))
     kept = np.abs(of_s).max(axis=-1, initial=0.0) <= tolerance.residual
     stationary = np.abs(of_x).max(axis=-1) <= tolerance.residual * size
+    inside = state.W.least(s - of_s) > 0  # of b - A x: long before s is that to the last digits
     solved = kept & stationary & (gap <= tolerance.gap * np.maximum(1.0, np.abs(value)))
-    done = np.where(solved, Status.SOLVED, np.where(kept & (value <= state.enough), Status.ENOUGH, Status.NOTHING))
+    done = np.where(solved, Status.SOLVED, np.where(inside & (value <= state.enough), Status.ENOUGH, Status.NOTHING))
     return _Residuals(of_x, of_s, gap, done.astype(np.int8))
 
 

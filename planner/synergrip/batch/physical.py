@@ -61,7 +61,7 @@ def judged(assembled: Assembled, v: Array, margin: Array, wrench: Array) -> Phys
 def _balanced(stated: Stated, forces: Array, wrench: Array) -> NDArray[np.bool_]:
     """Return (N,) whether ``G lambda + w`` is 0 beside the forces."""
     left = times(stated.formulation.map_of(lambda at: at.response.grasp.G), forces) + wrench
-    scaled = np.linalg.solve(stated.metric.motion.mT, left[:, :, None])[:, :, 0]
+    scaled = stated.metric.scaled_wrenches(left)
     size = np.abs(forces * stated.metric.force).max(axis=1)
     return np.asarray(np.abs(scaled).max(axis=1) <= EXACT * np.maximum(size, 1e-12))
 

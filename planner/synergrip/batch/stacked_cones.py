@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,11 +40,11 @@ class Cones(Value):
 
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
-    first = grasps[0]
+    first, every_contact = grasps[0], [grasp.contacts for grasp in grasps]
     every = [
         (contact, W.shape[-2], W)
         for contact in range(first.n_c)
-        for W in _cones([grasp.contacts[contact].kind for grasp in grasps], friction)
+        for W in _cones([contacts[contact].kind for contacts in every_contact], friction)
     ]
     leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
     found = []
@@ -58,7 +59,7 @@ def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cone
 
 def _cones(kinds: Sequence[ContactKind], friction: Array | None) -> tuple[Array, ...]:
     """Return the cones (..., d, rows) of one contact in all grasps; each class of contacts makes its own at once."""
-    classes: list[type[ContactKind]] = list(dict.fromkeys(type(kind) for kind in kinds))
+    classes: list[type[ContactKind]] = list(dict.fromkeys(map(type, kinds)))
     if len(classes) == 1:
         return classes[0].cones_with(_values(kinds, friction))
     which = np.array([classes.index(type(kind)) for kind in kinds])
@@ -77,7 +78,7 @@ def _cones(kinds: Sequence[ContactKind], friction: Array | None) -> tuple[Array,
 def _values(kinds: Sequence[ContactKind], friction: Array | None) -> dict[str, Array]:
     """Return the parameters () or (N,) of contacts of one class, those of friction multiplied by factors."""
     first = kinds[0]
-    values = {name: np.array([getattr(kind, name) for kind in kinds]) for name in first.named()}
+    values = {name: np.fromiter(map(attrgetter(name), kinds), float, len(kinds)) for name in first.named()}
     if len(kinds) == 1:
         values = {name: value[0] for name, value in values.items()}
     for name in first.frictions if friction is not None else ():

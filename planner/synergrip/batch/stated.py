@@ -22,7 +22,6 @@ from synergrip.linalg import Array, frozen
 from synergrip.statics.analyses import AnalysisGroup
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each, EachGrasp, EachResponse
-from synergrip.statics.motion import forces_at_start
 from synergrip.statics.subspaces import Bases
 from synergrip.tasks.scaling import smallest_cap
 from synergrip.tasks.timed_task import TimedTask
@@ -78,11 +77,20 @@ def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Arra
 
 
 def stated_each(
-    group: AnalysisGroup, grasps: tuple[Grasp, ...], task: TimedTask, wrench: Array, friction: Array | None
+    like: Analysis, each: Each, grasps: tuple[Grasp, ...], task: TimedTask, wrench: Array, friction: Array | None
 ) -> Stated:
-    """Return the tasks with loads (N, 6) and friction factors (N,) on the N grasps of a group, each on its own."""
-    found = replace(_formulated(group.at(0), task, wrench), each=_each(group, grasps))
-    return Stated(task, _held_at_start(found, wrench), friction, grasps, group.response.grasps.metric)
+    """Return the tasks with loads (N, 6) and friction factors (N,) on N grasps, each on its own.
+
+    Args:
+        like: of a grasp whose subspaces have the dimensions of all.
+        each: the statics of the N.
+        grasps: the N; or one, from which they differ in numbers alone.
+        task: what the tasks have in common.
+        wrench: (N, 6) [N, N m].
+        friction: (N,) factors; None for friction as it is.
+    """
+    found = replace(_formulated(like, task, wrench), each=_begun(each, grasps))
+    return Stated(task, _held_at_start(found, wrench), friction, grasps, each.metric)
 
 
 def _formulated(analysis: Analysis, task: TimedTask, wrench: Array) -> Formulation:
@@ -111,19 +119,28 @@ def _held_at_start(formulation: Formulation, wrench: Array) -> Formulation:
     return replace(without, response=at_start, wrench=frozen(np.zeros((N, 6))))
 
 
-def _each(group: AnalysisGroup, grasps: tuple[Grasp, ...]) -> Each:
-    """Return the statics of a group as those at the knots of a motion; what hands hold at the start is told apart."""
+def each_of(group: AnalysisGroup) -> Each:
+    """Return the statics of a group as those at the knots of a motion."""
     matrices, w_0 = group.response.grasps.matrices, group.response.grasps.w_0
-    if grasps[0].held is not None:
-        w_0 = np.broadcast_to(grasps[0].w_0, w_0.shape)
-        begun = np.zeros((len(w_0), matrices.G.shape[-1]))
-    elif all(grasp.lambda_0 is None for grasp in grasps):
-        begun = times(group.response.dlambda_dw, w_0)
-    else:
-        begun = np.array([forces_at_start(group.response.at(k)) for k in range(len(grasps))])
-    grasp = EachGrasp(matrices.G, matrices.J, matrices.S, frozen(begun), frozen(w_0))
+    nothing = np.zeros((len(w_0), matrices.G.shape[-1]))
+    grasp = EachGrasp(matrices.G, matrices.J, matrices.S, frozen(nothing), frozen(w_0))
     bases = Bases(**{each.name: getattr(group.spaces, each.name) for each in fields(Bases)})
     return Each(EachResponse.of(group.response, grasp), bases, group.coordinates, group.response.grasps.metric)
+
+
+def _begun(each: Each, grasps: tuple[Grasp, ...]) -> Each:
+    """Return statics with what the contacts carry at the start; what hands hold then is told apart."""
+    w_0 = each.grasp.w_0
+    if grasps[0].held is not None:
+        w_0, forces = np.broadcast_to(grasps[0].w_0, w_0.shape), np.zeros((len(each), grasps[0].n_l))
+    else:
+        forces = times(each.response.dlambda_dw, w_0)
+        given = [grasp.lambda_0 for grasp in grasps] if len(grasps) > 1 else [grasps[0].lambda_0] * len(each)
+        for place, known in enumerate(given):
+            if known is not None:
+                forces[place] = known
+    grasp = replace(each.grasp, lambda_0=frozen(forces), w_0=frozen(w_0))
+    return replace(each, response=replace(each.response, grasp=grasp))
 
 
 def lengths(metric: Metric) -> Array:

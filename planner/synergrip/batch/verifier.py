@@ -22,6 +22,9 @@ from synergrip.values import Value
 SMALL = 1e-2
 """Value of a sum of squares below which the gap has to be small beside the value, not beside 1."""
 
+NOTHING = 1e-5
+"""Value of a sum of squares that is nothing: with a gap that is small beside it, forces are known to 1e-6 of a unit."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Verified(Value):
@@ -57,7 +60,11 @@ def judge_optimal(problems: ConeProblems, x: Array, z: Array, bounds: Array, con
     beside = np.maximum(1.0, np.maximum(np.abs(value), np.abs(bound)))
     if constant is not None:
         whole = value + constant
-        beside = np.where(whole < SMALL, whole, np.maximum(beside, np.maximum(np.abs(whole), np.abs(bound + constant))))
+        beside = np.where(
+            whole < SMALL,
+            np.maximum(whole, NOTHING),
+            np.maximum(beside, np.maximum(np.abs(whole), np.abs(bound + constant))),
+        )
     gap = (np.abs(value - bound) + missing) / beside
     verified = (primal <= PRIMAL_TOLERANCE) & (dual <= DUAL_TOLERANCE) & (gap <= GAP_TOLERANCE)
     return Verified(verified, np.maximum(primal, 0.0), dual, gap)

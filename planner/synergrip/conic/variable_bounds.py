@@ -9,18 +9,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.conic.affine import Affine
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
 from synergrip.conic.limits.limit import Limit
-from synergrip.linalg import CLEAR, Array, gram, null_spaces
+from synergrip.linalg import Array, gram, null_spaces
 
 LARGEST = 1e6
 """In normalised units. The bound where no limit gives one, and part of the program's meaning."""
 
 FARTHEST = 1e12
 """A limit that is farther away than this is none, but the rounding of what it looks at."""
+
+FAR_FROM_DEPENDENT = 1e5
+"""Ratio of the eigenvalues of the squares of a matrix up to which its columns are."""
 
 
 def variable_bounds(formulation: Formulation, limits: Sequence[Limit]) -> Array:
@@ -46,22 +50,35 @@ def _implied(value: Affine, limit: Array) -> Array:
     """
     rows = np.isfinite(limit)
     room = limit[rows] + np.abs(value.constant[:, rows]).max(axis=0, initial=0.0)
-    matrices = value.matrix[..., rows, :]
+    matrices = value.matrix[..., rows, :] if not rows.all() else value.matrix
     if not matrices.size:
         return np.full(value.matrix.shape[-1], np.inf)
-    if matrices.ndim > 2 and (inverses := _clear_inverses(matrices)) is not None:
-        return np.asarray(np.abs(inverses) @ room)
+    if matrices.ndim == 2:
+        return _by_singular_values(matrices, room)
+    inverses, clear = _by_squares(matrices)
+    result = np.abs(inverses) @ room
+    if not clear.all():
+        result[~clear] = _by_singular_values(matrices[~clear], room)
+    return np.asarray(result)
+
+
+def _by_singular_values(matrices: Array, room: Array) -> Array:
     normed = matrices / np.where(room > 0, room, 1.0)[:, None]
     fixed = np.linalg.norm(null_spaces(normed), axis=-1) < 1e-9  # entries that the matrix determines
     return np.where(fixed, np.abs(np.linalg.pinv(matrices, rcond=1e-9)) @ room, np.inf)
 
 
-def _clear_inverses(matrices: Array) -> Array | None:
-    """Return the pseudo-inverses (T, n, m) of matrices (T, m, n) with columns far from dependent, by their squares.
+def _by_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the pseudo-inverses (T, n, m) of matrices (T, m, n) by their squares, and where these do.
 
-    Of one for each knot that is several times as fast as singular values; None where columns are not that far.
+    That is where columns are far from dependent; of one matrix for each knot it is several times as fast as singular
+    values. The ratio of the eigenvalues is at most the product of the sizes of the squares and of their inverse.
     """
-    values, vectors = np.linalg.eigh(gram(matrices))
-    if not np.all(values[:, :1] > CLEAR**2 * values[:, -1:]):
-        return None
-    return np.asarray((vectors / values[:, None]) @ vectors.mT @ matrices.mT)
+    squares = gram(matrices)
+    try:
+        inverses = np.linalg.inv(squares)
+    except np.linalg.LinAlgError:  # of one of them or more
+        return np.zeros(matrices.mT.shape), np.zeros(len(matrices), dtype=bool)
+    with np.errstate(over="ignore"):
+        ratio = np.linalg.norm(squares, axis=(-2, -1)) * np.linalg.norm(inverses, axis=(-2, -1))
+    return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT)

@@ -39,6 +39,11 @@ class Metric(Value):
         """(..., 6): 1 for velocities, the length [m] for rotations."""
         return np.asarray(np.diagonal(self.motion, axis1=-2, axis2=-1))
 
+    def scaled_wrenches(self, w: Array) -> Array:
+        """Return wrenches (..., 6), one for each grasp, in scaled coordinates [N]: ``motion^-T w``."""
+        about = w[..., 3:] - (self.motion[..., :3, 3:].mT @ w[..., :3, None])[..., 0]
+        return np.concatenate([w[..., :3], about / self.motion[..., 3:4, 3]], axis=-1)
+
     def taken(self, places: Any) -> Metric:
         """Return the coordinates of some grasps of a stack."""
         return Metric(self.motion[places], self.force[places])

@@ -62,7 +62,7 @@ def _between_the_digits(values: Array) -> Doubled:
     return Doubled(values, np.where(values == 0, 0.0, rest))
 
 
-def _apart(values: Array) -> Array:
+def other_numbers(values: Array) -> Array:
     """Return other numbers that are as much farther away as float64 needs to tell them."""
     return values * (1 + APART * 2.0**-53 * _half_units(values.shape[-2:]))
 
@@ -93,7 +93,7 @@ def _one_size(C: Array, G: Array) -> Array:
     return np.asarray(size * size.mT)
 
 
-FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse, _apart, APART)
+FLOAT64: Arithmetic[Array] = Arithmetic(np.asarray, np.asarray, _block, _inverse, other_numbers, APART)
 STACKED: Arithmetic[Array] = replace(FLOAT64, inverse=inverse_by_factors)
 """Float64 for a stack of grasps, many times as fast; where compliances differ much its inverse keeps fewer digits."""
 DOUBLED: Arithmetic[Doubled] = Arithmetic(Doubled.of, _high, block, _inverse_of_doubled, _between_the_digits, 1.0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -142,7 +143,7 @@ class ContactKind(Finished, Kept, ABC):
         """Coefficient of friction in the direction that has the least; 0 without friction."""
         return min((getattr(self, name) for name in ("friction", "cross_friction") if hasattr(self, name)), default=0.0)
 
-    @property
+    @cached_property
     def most(self) -> Array:
         """(rows,) largest size of each component for each newton of normal force, as the cones have it."""
         head = np.concatenate([np.full(len(W) - 1, W[0, 0]) for W in self.cones])

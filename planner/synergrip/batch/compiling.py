@@ -1,0 +1,57 @@
+"""Functions that Numba compiles once on a machine, keeps on the disk, and loads from then on; told when they do."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+from synergrip.log import LOG
+
+
+@dataclass
+class Compiled:
+    """A function that is compiled, or loaded, when it is first asked for."""
+
+    name: str
+    """In what is told."""
+    sources: Sequence[str]
+    """Files it is made of: when one changes, what is kept on the disk is none of it."""
+    make: Callable[[int], Any]
+    """Returns the function for a stamp of its sources, not yet compiled."""
+    prepare: Callable[[Any], None]
+    """Calls it with nothing to do, so that it is compiled or loaded."""
+    loaded: bool = False
+    _function: Any = field(default=None, repr=False)
+
+    def __call__(self) -> Any:
+        """Return the compiled function."""
+        if not self.loaded:
+            self._load()
+        return self._function
+
+    def kept(self) -> bool:
+        """Return whether its compiled form is kept on the disk."""
+        function = self._made()
+        folder = function.stats.cache_path
+        return bool(folder) and any(Path(folder).glob(f"{function.__module__.rpartition('.')[2]}.made.*.nbi"))
+
+    def _made(self) -> Any:
+        if self._function is None:
+            folder = Path(__file__).parent
+            self._function = self.make(crc32(b"".join((folder / name).read_bytes() for name in self.sources)))
+        return self._function
+
+    def _load(self) -> None:
+        function, start = self._made(), time.perf_counter()
+        LOG.info("loading the compiled %s; the first time on a machine it is compiled: about half a minute", self.name)
+        self.prepare(function)
+        hits = sum(function.stats.cache_hits.values())
+        if not hits and not function.stats.cache_path:
+            LOG.warning("the compiled %s cannot be kept: no folder for it can be written; it is compiled in every run",
+                        self.name)  # fmt: skip
+        LOG.info("the %s was %s in %.1f s", self.name, "loaded" if hits else "compiled", time.perf_counter() - start)
+        self.loaded = True

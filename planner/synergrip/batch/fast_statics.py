@@ -1,0 +1,179 @@
+"""The statics of many grasps by the compiled lanes: of those where all is clear, and confirmed by the equations."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import accumulate
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.batch.compiling import Compiled
+from synergrip.batch.confirmed import confirmed
+from synergrip.grasps.stack import GraspStack
+from synergrip.linalg import Array
+from synergrip.statics.analyses import analyses_for_plans
+from synergrip.statics.analysis import Analysis
+from synergrip.statics.each import Each, EachGrasp, EachResponse
+from synergrip.statics.saddle import other_numbers
+from synergrip.statics.subspaces import Bases
+from synergrip.statics.theorem1 import Coordinates
+
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_statics.py", "numpy_kernel.py")
+"""What the compiled statics are made of."""
+
+
+class Layout(NamedTuple):
+    """Where things are in the workspace of eight grasps, and how many: given, on the way, wanted."""
+
+    l: int  # noqa: E741 - force components, the usual letter
+    q: int
+    z: int
+    k: int
+    """Columns of the maps: references and wrench."""
+    n: int
+    """Rows of the maps."""
+    r: int
+    """Dimension of E_s."""
+    d: int
+    """Dimension of Gamma_ucs."""
+    G: int
+    J: int
+    S: int
+    C_s: int
+    C_q: int
+    C_z: int
+    motion: int
+    force: int
+    turned: int
+    JS: int
+    K: int
+    L: int
+    Y: int
+    R: int
+    wide: int
+    other: int
+    rest: int
+    held: int
+    heads: int
+    along: int
+    inner: int
+    inner_heads: int
+    size: int
+    lost: int
+    clear: int
+    maps: int
+    E_s: int
+    Gamma_ucs: int
+    Gamma_zcs: int
+    M: int
+    inverse: int
+    end: int
+
+    @classmethod
+    def of(cls, l: int, q: int, z: int) -> Layout | None:  # noqa: E741
+        """Return the layout for so many force components, joints and synergies; None where dimensions say no.
+
+        That is where no internal force is possible, or more than the six rigid motions would cost none.
+        """
+        r = min(l - 6, z)
+        d, k, n = z - r, z + 6, l + 6 + 2 * q + 2 * z
+        if r < 1 or d > 6:
+            return None
+        given = (6 * l, l * q, q * z, l * l, q * q, z * z, 36, l)
+        most = max(l, z, 6)
+        on_the_way = (6 * l, l * z, q * q, l * l, 6 * l, 36, most * max(q, z, 6), n * k, (l + 6) * k, 6 * l, 12, l * z,
+                      most * most, 2 * most)  # fmt: skip
+        wanted = (12, 12, 1, n * k, l * r, 6 * d, z * d, z * z, z * z)
+        return cls(l, q, z, k, n, r, d, *accumulate((0, *given, *on_the_way, *wanted)))
+
+
+class Clear(NamedTuple):
+    """What is clear of the statics of N grasps."""
+
+    places: NDArray[np.intp]
+    """Where among the N these grasps are."""
+    grasps: GraspStack
+    each: Each
+    """Their statics, by the names of the maps and bases."""
+    like: Analysis
+    """That of one such grasp, by NumPy: its subspaces have the same dimensions."""
+
+
+def _made(stamp: int) -> Any:
+    from synergrip.batch.lanes_statics import made
+
+    return made(stamp)
+
+
+def _prepare(function: Any) -> None:
+    """Work out the statics of no grasp at all."""
+    function((_given(np.zeros((1, 1))),) * 8, Layout.of(7, 1, 1), np.zeros(1), 0, (0, 1))
+
+
+compiled = Compiled("statics", SOURCES, _made, _prepare)
+
+
+class ClearStatics:
+    """The statics of the chunks of one stack."""
+
+    def __init__(self) -> None:
+        """Make it, of grasps that nothing is known of."""
+        self._like: dict[Layout, Analysis] = {}
+
+    def __call__(self, stack: GraspStack) -> Clear | None:
+        """Return what is clear of the statics of many grasps, and confirmed; None where nothing is."""
+        matrices = stack.matrices
+        layout = Layout.of(matrices.G.shape[-1], *matrices.S.shape[-2:])
+        if layout is None:
+            return None
+        arrays = tuple(_given(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
+        found = compiled()(arrays, layout, _others(layout), len(stack), (layout.clear, layout.end))
+        each = _each(found, layout, stack)
+        clear = (found[:, 0] > 0) & confirmed(stack, each)
+        places = np.flatnonzero(clear)
+        if not len(places):
+            return None
+        if not clear.all():
+            stack = stack.taken(places)
+            each = _each(found[places], layout, stack)
+        like = self._like.get(layout) or self._like.setdefault(layout, analyses_for_plans(stack.taken([0]))[0].at(0))
+        return Clear(places, stack, each, like) if like.spaces.dimensions == (layout.r, layout.d, 0) else None
+
+
+def _given(values: Array) -> Array:
+    """Return (N or 1, entries) numbers one after the other, read-only, as one form of the compiled function takes."""
+    whole = values[:1] if values.strides[0] == 0 or len(values) == 1 else values
+    flat = np.ascontiguousarray(whole).reshape(len(whole), -1).view()
+    flat.setflags(write=False)
+    return flat
+
+
+@cache
+def _others(layout: Layout) -> Array:
+    l, q, z = layout.l, layout.q, layout.z  # noqa: E741
+    return np.concatenate([
+        other_numbers(np.ones(shape)).ravel() for shape in ((6, l), (l, q), (q, z), (l, l), (q, q), (z, z))
+    ])  # fmt: skip
+
+
+def _each(found: Array, at: Layout, stack: GraspStack) -> Each:
+    """Return the numbers that were found by their names."""
+    N, start = len(found), at.clear
+
+    def part(first: int, rows: int, columns: int) -> Array:
+        return found[:, first - start : first - start + rows * columns].reshape(N, rows, columns)
+
+    maps = part(at.maps, at.n, at.k)
+    ends = np.cumsum([at.l, 6, at.q, at.z, at.z, at.q]).tolist()
+    rows = [maps[:, first:end] for first, end in zip([0, *ends], ends, strict=False)]
+    names = ("dlambda", "du", "dtau", "dsigma", "dz", "dq")
+    both = {f"{name}_dzr": rows[i][..., : at.z] for i, name in enumerate(names)}
+    both |= {f"{name}_dw": rows[i][..., at.z :] for i, name in enumerate(names) if name not in ("dtau", "dsigma")}
+    grasp = EachGrasp(stack.matrices.G, stack.matrices.J, stack.matrices.S, np.zeros((N, at.l)), stack.w_0)
+    bases = Bases(
+        part(at.E_s, at.l, at.r), part(at.Gamma_ucs, 6, at.d), part(at.Gamma_zcs, at.z, at.d), np.zeros((N, at.z, 0))
+    )
+    coordinates = Coordinates(part(at.M, at.z, at.z), part(at.inverse, at.z, at.z), (at.r, at.d, 0))
+    return Each(EachResponse(**both, grasp=grasp), bases, coordinates, stack.metric)

@@ -1,0 +1,188 @@
+"""Small dense matrices in lanes: products, Cholesky factors, reflections; eight problems in every entry.
+
+Imported only where Numba is there.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from synergrip.batch.lanes import all_of, kept_apart, load, root, store, where_less
+from synergrip.batch.lanes_algebra import compiled
+
+
+class Matrix(NamedTuple):
+    """A matrix in the workspace: where it begins, and how far its rows and its columns are apart."""
+
+    first: int
+    down: int
+    right: int
+
+
+@compiled
+def product(w: Any, out: int, A: Any, B: Any, m: int, k: int, n: int, add: float) -> None:
+    """Write A B (m, n) for A (m, k) and B (k, n), rows below one another; or add it `add` times, where not 0."""
+    kept_apart()
+    times = all_of(add)
+    for i in range(0, m, 2):
+        below = min(i + 1, m - 1)
+        a, b = A.first + i * A.down, A.first + below * A.down
+        for j in range(0, n, 2):
+            beside = min(j + 1, n - 1)
+            c, d = B.first + j * B.right, B.first + beside * B.right
+            s00, s01, s10, s11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
+            for inner in range(k):
+                x, y = load(w, a + inner * A.right), load(w, b + inner * A.right)
+                p, q = load(w, c + inner * B.down), load(w, d + inner * B.down)
+                s00, s01, s10, s11 = s00 + x * p, s01 + x * q, s10 + y * p, s11 + y * q
+            _put(w, out + i * n + j, s00, times, add)
+            if beside > j:
+                _put(w, out + i * n + beside, s01, times, add)
+            if below > i:
+                _put(w, out + below * n + j, s10, times, add)
+                if beside > j:
+                    _put(w, out + below * n + beside, s11, times, add)
+
+
+@compiled
+def _put(w: Any, place: int, value: Any, times: Any, add: float) -> None:
+    if add == 0.0:
+        store(w, place, value)
+    else:
+        store(w, place, load(w, place) + times * value)
+
+
+@compiled
+def cholesky(w: Any, a: int, n: int) -> Any:
+    """Write L of ``A = L L'`` over A (n, n), its diagonal inverted; return the least pivot over its diagonal."""
+    kept_apart()
+    one, least = all_of(1.0), all_of(1.0)
+    for j in range(n):
+        whole = load(w, a + j * n + j)
+        pivot = whole
+        for k in range(j):
+            part = load(w, a + j * n + k)
+            pivot = pivot - part * part
+        share = pivot / whole
+        least = where_less(least, share, least, share)  # what is no number stays
+        over = one / root(pivot)
+        store(w, a + j * n + j, over)
+        for i in range(j + 1, n):
+            entry = load(w, a + i * n + j)
+            for k in range(j):
+                entry = entry - load(w, a + i * n + k) * load(w, a + j * n + k)
+            store(w, a + i * n + j, entry * over)
+    return least
+
+
+@compiled
+def lower_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
+    """Write ``L^-1 B`` over B (n, columns), for L of `cholesky`."""
+    kept_apart()
+    for c in range(0, columns, 2):
+        d = c + 1 if c + 1 < columns else c
+        for i in range(n):
+            one, two = load(w, b + i * columns + c), load(w, b + i * columns + d)
+            for k in range(i):
+                part = load(w, L + i * n + k)
+                one, two = one - part * load(w, b + k * columns + c), two - part * load(w, b + k * columns + d)
+            over = load(w, L + i * n + i)
+            store(w, b + i * columns + c, one * over)
+            store(w, b + i * columns + d, two * over)
+
+
+@compiled
+def lower_transposed_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
+    """Write ``L'^-1 B`` over B (n, columns), for L of `cholesky`."""
+    kept_apart()
+    for c in range(0, columns, 2):
+        d = c + 1 if c + 1 < columns else c
+        for back in range(n):
+            i = n - 1 - back
+            one, two = load(w, b + i * columns + c), load(w, b + i * columns + d)
+            for k in range(i + 1, n):
+                part = load(w, L + k * n + i)
+                one, two = one - part * load(w, b + k * columns + c), two - part * load(w, b + k * columns + d)
+            over = load(w, L + i * n + i)
+            store(w, b + i * columns + c, one * over)
+            store(w, b + i * columns + d, two * over)
+
+
+@compiled
+def reflected(w: Any, a: int, m: int, n: int, factors: int) -> None:
+    """Write the QR factors of A (m, n), m >= n: R (its upper half), below it what reflects, and heads in `factors`.
+
+    The reflection of column j is ``1 - v v' / h`` with v from row j on, its first entry and 1 / h at
+    ``factors + 2 j``.
+    """
+    kept_apart()
+    zero, one = all_of(0.0), all_of(1.0)
+    for j in range(n):
+        squares = zero
+        for i in range(j, m):
+            part = load(w, a + i * n + j)
+            squares = squares + part * part
+        first, size = load(w, a + j * n + j), root(squares)
+        size = where_less(first, zero, size, zero - size)
+        head = first - size
+        over = zero - one / (size * head)
+        store(w, a + j * n + j, size)
+        store(w, factors + 2 * j, head)
+        store(w, factors + 2 * j + 1, over)
+        for c in range(j + 1, n):
+            total = head * load(w, a + j * n + c)
+            for i in range(j + 1, m):
+                total = total + load(w, a + i * n + j) * load(w, a + i * n + c)
+            total = total * over
+            store(w, a + j * n + c, load(w, a + j * n + c) - total * head)
+            for i in range(j + 1, m):
+                store(w, a + i * n + c, load(w, a + i * n + c) - total * load(w, a + i * n + j))
+
+
+@compiled
+def turned(w: Any, a: int, m: int, n: int, factors: int, b: int, columns: int, back: bool) -> None:
+    """Write ``Q' B``, or ``Q B`` where `back`, over B (m, columns), for the Q that `reflected` left in A (m, n)."""
+    kept_apart()
+    for step in range(n):
+        j = n - 1 - step if back else step
+        head, over = load(w, factors + 2 * j), load(w, factors + 2 * j + 1)
+        for c in range(columns):
+            total = head * load(w, b + j * columns + c)
+            for i in range(j + 1, m):
+                total = total + load(w, a + i * n + j) * load(w, b + i * columns + c)
+            total = total * over
+            store(w, b + j * columns + c, load(w, b + j * columns + c) - total * head)
+            for i in range(j + 1, m):
+                store(w, b + i * columns + c, load(w, b + i * columns + c) - total * load(w, a + i * n + j))
+
+
+@compiled
+def upper_inverse(w: Any, a: int, n: int, out: int) -> Any:
+    """Write the inverse (n, n) of the upper half of A (..., n), zeros below it; return the sum of its squares."""
+    kept_apart()
+    zero, one, squares = all_of(0.0), all_of(1.0), all_of(0.0)
+    for j in range(n):
+        for i in range(j + 1, n):
+            store(w, out + i * n + j, zero)
+        over = one / load(w, a + j * n + j)
+        store(w, out + j * n + j, over)
+        squares = squares + over * over
+        for back in range(j):
+            i = j - 1 - back
+            total = zero
+            for k in range(i + 1, j + 1):
+                total = total + load(w, a + i * n + k) * load(w, out + k * n + j)
+            total = zero - total / load(w, a + i * n + i)
+            store(w, out + i * n + j, total)
+            squares = squares + total * total
+    return squares
+
+
+@compiled
+def squares_of(w: Any, a: int, count: int) -> Any:
+    """Return the sum of the squares of some entries."""
+    total = all_of(0.0)
+    for i in range(count):
+        part = load(w, a + i)
+        total = total + part * part
+    return total

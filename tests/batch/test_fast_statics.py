@@ -1,0 +1,98 @@
+"""The statics in compiled lanes, against those of one grasp after the other; what is doubtful or wrong is left out."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from random_cone_problems import grasp_like, random_wrenches
+
+import synergrip as sg
+from synergrip.batch.confirmed import confirmed
+from synergrip.batch.stated import each_of
+from synergrip.linalg import Array
+from synergrip.statics.analyses import analyses_for_plans
+from synergrip.statics.each import Each
+from synergrip.statics.response import Maps
+
+FORMS = [(["hard"] * 3, 5), (["soft"] * 4, 8), (["hard", "soft", "hard"], 3), (["hard"] * 3, 3)]
+
+
+def grasps_of(kinds: list[str], n_z: int, count: int = 11) -> list[sg.Grasp]:
+    rng = np.random.default_rng(n_z)
+    return [grasp_like(rng, kinds, n_z) for _ in range(count)]
+
+
+def quick(stack: sg.GraspStack) -> object:
+    pytest.importorskip("numba")
+    from synergrip.batch.fast_statics import ClearStatics
+
+    return ClearStatics()(stack)
+
+
+def largest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))
+
+
+@pytest.mark.parametrize(("kinds", "n_z"), FORMS)
+def test_lanes_find_what_one_grasp_after_the_other_gives(kinds: list[str], n_z: int) -> None:
+    grasps = grasps_of(kinds, n_z)
+    found = quick(sg.GraspStack.of(grasps))
+    assert found.places.tolist() == list(range(len(grasps)))
+    for k, grasp in enumerate(grasps):
+        alone, each = sg.analyse(grasp), found.each[k]
+        assert found.like.spaces.dimensions == alone.spaces.dimensions
+        for name in (field.name for field in fields(Maps)):
+            theirs = getattr(alone.response, name)
+            assert largest(getattr(each.response, name) - theirs) <= 1e-11 * largest(theirs)
+        n_alpha = alone.spaces.dimensions[0]
+        for own, theirs in ((each.spaces.E_s, alone.spaces.E_s), (each.spaces.Gamma_ucs, alone.spaces.Gamma_ucs)):
+            assert np.allclose(own @ np.linalg.pinv(own), theirs @ np.linalg.pinv(theirs), atol=1e-9)
+        ours = each.coordinates.inverse[:, :n_alpha] @ np.linalg.pinv(each.spaces.E_s)
+        theirs = alone.coordinates.inverse[:, :n_alpha] @ np.linalg.pinv(alone.spaces.E_s)
+        assert largest(ours - theirs) <= 1e-8 * largest(theirs)  # references that make internal forces and no motion
+
+
+def test_what_is_doubtful_is_left_to_others() -> None:
+    grasps = grasps_of(["soft"] * 4, 8)
+    doubtful = {
+        2: replace(grasps[2], S=np.hstack([grasps[2].S[:, :-1], grasps[2].S[:, :1] * (1 + 1e-7)])),  # hardly 8 of them
+        5: replace(grasps[5], C_s=grasps[5].C_s * np.logspace(0, 14, 16)),  # no digits are left in float64
+        7: replace(grasps[7], S=0 * grasps[7].S),
+    }
+    mixed = [doubtful.get(k, grasp) for k, grasp in enumerate(grasps)]
+    found = quick(sg.GraspStack.of(mixed))
+    assert found.places.tolist() == [k for k in range(len(grasps)) if k not in doubtful]
+    task = sg.Task(knots=1, limits=[sg.NormalForce(upper=10.0), sg.SlipMargin(0.1)], goals=[sg.LargestMargin()])
+    wrenches = random_wrenches(np.random.default_rng(0), len(mixed))
+    ours, theirs = (sg.plan_many(mixed, task, wrenches=wrenches, kernel=kernel) for kernel in ("numba", "numpy"))
+    assert ours.verdicts.tolist() == theirs.verdicts.tolist()
+    assert np.array_equal(ours.one_by_one, theirs.one_by_one)
+    load = np.abs(wrenches[:, :3]).max()
+    assert np.allclose(ours.largest_margin, theirs.largest_margin, atol=1e-6 * load, equal_nan=True)
+
+
+@pytest.mark.parametrize(("kinds", "n_z"), FORMS)
+def test_statics_that_are_wrong_are_not_confirmed(kinds: list[str], n_z: int) -> None:
+    stack = sg.GraspStack.of(grasps_of(kinds, n_z))
+    (group,) = analyses_for_plans(stack)
+    right = each_of(group)
+    assert confirmed(stack, right).all()
+
+    def altered(part: str, name: str) -> Each:
+        whole = getattr(right, part)
+        values = np.array(getattr(whole, name))
+        values[::2, 0, -1] += 1e-5 * np.abs(values).max(axis=(-2, -1))[::2]
+        return replace(right, **{part: replace(whole, **{name: values})})
+
+    wrong = [("response", name) for name in ("dlambda_dzr", "dlambda_dw", "dq_dzr", "dq_dw", "du_dzr", "du_dw")]
+    wrong += [("spaces", "E_s")]
+    wrong += [("spaces", "Gamma_ucs")] * (right.spaces.Gamma_ucs.shape[-1] > 0)
+    for part, name in wrong:
+        found = confirmed(stack, altered(part, name))
+        assert not found[::2].any(), name
+        assert found[1::2].all(), name
+    inverse = np.array(right.coordinates.inverse)
+    inverse[::2, 0, 0] += 1e-5 * np.abs(inverse).max(axis=(-2, -1))[::2]
+    assert not confirmed(stack, replace(right, coordinates=replace(right.coordinates, inverse=inverse)))[::2].any()
