@@ -35,6 +35,7 @@ class Decision(Value):
     solution: Solution
     certificate: Certificate
     attempts: int
+    """How often solvers were run for it, with all settings, units and slacks that were tried."""
     seconds: float
     """In the solver, all attempts together."""
 
@@ -66,13 +67,18 @@ def decide(
 
     Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
     violation. When none verifies, neither does the decision; it is then, if there is one, the claim that keeps every
-    row and has the smallest gap.
+    row and has the smallest gap. What cannot end otherwise than an attempt before it is not tried.
     """
-    best, seconds = None, 0.0
+    best, runs, seconds = None, 0, 0.0
+    closest: dict[Settings, float] = {}
     for attempt, settings in enumerate(attempts, start=1):
+        alike = replace(settings, tolerance=0.0)
+        if settings.tolerance < closest.get(alike, 0.0):
+            continue
         solution = solver(program, settings)
-        seconds += solution.seconds
-        decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
+        closest[alike] = solution.closest
+        runs, seconds = runs + solution.runs, seconds + solution.seconds
+        decision = Decision(goal, program, solution, judge(program, solution), runs, seconds)
         LOG.debug(
             "%s, attempt %d of %d: %s says '%s' after %d iterations; %s %s", goal, attempt, len(attempts),
             solution.solver, solution.status, solution.iterations, decision.certificate.kind,
@@ -84,7 +90,7 @@ def decide(
             return decision
     if best is None:
         raise ValueError("the retry chain is empty")
-    return replace(best, seconds=seconds)
+    return replace(best, attempts=runs, seconds=seconds)
 
 
 def rank(decision: Decision) -> tuple[int, float]:
