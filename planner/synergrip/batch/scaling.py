@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.batch import cone_algebra as cone
+from synergrip.conic import cone_algebra as cone
 from synergrip.batch.cone_problems import Group
 from synergrip.linalg import Array
 

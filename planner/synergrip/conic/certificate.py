@@ -31,6 +31,9 @@ FAR = 1e3
 """Size of an unknown from which on units do not suit it."""
 UNBOUNDED_GAIN = 1e-5
 """Least improvement along a ray of size 1, and share of it by which a cone may be left."""
+HIDING = 5.0
+"""Tolerances of the gap that rounding hides, from which on no other attempt at the same program tells more."""
+EPSILON = float(np.finfo(float).eps) / 2
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
@@ -54,6 +57,8 @@ class Certificate(Value):
     """Optimal: largest entry of the stationarity residual. Infeasible: how far y had to be moved into the dual cone."""
     gap: float = np.inf
     """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
+    rounding: float = 0.0
+    """Optimal: about how much of the gap is rounding of the sums that it is worked out from."""
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
 
@@ -61,6 +66,11 @@ class Certificate(Value):
     def acceptable(self) -> bool:
         """True for an x that keeps every row and is the best to some digits, verified or not."""
         return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= ACCEPTABLE
+
+    @property
+    def rounded(self) -> bool:
+        """True for an x as good as such sums can tell, in a program in which rounding hides whether it is the best."""
+        return self.acceptable and not self.verified and self.rounding > HIDING * GAP_TOLERANCE
 
     def tight(self, violation: float = TIGHT) -> bool:
         """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
@@ -85,11 +95,11 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
     missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0))
-    gap = (abs(value - bound) + missing) / max(
-        1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant)
-    )
+    terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
+    gap = (abs(value - bound) + missing) / terms
+    rounding = float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
-    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
+    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding)
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -49,3 +49,5 @@ class Settings:
     equilibrate: bool = False
     regularisation: float = 1e-8
     step: float = 0.99
+    structured: bool = True
+    """Whether a method that suits the program's structure is tried first, where there is one."""

@@ -166,7 +166,7 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     best = found = _decided(question, solver)
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
-        if best.settled:
+        if best.settled or (best.decision.certificate.rounded and best.question.goal.rescaled is not None):
             break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:

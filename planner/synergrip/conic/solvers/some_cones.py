@@ -39,7 +39,7 @@ def suits(program: Program) -> bool:
     return len(program.q) <= FEW and sum(block.cones for block in program.blocks) >= MANY
 
 
-def solve(program: Program, settings: Settings, whole: Solve) -> Solution | None:
+def solve(program: Program, settings: Settings, whole: Solve) -> Solution:
     """Solve a program with some of its cones until the answer keeps all of them to the tolerance.
 
     Args:
@@ -48,7 +48,7 @@ def solve(program: Program, settings: Settings, whole: Solve) -> Solution | None
         whole: who solves the small programs.
 
     Returns:
-        An optimum or a ray of the program; None where the rounds lead to neither.
+        An optimum or a ray of the program; a claim of nothing where the rounds lead to neither.
     """
     rows = sparse.csr_matrix(program.A)
     chosen = tuple(_beginning(block) for block in program.blocks)
@@ -58,7 +58,7 @@ def solve(program: Program, settings: Settings, whole: Solve) -> Solution | None
         found = whole(small.program, settings)
         iterations, seconds = iterations + found.iterations, seconds + found.seconds
         if found.claim not in (Claim.OPTIMAL, Claim.INFEASIBLE) or not np.all(np.isfinite(found.x)):
-            return None
+            break
         more = chosen if found.claim is Claim.INFEASIBLE else _with_missed(program, found.x, chosen, settings.tolerance)
         if more is chosen:
             z = np.zeros(len(program.b))
@@ -68,7 +68,9 @@ def solve(program: Program, settings: Settings, whole: Solve) -> Solution | None
                 found, z=frozen(z), status=status, iterations=iterations, seconds=seconds, closest=0.0
             )  # fmt: skip
         chosen = more
-    return None
+    nothing = frozen(np.full(len(program.b), np.nan))
+    status, x = "nothing with some of the rows", frozen(np.full(len(program.q), np.nan))
+    return Solution(Claim.NOTHING, x, nothing, "some cones", status, iterations, seconds)
 
 
 @dataclass(frozen=True)
