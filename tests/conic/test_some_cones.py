@@ -16,7 +16,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import by_structure, clarabel_, some_cones
 from synergrip.linalg import frozen
 
-KNOTS = 1500
+KNOTS = 1100
 ITEMS = (Item("one"), Item("two"))
 
 

@@ -31,8 +31,6 @@ FAR = 1e3
 """Size of an unknown from which on units do not suit it."""
 UNBOUNDED_GAIN = 1e-5
 """Least improvement along a ray of size 1, and share of it by which a cone may be left."""
-HIDING = 5.0
-"""Tolerances of the gap that rounding hides, from which on no other attempt at the same program tells more."""
 EPSILON = float(np.finfo(float).eps) / 2
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
@@ -69,8 +67,8 @@ class Certificate(Value):
 
     @property
     def rounded(self) -> bool:
-        """True for an x as good as such sums can tell, in a program in which rounding hides whether it is the best."""
-        return self.acceptable and not self.verified and self.rounding > HIDING * GAP_TOLERANCE
+        """True for an x as good as such sums can tell, in a program in which rounding hides whether it is the best: so it would of others."""
+        return self.acceptable and not self.verified and self.rounding > GAP_TOLERANCE
 
     def tight(self, violation: float = TIGHT) -> bool:
         """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
