@@ -55,10 +55,10 @@ class Certificate(Value):
     """Optimal: largest entry of the stationarity residual. Infeasible: how far y had to be moved into the dual cone."""
     gap: float = np.inf
     """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
-    rounding: float = 0.0
-    """Optimal: about how much of the gap is rounding of the sums that it is worked out from."""
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
+    rounding: float = 0.0
+    """Optimal: about how much of the gap is rounding of the sums that it is worked out from."""
 
     @property
     def acceptable(self) -> bool:
@@ -67,7 +67,7 @@ class Certificate(Value):
 
     @property
     def rounded(self) -> bool:
-        """True for an x as good as such sums can tell, in a program in which rounding hides whether it is the best: so it would of others."""
+        """True where rounding hides whether an x that holds is the best, as it would with any other."""
         return self.acceptable and not self.verified and self.rounding > GAP_TOLERANCE
 
     def tight(self, violation: float = TIGHT) -> bool:
@@ -97,7 +97,7 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     gap = (abs(value - bound) + missing) / terms
     rounding = float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
-    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding)
+    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding=rounding)
 
 
 @np.errstate(over="ignore", invalid="ignore")

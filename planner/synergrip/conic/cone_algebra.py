@@ -105,11 +105,14 @@ def squared_inverse(v: Array, beta: Array) -> Array:
     size = v.shape[-1]
     opposite = [part if i == 0 else -part for i, part in enumerate(np.moveaxis(v, -1, 0))]
     inverse: dict[tuple[int, int], Array] = {}
-    for i in range(size):
-        for j in range(i + 1):
-            entry = 2 * opposite[i] * opposite[j]
-            if i == j:
-                entry = entry - 1.0 if i == 0 else entry + 1.0
-            inverse[i, j] = inverse[j, i] = entry / beta
-    pairs = zip(*np.tril_indices(size), strict=True)
-    return np.stack([sum(inverse[i, k] * inverse[k, j] for k in range(size)) for i, j in pairs])
+    pairs = [(i, j) for i in range(size) for j in range(i + 1)]
+    for i, j in pairs:
+        entry = 2 * opposite[i] * opposite[j]
+        if i == j:
+            entry = entry - 1.0 if i == 0 else entry + 1.0
+        inverse[i, j] = inverse[j, i] = entry / beta
+    result = np.zeros((len(pairs), *beta.shape))
+    for row, (i, j) in zip(result, pairs, strict=True):
+        for k in range(size):
+            row += inverse[i, k] * inverse[k, j]
+    return result

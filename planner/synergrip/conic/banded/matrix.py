@@ -34,6 +34,8 @@ class Matrix:
     beside: Array  # (banded, p) of P
     corner: Array  # (p, p) of P
     sheets: tuple[Sheet, ...]
+    step: int
+    """Unknowns of a knot."""
 
     @classmethod
     def of(cls, P: sparse.csr_matrix, columns: Columns, sheets: Sequence[Sheet]) -> Matrix:
@@ -43,7 +45,7 @@ class Matrix:
         reach = max([int((lower.row - lower.col).max(initial=0)), *(sheet.width - 1 for sheet in sheets), 0])
         band = np.zeros((reach + 1, nb))
         np.add.at(band, (lower.row - lower.col, lower.col), lower.data)
-        return cls(band, P[:nb, nb:].toarray(), P[nb:, nb:].toarray(), tuple(sheets))
+        return cls(band, P[:nb, nb:].toarray(), P[nb:, nb:].toarray(), tuple(sheets), columns.step)
 
     def times(self, x: Array, cones: Cones) -> Array:
         """Return A x (m,) in the order of the lanes."""
@@ -65,9 +67,11 @@ class Matrix:
         Raises:
             NoFactorError: it has none.
         """
-        band, beside, corner = self.band.copy(), self.beside.copy(), self.corner.copy()
+        beside, corner = self.beside.copy(), self.corner.copy()
+        squares = np.zeros((len(self.band), self.step, self.band.shape[1] // self.step))  # each knot's side by side
         for sheet in self.sheets:
-            _add(sheet, W, band, beside, corner)
+            _add(sheet, W, squares, beside, corner)
+        band = self.band + squares.swapaxes(1, 2).reshape(self.band.shape)
         for shift in SHIFTS:
             found = _factor(band, beside, corner, shift)
             if found is not None:
@@ -77,15 +81,15 @@ class Matrix:
 
 def _add(sheet: Sheet, W: Scaling, band: Array, beside: Array, corner: Array) -> None:
     """Add the squares of a sheet to the lower halves of band and corner, and to what is beside the band."""
-    width, border, rows = sheet.width, sheet.border - band.shape[1], list(zip(*sheet.pairs, strict=True))
-    for here, squares in sheet.squares(W):
-        for (i, j), part in zip(rows, squares, strict=True):
-            if i < width:
-                sheet.add(j, part, band[i - j], here)
-            elif j < width:
-                sheet.add(j, part, beside[:, border[i - width]], here)
+    width, border = sheet.width, sheet.border - len(beside)
+    for here, columns in sheet.squares(W):
+        for j, column in enumerate(columns):
+            if j < width:
+                sheet.add_beside(j, column[: width - j], band[: width - j], here)
+                for i, part in zip(border, column[width - j :], strict=True):
+                    sheet.add(j, part, beside[:, i], here)
             else:
-                corner[border[i - width], border[j - width]] += part.sum()
+                corner[border[j - width :], border[j - width]] += column.sum(axis=1)
 
 
 @dataclass(frozen=True)

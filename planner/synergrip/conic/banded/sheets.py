@@ -22,6 +22,9 @@ from synergrip.linalg import Array
 
 CHUNK = 1 << 16
 """Entries that are worked on at a time: they stay in the processor's cache."""
+ALIKE = 1e-11
+"""Share of the largest entry by which rows at different knots may differ and still are the same: the rounding of times
+of equal steps."""
 
 
 @dataclass(frozen=True)
@@ -40,21 +43,23 @@ class Sheet:
         """Return the sheet of a family in a matrix whose unknowns are in the order of the columns, sorted."""
         own = A[family.rows.ravel()]
         row = np.repeat(np.arange(own.shape[0]), np.diff(own.indptr))
-        inside = own.indices < columns.banded
-        used = np.unique(own.indices[~inside])
+        indices = own.indices.astype(np.intp)
+        inside = indices < columns.banded
+        used = np.unique(indices[~inside])
         knot, within = np.divmod(row, family.rows.shape[1])
-        starts, width = _windows(own.indices[inside], knot[inside], columns, family.knots)
+        starts, width = _windows(indices[inside], knot[inside], columns, family.knots)
         dense = np.zeros((family.knots, family.rows.shape[1], width + len(used)))
-        column = np.where(inside, own.indices - starts[knot], width + np.searchsorted(used, own.indices))
+        column = np.where(inside, indices - starts[knot], width + np.searchsorted(used, indices))
         dense[knot, within, column] = own.data
-        if np.array_equal(dense[0], dense[-1]) and np.all(dense == dense[0]):
+        room = ALIKE * float(np.abs(dense).max(initial=0.0))
+        if np.all(np.abs(dense[-1] - dense[0]) <= room) and np.all(np.abs(dense - dense[0]) <= room):
             dense = dense[:1].copy()
         return cls(family, dense.reshape(len(dense), family.items, family.size, -1), starts, used)
 
     @property
     def width(self) -> int:
         """Of the part in the band."""
-        return self.rows.shape[3] - len(self.border)
+        return int(self.rows.shape[3]) - len(self.border)
 
     @cached_property
     def step(self) -> int:
@@ -62,11 +67,6 @@ class Sheet:
         steps = np.diff(self.starts)
         alike = len(steps) > 0 and steps[0] > 0 and bool(np.all(steps == steps[0]))
         return int(steps[0]) if alike else int(len(self.starts) == 1)
-
-    @property
-    def pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Rows and columns of the lower half of a square."""
-        return np.tril_indices(self.rows.shape[3])
 
     def times(self, x: Array, result: Array) -> None:
         """Write the values of the rows at unknowns x (n,) into a result (size, K, items)."""
@@ -98,8 +98,20 @@ class Sheet:
         else:
             np.add.at(result, starts + j, part)
 
-    def squares(self, W: Scaling) -> Iterator[tuple[slice, Array]]:
-        """Yield for some of the knots at a time the lower halves (pairs, knots) of their squares."""
+    def add_beside(self, j: int, part: Array, result: Array, here: slice) -> None:
+        """Add values (..., K) as `add` does to a result (..., s, banded / s) that has every s-th unknown together."""
+        stride, starts = result.shape[-2], self.starts[here] + j
+        if self.step and self.step % stride == 0:
+            first, last = starts[0] // stride, starts[-1] // stride
+            result[..., starts[0] % stride, first : last + 1 : max(self.step // stride, 1)] += part
+        else:
+            np.add.at(result, (..., starts % stride, starts // stride), part)
+
+    def squares(self, W: Scaling) -> Iterator[tuple[slice, list[Array]]]:
+        """Yield for some of the knots at a time their squares: of each column what is on the diagonal and below it.
+
+        The j-th of these is (width + border - j, knots).
+        """
         family, lane = self.family, self.family.lane
         end = family.first + family.knots * family.items
         v = W.v[lane][family.first : end].reshape(family.knots, family.items, -1)
@@ -112,17 +124,19 @@ class Sheet:
         some, knots = max(1, CHUNK // one), self.family.knots
         return (slice(start, min(start + some, knots)) for start in range(0, knots, some))
 
-    def _alike_squares(self, v: Array, beta: Array, _: slice) -> Array:
+    def _alike_squares(self, v: Array, beta: Array, _: slice) -> list[Array]:
         """Return those of rows that are the same: weights of the squares of rows, times these."""
         if self.family.size == 1:
-            return np.asarray(self._outer @ (1 / beta**2).T)
-        weights = cone.squared_inverse(v, beta)  # (pairs of rows, K, items)
-        return np.asarray(self._outer @ np.moveaxis(weights, 1, 2).reshape(-1, len(v)))
+            weights = (1 / beta**2).T
+        else:
+            weights = np.moveaxis(cone.squared_inverse(v, beta), 1, 2).reshape(-1, len(v))  # (pairs x items, K)
+        wide = self.rows.shape[3]
+        return np.split(self._outer @ weights, np.cumsum(np.arange(wide, 1, -1)))
 
     @cached_property
     def _outer(self) -> Array:
         """(pairs, pairs of rows in a cone x items) products of two rows, those of two different ones both ways."""
-        i, j = self.pairs
+        j, i = np.triu_indices(self.rows.shape[3])  # column after column
         parts = []
         for a, b in zip(*np.tril_indices(self.family.size), strict=True):
             one, other = self.rows[0, :, a], self.rows[0, :, b]
@@ -130,13 +144,13 @@ class Sheet:
             parts.append(both if a == b else both + one[:, j] * other[:, i])
         return np.concatenate(parts).T.copy()
 
-    def _own_squares(self, v: Array, beta: Array, here: slice) -> Array:
+    def _own_squares(self, v: Array, beta: Array, here: slice) -> list[Array]:
         """Return those of rows that are each knot's own."""
         rows = self.rows[here]
         scaled = rows / beta[..., None, None] if self.family.size == 1 else cone.unscaled_rows(v, beta, rows)
         flat = scaled.reshape(len(rows), -1, rows.shape[3])
-        i, j = self.pairs
-        return np.asarray((flat.mT @ flat)[:, i, j].T)
+        whole = np.moveaxis(flat.mT @ flat, 0, 2)
+        return [whole[j:, j] for j in range(len(whole))]
 
     def _windows(self, x: Array) -> Array:
         """Return what the rows of each knot look at (K, width)."""

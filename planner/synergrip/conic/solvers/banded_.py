@@ -35,6 +35,8 @@ MOST = 60
 """Iterations; nearly all programs take 10 to 25."""
 MODEST = 1e3
 """Excess over the tolerance with which an answer still claims to be an optimum, when nothing better follows."""
+LATE = 1e-4
+"""s'z of a cone from which on W is so uneven that solutions are refined."""
 STUCK, NO_BETTER = 1e-5, 4
 """A step shorter than this leads nowhere any more; nor do that many iterations that are none better than before."""
 LEAST_VALUE, LEAST_SCALAR = 1e-10, 1e-4
@@ -206,7 +208,7 @@ def _stepped(posed: _Posed, state: _State, left: _Left, boundary: float) -> _Sta
     reach = min(1.0, W.longest_step(ds), W.longest_step(dz))
     centring = (1 - reach) ** 3 * left.gap / posed.cones.count
     wanted = W.divided(centring * posed.cones.unit - W.product(ds, dz)) - point
-    dx, ds, dz = direction(wanted, refined=True)
+    dx, ds, dz = direction(wanted, refined=left.gap < LATE * posed.cones.count)
     step = min(1.0, boundary * min(W.longest_step(ds), W.longest_step(dz)))
     if not step > STUCK or not np.isfinite(dx).all():
         return None
