@@ -21,29 +21,29 @@ from pathlib import Path
 from statistics import median
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-import numpy as np  # noqa: E402 - after the threads
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
-from named_goals import goals  # noqa: E402
-from random_cone_problems import grasp_like  # noqa: E402
+from named_goals import goals
+from random_cone_problems import grasp_like
 
-from synergrip.conic.decide import judge  # noqa: E402
-from synergrip.conic.goals.goal import Goal  # noqa: E402
-from synergrip.conic.limits.joint_torque import JointTorque  # noqa: E402
-from synergrip.conic.limits.limit import Limit  # noqa: E402
-from synergrip.conic.limits.normal_force import NormalForce  # noqa: E402
-from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration  # noqa: E402
-from synergrip.conic.limits.synergy_rate import SynergyRate  # noqa: E402
-from synergrip.conic.program import Program  # noqa: E402
-from synergrip.conic.question import Question  # noqa: E402
-from synergrip.conic.solution import Settings, Solution  # noqa: E402
-from synergrip.conic.solvers import banded_, clarabel_  # noqa: E402
-from synergrip.errors import SynergripError  # noqa: E402
-from synergrip.linalg import frozen  # noqa: E402
-from synergrip.planning.outcome import Plan  # noqa: E402
-from synergrip.planning.planning import plan_of_start_posture  # noqa: E402
-from synergrip.statics.analysis import Analysis, analyse  # noqa: E402
-from synergrip.tasks.timed_task import TimedTask, still  # noqa: E402
+from synergrip.conic.decide import judge
+from synergrip.conic.goals.goal import Goal
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.limit import Limit
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
+from synergrip.conic.limits.synergy_rate import SynergyRate
+from synergrip.conic.program import Program
+from synergrip.conic.question import Question
+from synergrip.conic.solution import Settings, Solution
+from synergrip.conic.solvers import banded_, clarabel_
+from synergrip.errors import SynergripError
+from synergrip.linalg import frozen
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan_of_start_posture
+from synergrip.statics.analysis import Analysis, analyse
+from synergrip.tasks.timed_task import TimedTask, still
 
 FORMS = {"3 hard": (["hard"] * 3, 5), "4 soft": (["soft"] * 4, 8)}
 GOALS = {
@@ -130,8 +130,9 @@ def row(form: str, goal: str, knots: int) -> str:
         float(subprocess.run([*command, name, form, goal, str(knots)], check=True, capture_output=True).stdout)
         for name in ("banded", "clarabel")
     ]
+    ratio = min(theirs, default) / ours
     return (
-        f"{form:<7} {goal:<15} {knots:>6} {ours:>7.0f} {theirs:>9.0f} {default:>12.0f} {min(theirs, default) / ours:>6.2f} "
+        f"{form:<7} {goal:<15} {knots:>6} {ours:>7.0f} {theirs:>9.0f} {default:>12.0f} {ratio:>6.2f} "
         f"{iterations:>10} {apart:>8.0e} {verified:>12} {grown[0]:>7.0f} {grown[1]:>9.0f}"
     )
 

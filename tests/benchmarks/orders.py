@@ -4,8 +4,8 @@
 
 Goals "travel" and "smooth", alone (what they leave open is settled by least effort, unasked) and with "effort" asked
 for after them, on the grasp matrices of the start posture: three hard contacts with 4 synergies, and four with 12
-actuators. Bounded forces, torques and rates couple the knots. Prints processor time of the first goal's program, that of
-all later ones beside it, runs of solvers, what the whole planning takes, and whether each goal verified; all in one
+actuators. Bounded forces, torques and rates couple the knots. Prints processor time of the first goal's program, that
+of all later ones beside it, runs of solvers, what the whole planning takes, and whether each goal verified; all in one
 process, one after the other.
 """
 

@@ -12,8 +12,8 @@ from scipy import sparse
 
 from synergrip.conic import cone_algebra as cone
 from synergrip.conic.certificate import judge_infeasible, judge_optimal
-from synergrip.conic.program import Program
-from synergrip.conic.rows import Kind
+from synergrip.conic.program import Block, Program
+from synergrip.conic.rows import Item, Kind
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import banded_, by_structure, clarabel_
 from synergrip.linalg import Array, frozen
@@ -66,6 +66,21 @@ def test_a_basis_that_mixes_knots_is_a_border_beside_the_band() -> None:
     assert found is not None
     assert judge_optimal(program, found.x, found.z).verified
     assert program.objective(found.x) == pytest.approx(program.objective(second.x), abs=1e-7, rel=1e-7)
+
+
+def test_rows_without_unknowns_change_nothing() -> None:
+    program = random_coupled(7, KNOTS, 2)
+    block = Block("nothing", Kind.NONNEGATIVE, 1, (Item("one"), Item("two")), 0, KNOTS - 1)
+    count = 2 * (KNOTS - 1)
+    more = replace(
+        program, A=sparse.csc_matrix(sparse.vstack([program.A, sparse.csc_matrix((count, len(program.q)))])),
+        b=frozen(np.concatenate([program.b, np.ones(count)])), blocks=(*program.blocks, block),
+    )  # fmt: skip
+    found, without = banded_.solve(more, Settings()), banded_.solve(program, Settings())
+    assert found is not None
+    assert without is not None
+    assert judge_optimal(more, found.x, found.z).verified
+    assert program.objective(found.x) == pytest.approx(program.objective(without.x), rel=1e-8)
 
 
 @pytest.mark.parametrize("knot", [0, KNOTS // 2])

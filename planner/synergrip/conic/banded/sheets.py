@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
@@ -105,7 +106,8 @@ class Sheet:
             first, last = starts[0] // stride, starts[-1] // stride
             result[..., starts[0] % stride, first : last + 1 : max(self.step // stride, 1)] += part
         else:
-            np.add.at(result, (..., starts % stride, starts // stride), part)
+            where: Any = (..., starts % stride, starts // stride)
+            np.add.at(result, where, part)
 
     def squares(self, W: Scaling) -> Iterator[tuple[slice, list[Array]]]:
         """Yield for some of the knots at a time their squares: of each column what is on the diagonal and below it.
@@ -131,7 +133,7 @@ class Sheet:
         else:
             weights = np.moveaxis(cone.squared_inverse(v, beta), 1, 2).reshape(-1, len(v))  # (pairs x items, K)
         wide = self.rows.shape[3]
-        return np.split(self._outer @ weights, np.cumsum(np.arange(wide, 1, -1)))
+        return np.split(self._outer @ weights, np.cumsum(np.arange(wide, 1, -1)))[:wide]
 
     @cached_property
     def _outer(self) -> Array:
