@@ -35,8 +35,10 @@ Chosen = tuple[NDArray[np.bool_], ...]
 
 
 def suits(program: Program) -> bool:
-    """Return whether a program has few unknowns and many cones."""
-    return len(program.q) <= FEW and sum(block.cones for block in program.blocks) >= MANY
+    """Return whether a program has few unknowns and many cones, at many more knots than it begins with."""
+    return (
+        len(program.q) <= FEW and program.knots > 2 * BEGINNING and sum(block.cones for block in program.blocks) >= MANY
+    )
 
 
 def solve(program: Program, settings: Settings, whole: Solve) -> Solution:
