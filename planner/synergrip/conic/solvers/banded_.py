@@ -33,12 +33,14 @@ LARGEST_CONE, WIDEST, MOST_BORDER = 12, 200, 40
 """Rows of a cone, unknowns side by side that one touches, and unknowns that all knots share: at most."""
 MOST = 60
 """Iterations; nearly all programs take 10 to 25."""
-MODEST = 1e3
-"""Excess over the tolerance with which an answer still claims to be an optimum, when nothing better follows."""
+GOOD, MODEST = 1e3, 1e5
+"""Excess over the tolerance with which an answer is good, and with which it still claims to be an optimum."""
 LATE = 1e-4
 """s'z of a cone from which on W is so uneven that solutions are refined."""
-STUCK, NO_BETTER = 1e-5, 4
-"""A step shorter than this leads nowhere any more; nor do that many iterations that are none better than before."""
+STUCK = 1e-5
+"""A step shorter than this leads nowhere any more."""
+NO_BETTER, PATIENCE = 4, 12
+"""Iterations none of which is better than one that is good, or that is modest, after which none is waited for."""
 LEAST_VALUE, LEAST_SCALAR = 1e-10, 1e-4
 """Value of a sum of squares, and of a scalar, below which a gap that is small beside 1 need not be small beside it."""
 ROUNDING = 1e-17
@@ -145,7 +147,7 @@ def _iterated(posed: _Posed, settings: Settings) -> tuple[Claim, str, _State, in
         since += 1
         if left.finer < least:
             best, least, kept, since = state, left.finer, left.excess, 0
-        if least <= 1 or (since >= NO_BETTER and kept <= MODEST):
+        if least <= 1 or (since >= NO_BETTER and kept <= GOOD) or (since >= PATIENCE and kept <= MODEST):
             break
         try:
             moved = _stepped(posed, state, left, settings.step)
