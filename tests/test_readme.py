@@ -21,7 +21,7 @@ BLOCK = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = BLOCK.findall(README)
 NUMBER = r"\d+(?:\.\d+)?(?:e[-+]\d+)?"
-VOLATILE = re.compile(rf"{NUMBER} ms(?:, attempt \d+)?|\d+(?:\.\d+)?e[-+]\d+|\d+ iterations|Clarabel [\d.]+")
+VOLATILE = re.compile(rf"{NUMBER} ms(?:, \d+ attempts)?|\d+(?:\.\d+)?e[-+]\d+|\d+ iterations|Clarabel [\d.]+")
 """Residuals, iterations, attempts, times and versions: the machine's, not the answer's."""
 
 

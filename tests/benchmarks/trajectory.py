@@ -18,6 +18,8 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from synergrip.errors import SynergripError
+
 if TYPE_CHECKING:
     from synergrip.conic.program import Program
     from synergrip.conic.question import Question
@@ -67,7 +69,7 @@ def child(what: str, knots: int) -> None:
         print(*measured(lambda: referee.solve(question, program, Settings())))
 
 
-class Asked(Exception):
+class Asked(SynergripError):
     """Carries the question out of the planning before anything is solved."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -78,7 +79,7 @@ def test_without_the_best_a_plan_of_least_effort_is_given_with_a_note(spoil: Spo
     assert isinstance(outcome, Plan)
     assert isinstance(expected, Plan)
     (note,) = said(outcome)
-    assert note.startswith("'least torque effort' was not verified, nor came any goal after it")
+    assert re.match(r"'least torque effort' was not verified \(\d+ attempts\), nor came any goal after it", note)
     np.testing.assert_allclose(outcome.motion.forces, expected.motion.forces, rtol=1e-6, atol=1e-9)
 
 

@@ -31,6 +31,7 @@ FAR = 1e3
 """Size of an unknown from which on units do not suit it."""
 UNBOUNDED_GAIN = 1e-5
 """Least improvement along a ray of size 1, and share of it by which a cone may be left."""
+EPSILON = float(np.finfo(float).eps) / 2
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
 
@@ -56,11 +57,18 @@ class Certificate(Value):
     """Optimal: |primal - dual objective|, relative. Infeasible: ``b'y + |A'y|' box`` with b'y = -1: negative proves."""
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
+    rounding: float = 0.0
+    """Optimal: about how much of the gap is rounding of the sums that it is worked out from."""
 
     @property
     def acceptable(self) -> bool:
         """True for an x that keeps every row and is the best to some digits, verified or not."""
         return self.kind == "optimal" and self.primal_residual <= PRIMAL_TOLERANCE and self.gap <= ACCEPTABLE
+
+    @property
+    def rounded(self) -> bool:
+        """True where rounding hides whether an x that holds is the best, as it would with any other."""
+        return self.acceptable and not self.verified and self.rounding > GAP_TOLERANCE
 
     def tight(self, violation: float = TIGHT) -> bool:
         """Return whether this is a verified claim, and an optimum violates no cone by more than `violation`."""
@@ -85,11 +93,11 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
     missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0))
-    gap = (abs(value - bound) + missing) / max(
-        1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant)
-    )
+    terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
+    gap = (abs(value - bound) + missing) / terms
+    rounding = float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
-    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap)
+    return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding=rounding)
 
 
 @np.errstate(over="ignore", invalid="ignore")

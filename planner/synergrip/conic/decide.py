@@ -15,13 +15,13 @@ Solver = Callable[[Program, Settings], Solution]
 
 ATTEMPTS = (
     Settings(),
-    Settings(tolerance=1e-8),
-    Settings(equilibrate=True, step=0.9),
-    Settings(equilibrate=True, regularisation=1e-10),
-    Settings(tolerance=1e-8, regularisation=1e-12, step=0.9, max_iterations=500),
+    Settings(tolerance=1e-8, structured=False),
+    Settings(equilibrate=True, step=0.9, structured=False),
+    Settings(equilibrate=True, regularisation=1e-10, structured=False),
+    Settings(tolerance=1e-8, regularisation=1e-12, step=0.9, max_iterations=500, structured=False),
 )
 """The retry chain. The first nearly always settles it: programs come normalised, equilibration does more harm."""
-ALONG = (ATTEMPTS[1], ATTEMPTS[0], *ATTEMPTS[2:])
+ALONG = (Settings(tolerance=1e-8), Settings(structured=False), *ATTEMPTS[2:])
 """The same around a path, where what is solved for to more digits than a promise is kept to is solved for in vain."""
 
 
@@ -35,6 +35,7 @@ class Decision(Value):
     solution: Solution
     certificate: Certificate
     attempts: int
+    """How often solvers were run for it, with all settings, units and slacks that were tried."""
     seconds: float
     """In the solver, all attempts together."""
 
@@ -66,13 +67,19 @@ def decide(
 
     Sharp is a claim that violates no cone by more than `violation`. The best is the verified one with the smallest
     violation. When none verifies, neither does the decision; it is then, if there is one, the claim that keeps every
-    row and has the smallest gap.
+    row and has the smallest gap. What cannot end otherwise than an attempt before it is not tried,
+    nor is anything once rounding hides what would be better.
     """
-    best, seconds = None, 0.0
+    best, runs, seconds = None, 0, 0.0
+    closest: dict[Settings, float] = {}
     for attempt, settings in enumerate(attempts, start=1):
+        alike = replace(settings, tolerance=0.0, structured=False)
+        if settings.tolerance < closest.get(alike, 0.0):
+            continue
         solution = solver(program, settings)
-        seconds += solution.seconds
-        decision = Decision(goal, program, solution, judge(program, solution), attempt, seconds)
+        closest[alike] = solution.closest
+        runs, seconds = runs + solution.runs, seconds + solution.seconds
+        decision = Decision(goal, program, solution, judge(program, solution), runs, seconds)
         LOG.debug(
             "%s, attempt %d of %d: %s says '%s' after %d iterations; %s %s", goal, attempt, len(attempts),
             solution.solver, solution.status, solution.iterations, decision.certificate.kind,
@@ -82,14 +89,20 @@ def decide(
             best = decision
         if decision.certificate.tight(violation):
             return decision
+        if decision.certificate.rounded:
+            break
     if best is None:
         raise ValueError("the retry chain is empty")
-    return replace(best, seconds=seconds)
+    return replace(best, attempts=runs, seconds=seconds)
 
 
 def rank(decision: Decision) -> tuple[int, float]:
     """Order decisions: verified ones first, by violation; then those that hold, by gap."""
-    certificate = decision.certificate
+    return rank_of(decision.certificate)
+
+
+def rank_of(certificate: Certificate) -> tuple[int, float]:
+    """Order certificates in the same way."""
     if certificate.verified:
         return 0, certificate.primal_residual
     return (1, certificate.gap) if certificate.acceptable else (2, certificate.primal_residual)

@@ -89,7 +89,7 @@ def proven(found: Solution, program: Program, solver: Solver, settings: Settings
     multipliers = second.z[: len(program.b)]
     best = proof(program, (multipliers, found.z))
     ray = multipliers if best.y is None or not best.verified else best.y
-    return replace(found, z=frozen(ray), iterations=iterations, seconds=seconds)
+    return replace(found, z=frozen(ray), iterations=iterations, seconds=seconds, runs=found.runs + second.runs)
 
 
 def proving(solve: Solver) -> Solver:

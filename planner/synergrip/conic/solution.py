@@ -33,6 +33,11 @@ class Solution(Value):
     """The solver's own word."""
     iterations: int
     seconds: float
+    runs: int = 1
+    """How often solvers were run for it."""
+    closest: float = 0.0
+    """The least tolerance that any iterate kept: with the same settings and one below it the solver ends in the same.
+    0 where that is not known."""
 
 
 @dataclass(frozen=True)
@@ -44,3 +49,5 @@ class Settings:
     equilibrate: bool = False
     regularisation: float = 1e-8
     step: float = 0.99
+    structured: bool = True
+    """Whether a method that suits the program's structure is tried first, where there is one."""

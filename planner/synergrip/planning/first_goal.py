@@ -82,7 +82,11 @@ class Planner:
         some = self._ask(self.task.all_limits, LeastEffort())
         if not some.decision.optimal:
             return self._no_optimum(some.decision)
-        note = f"'{goal.name}' was not verified, nor came any goal after it; this is the plan of least contact effort"
+        attempts = sum(each.attempts for each in self.decisions if each.goal == goal.name)
+        note = (
+            f"'{goal.name}' was not verified ({attempts} attempts), nor came any goal after it; this is the plan of "
+            "least contact effort"
+        )
         stage = Stage(some.question.formulation, self.task.all_limits, LeastEffort(), (some.decision,), (note,))
         return verified_plan(self.task, self.analysis, through(stage, (), unasked_goals(self.task), self.solver), None)
 

@@ -38,8 +38,9 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     Args:
         grasp: who plans; its `Analysis` instead, when the same grasp is planned many times.
         task: what is asked.
-        solver: "clarabel", or "cvxpy" for the second formulation of the same problem at the start posture (passes along
-            the motion are "clarabel"'s); or a function that answers.
+        solver: "clarabel" (for long trajectories after a method of our own, docs/performance.md), or "cvxpy" for the
+            second formulation of the same problem at the start posture (passes along the motion are "clarabel"'s); or a
+            function that answers.
 
     Returns:
         A verified `Plan`, an `Infeasible` with its proof, or `Unknown` when nothing can be trusted.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
@@ -11,17 +11,17 @@ import numpy as np
 from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
 from synergrip.conic.decide import ALONG, ATTEMPTS, Decision, decide, rank
 from synergrip.conic.formulation import Units
-from synergrip.conic.goals.goal import Squares
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.program import Program
 from synergrip.conic.question import Question
 from synergrip.conic.relaxed import proving
 from synergrip.conic.solution import Claim, Settings, Solution
-from synergrip.conic.solvers import clarabel_
+from synergrip.conic.solvers import by_structure
 from synergrip.documents.judging import described
 from synergrip.errors import InputError, SynergripError, one_of
 from synergrip.linalg import Array
 from synergrip.log import LOG
+from synergrip.planning.worth import weighed
 from synergrip.values import Value
 
 Answerer = Callable[[Question, Program, Settings], Solution]
@@ -43,7 +43,7 @@ def _cvxpy(question: Question, program: Program, settings: Settings) -> Solution
 
 
 SOLVERS: dict[str, Answerer] = {
-    "clarabel": directly(clarabel_.solve),
+    "clarabel": directly(by_structure.solve),
     "cvxpy": _cvxpy,
 }
 """"cvxpy" writes the question down by itself, independently of the program's rows. A new solver is a line here."""
@@ -138,6 +138,13 @@ class Answered(Value):
         """True for a verified answer; when it is an optimum, for one that is neither small beside 1 nor coarse."""
         return self.decision.certificate.verified and not (self.decision.optimal and (self.small or self.coarse))
 
+    def with_all(self, *others: Decision) -> Answered:
+        """Return it with what other attempts at the same cost, too, told in its decision."""
+        decision = self.decision
+        attempts = decision.attempts + sum(each.attempts for each in others)
+        seconds = decision.seconds + sum(each.seconds for each in others)
+        return replace(self, decision=replace(decision, attempts=attempts, seconds=seconds))
+
     @property
     def place(self) -> tuple[bool, int, float]:
         """Its place among answers to the same question: settled ones first, then by violation, then by gap."""
@@ -155,19 +162,21 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
         solver: who answers.
         sizes: [N] forces in whose units it is asked, too, when those of an answer do not help.
     """
-    question = _weighed(question)
+    question = weighed(question)
     best = found = _decided(question, solver)
-    left = list(sizes)
+    tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
-        if best.settled:
-            return best
+        if best.settled or (best.decision.certificate.rounded and best.question.goal.rescaled is not None):
+            break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:
             break
         LOG.debug("%s: asked again in the units %s", question.goal.name, other.formulation.units)
         found = _decided(other, solver)
+        tried.append(found)
         best = min(best, found, key=lambda each: each.place)
-    return _beside_its_value(_less_closely(best, solver))
+    chosen = best.with_all(*(each.decision for each in tried if each is not best))
+    return chosen if best.settled else _beside_its_value(_less_closely(chosen, solver))
 
 
 def _decided(question: Question, solver: Answerer) -> Answered:
@@ -177,28 +186,6 @@ def _decided(question: Question, solver: Answerer) -> Answered:
         question.goal.name, program, lambda *asked: solver(question, *asked), question.violation, attempts
     )  # fmt: skip
     return Answered(question, decision)
-
-
-def _weighed(question: Question) -> Question:
-    """Return the question with a first guess of what a weighted sum is worth, for its weights are anybody's."""
-    if question.goal.in_natural_units or question.goal.has_scalar:
-        return question
-    parts = question.goal.objective(question.formulation).squares
-    worth = max((size for part in parts for size in _sizes(part)), default=1.0)
-    return replace(question, worth=worth) if worth > 0 else question
-
-
-def _sizes(part: Squares) -> Iterator[float]:
-    """Yield sums of squares over the knots: of what is known, and of what unknowns of size 1 add to it."""
-    yield float((part.constant**2).sum())
-    yield len(part.constant) * _square(part.matrix)
-    for earlier in part.earlier:
-        yield float((earlier.weights**2).sum()) * _square(earlier.matrix)
-
-
-def _square(matrix: Array) -> float:
-    """Return the sum of squares of a matrix, or the mean of these over the knots."""
-    return float((matrix**2).sum()) / (len(matrix) if matrix.ndim > 2 else 1)
 
 
 def _in_its_units(found: Answered) -> Question | None:
@@ -243,7 +230,8 @@ def _less_closely(best: Answered, solver: Answerer) -> Answered:
     if best.decision.certificate.verified or goal.rescaled is None:
         return best
     second = _decided(replace(best.question, goal=goal.rescaled), solver)
-    return second if second.decision.optimal else best
+    chosen, other = (second, best) if second.decision.optimal else (best, second)
+    return chosen.with_all(other.decision)
 
 
 def _beside_its_value(best: Answered) -> Answered:

@@ -113,14 +113,16 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     if not formulation.unknowns:
         note = f"the goals before it leave nothing open for '{goal.name}'"
         return replace(stage, notes=(*stage.notes, note)) if asked else stage
-    acceptable = stage
+    acceptable, tried = stage, list[Decision]()
     for limits in _limits(stage, formulation):
         try:
             answered = ask(Question(formulation, limits, goal, _violation(stage)), solver)
         except KeyboardInterrupt:
             note = f"interrupted while solving for '{goal.name}'; best by the goals before it"
             return replace(stage, notes=(*stage.notes, note), interrupted=True)
+        answered = answered.with_all(*tried[-1:])
         decision = answered.decision
+        tried.append(decision)
         LOG.info("then '%s': %s", goal.name, "optimal" if decision.optimal else decision.solution.status)
         if decision.unbounded:
             raise unbounded(goal)
@@ -133,8 +135,13 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
         if decision.acceptable:
             acceptable = replace(best, notes=(*stage.notes, not_the_best(decision)))
     if acceptable is not stage:
-        return acceptable
-    note = f"'{goal.name}' among the plans that are best by the goals before it was not verified; it is one of them"
+        last = acceptable.decisions[-1]
+        told = replace(last, attempts=tried[-1].attempts, seconds=tried[-1].seconds)
+        return replace(acceptable, decisions=(*stage.decisions, told))
+    note = (
+        f"'{goal.name}' among the plans that are best by the goals before it was not verified "
+        f"({tried[-1].attempts} attempts); it is one of them"
+    )
     return replace(stage, notes=(*stage.notes, note))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from scipy import sparse
 
 from synergrip.conic.program import Program
@@ -21,6 +22,8 @@ CLAIMS = {
     "AlmostDualInfeasible": Claim.UNBOUNDED,
 }
 """Clarabel's status -> claim; every other status claims nothing. "Almost" is for the certificate to decide."""
+TOWARDS_A_RAY = 1e3
+"""kappa over tau of the homogeneous embedding from which on an iterate may be looked at as a ray."""
 
 
 def solve(program: Program, settings: Settings) -> Solution:
@@ -41,16 +44,29 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.static_regularization_constant = settings.regularisation
     options.max_step_fraction = settings.step
     P = sparse.triu(program.P, format="csc")
+    kept: list[float] = []
+
+    def looked_at(iterate: Any) -> bool:
+        kept.append(_kept(iterate))
+        return stop(iterate)
+
     with interruptible() as stop:
         solver = clarabel.DefaultSolver(P, program.q, program.A, program.b, _cones(program), options)
-        solver.set_termination_callback(stop)
+        solver.set_termination_callback(looked_at)
         found = solver.solve()
         del solver  # its memory, many times that of the program
     status = str(found.status)
     return Solution(
         CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,
-        int(found.iterations), float(found.solve_time),
+        int(found.iterations), float(found.solve_time), closest=min(kept, default=0.0),
     )  # fmt: skip
+
+
+def _kept(iterate: Any) -> float:
+    """Return the tolerance that an iterate keeps as an optimum; 0 where it may be on the way to a ray."""
+    if iterate.ktratio > 1:  # it is not looked at as an optimum; as a ray from far above on
+        return 0.0 if iterate.ktratio > TOWARDS_A_RAY else np.inf
+    return float(max(min(iterate.gap_abs, iterate.gap_rel), iterate.res_primal, iterate.res_dual))
 
 
 def _cones(program: Program) -> list[Any]:

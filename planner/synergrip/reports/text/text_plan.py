@@ -80,7 +80,7 @@ def _solved(decisions: Sequence[Decision]) -> Iterator[str]:
     for i, decision in enumerate(decisions):
         program, solution = decision.program, decision.solution
         cones = sum(block.cones for block in program.blocks)
-        tries = f", attempt {decision.attempts}" if decision.attempts > 1 else ""
+        tries = f", {decision.attempts} attempts" if decision.attempts > 1 else ""
         yield (
             ("solve    " if i == 0 else "         ")
             + f"{decision.goal}: {many(len(program.q), 'variable')}, {many(cones, 'cone')}, "

@@ -98,3 +98,21 @@ def carried_on(v: Array, beta: Array, s: Array, z: Array) -> tuple[Array, Array,
     turned = 2 * dot(v, middle_point)[..., None] * v - flipped(middle_point)
     turned[..., 0] += 1
     return turned / np.sqrt(2 * turned[..., :1]), beta * np.sqrt(of_s / of_z), point
+
+
+def squared_inverse(v: Array, beta: Array) -> Array:
+    """Return the entries of ``W^-2`` (pairs, N, cones): the lower half, row after row."""
+    size = v.shape[-1]
+    opposite = [part if i == 0 else -part for i, part in enumerate(np.moveaxis(v, -1, 0))]
+    inverse: dict[tuple[int, int], Array] = {}
+    pairs = [(i, j) for i in range(size) for j in range(i + 1)]
+    for i, j in pairs:
+        entry = 2 * opposite[i] * opposite[j]
+        if i == j:
+            entry = entry - 1.0 if i == 0 else entry + 1.0
+        inverse[i, j] = inverse[j, i] = entry / beta
+    result = np.zeros((len(pairs), *beta.shape))
+    for row, (i, j) in zip(result, pairs, strict=True):
+        for k in range(size):
+            row += inverse[i, k] * inverse[k, j]
+    return result
