@@ -57,10 +57,11 @@ def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outco
 
 
 def no_plan(posed: Posed | None) -> bool:
-    """Return whether it is certified that there is no plan; with the rows of the knots first, which are fewer."""
+    """Return whether it is certified that there is no plan; with the rows of fewer instants first, which prove as much."""
     if posed is None:
         return False
-    every = (posed,) if posed.formulation.intersample is None else (posed.at_knots, posed)
+    fewer = () if posed.formulation.intersample is None else (posed.at_knots, posed.at_fewer)
+    every = (*(each for each in fewer if each is not None), posed)
     return any(solved("any plan", each.program()).infeasible for each in every)
 
 

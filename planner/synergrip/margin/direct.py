@@ -19,8 +19,9 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
-NEARER = (0.999, 0.97, 0.9, 0.7, 0.4)
-"""Shares of the way to the extreme of the start posture that are tried on a hand that moves until there is a plan."""
+WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.9, 0.97)
+"""Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
+where that has no plan the others, halved until the last one with a plan is known."""
 FARTHER = (1.1, 1.5)
 """Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
@@ -175,11 +176,13 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
     dial, end = found.dial, found.value
     assert end is not None
-    search = _Search(dial, end, dial.value, plan, None)
-    for share in NEARER:
-        search = search.tried(share)
-        if search.bad is None or search.best is not plan:
-            break
+    search, rest = _Search(dial, end, dial.value, plan, None).tried(WHOLE_WAY), NEARER
+    while search.bad is not None and rest:
+        middle, before = len(rest) // 2, search.good
+        search = search.tried(rest[middle])
+        rest = rest[:middle] if search.good == before else rest[middle + 1 :]
+    if search.best is plan and dial.cause in OF_PLAN:
+        return _near(of, found, plan)
     if search.bad is None and np.any(plan.task.target.values):
         for share in FARTHER:
             search = search.tried(share)
@@ -187,8 +190,6 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
                 break
     for _ in range(of.halves):
         search = search.halved()
-    if search.best is plan and dial.cause in OF_PLAN:
-        return _near(of, found, plan)
     return _ends(of, found, search.good, search.best, search.bad)
 
 
