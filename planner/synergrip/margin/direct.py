@@ -30,8 +30,8 @@ MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 """Shares by which a bound is wider than what the plan uses that is there; the least with a plan is found by halves."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
-HALVES = 1
-"""How often it is halved, if nothing else is said."""
+HALVES, NEAR = 1, 0.02
+"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -213,7 +213,8 @@ class _Search(Value):
 
     def halved(self) -> _Search:
         """Return it with the value between those with and without a plan, as many times the one as the other of it."""
-        return self if self.bad is None else self._with(between(self.good, self.bad))
+        near = self.bad is None or abs(self.good - self.bad) <= NEAR * abs(self.good)
+        return self if near or self.bad is None else self._with(between(self.good, self.bad))
 
     def _with(self, value: float) -> _Search:
         value = self.dial.rounded(value)

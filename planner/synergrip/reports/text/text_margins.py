@@ -14,7 +14,7 @@ from synergrip.margin.measures import Measure
 from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_cases import case_table
+from synergrip.reports.text.text_cases import case_table, guaranteed_margin
 from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
 from synergrip.reports.text.text_on_request import attained_cells, several_lines
 from synergrip.reports.text.text_plan import verdict_word
@@ -49,7 +49,7 @@ def margins_text(
     head = [
         *problem_lines(problem), "",
         f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
-        f"t = {slip.time_s:.2f} s)",
+        f"t = {slip.time_s:.2f} s){guaranteed_margin(plan)}",
     ]  # fmt: skip
     parts = [head, [f"How sure it is: the worst of all knots, of {who}", _measures(found)], *_parts(found, whole=whole)]
     if found.timing is not None:
