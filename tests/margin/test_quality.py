@@ -62,7 +62,8 @@ def test_a_pinch_of_soft_fingers_is_as_good_as_its_spin() -> None:
     shared = 1 / np.hypot(1.0, 0.02 / 0.005)
     assert weak.epsilon_synergies[0] <= shared <= weak.epsilon_synergies[1] * (1 + 1e-6)
     assert weak.epsilon_synergies[0] > 0.94 * weak.epsilon_synergies[1]
-    assert weak.epsilon_each is not None and strong.epsilon_each is None
+    assert strong.epsilon_each is None
+    assert weak.epsilon_each is not None
     # each presses with 1: both spin, and a force along their line that takes one of them away, |m| / nu + |f| <= 2
     assert weak.epsilon_each[0] <= 2 * shared
     assert weak.epsilon_each[0] > 0.93 * weak.epsilon_each[1]
@@ -84,7 +85,8 @@ def test_each_normal_force_alone_is_the_support_of_a_sum() -> None:
 
     starts = sorted(rng.normal(size=(300, 6)), key=support)[:6]
     least = min(minimize(support, start, method="Nelder-Mead", options={"maxiter": 3000}).fun for start in starts)
-    assert found.epsilon_each is not None and found.epsilon_each_synergies is not None
+    assert found.epsilon_each is not None
+    assert found.epsilon_each_synergies is not None
     assert found.epsilon_each[0] <= least * (1 + 1e-9)
     assert found.epsilon_each[1] == pytest.approx(least, rel=0.02)
     assert found.epsilon[0] <= found.epsilon_each[1]

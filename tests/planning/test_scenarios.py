@@ -62,7 +62,8 @@ def test_the_largest_margin_is_that_of_the_worst_scenario_not_of_the_one_nearest
     stated, worst, *capped = made.cases
     assert worst.margin == pytest.approx(least, abs=1e-6)
     assert worst.margin < min([each.margin for each in (stated, *capped)])
-    assert capped and capped[0].usages[1].value.max() == pytest.approx(5.0, abs=1e-6)
+    assert capped
+    assert capped[0].usages[1].value.max() == pytest.approx(5.0, abs=1e-6)
 
 
 @pytest.mark.parametrize(("unknowns", "share", "confidence"), [(1, 0.05, 0.999), (4, 0.1, 0.99), (45, 0.05, 0.999)])

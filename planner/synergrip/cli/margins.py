@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 ASKED = (
     "critical_friction_scale, heaviest_kg, load_factor, least_peak_N, least_effort, shortest_duration_s, "
-    "largest_amplitude, disturbance, quality, sensitivities, critical_friction_per_contact, largest_amplitude_per_mode, "
-    "fastest_timing_s"
+    "largest_amplitude, disturbance, quality, sensitivities, critical_friction_per_contact, "
+    "largest_amplitude_per_mode, fastest_timing_s"
 )
 TIMED = "palm.csv"
 """The file of the fastest timing, in the folder that is asked for."""

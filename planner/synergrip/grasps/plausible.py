@@ -98,8 +98,8 @@ def mass_doubt(body: Object, mass: float) -> str:
     if not body.mass or 1 / OTHER_UNIT < mass / body.mass < OTHER_UNIT:
         return ""
     return (
-        f"{mass:.4g} kg are {mass / body.mass:.3g} times the object's own mass, {body.mass:.4g} kg: in code masses are in "
-        "kg; is it in another unit?"
+        f"{mass:.4g} kg are {mass / body.mass:.3g} times the object's own mass, {body.mass:.4g} kg: in code masses are "
+        "in kg; is it in another unit?"
     )
 
 

@@ -19,7 +19,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
-WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.9, 0.97)
+WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.97)
 """Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
 where that has no plan the others, halved until the last one with a plan is known."""
 FARTHER = (1.1, 1.5)

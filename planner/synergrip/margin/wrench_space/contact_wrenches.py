@@ -77,7 +77,7 @@ class UnitForces(Value):
 
 
 def _rings(edges: int) -> Array:
-    """Return points (p, 3) of a unit sphere on rings as far apart as the points on the equator are, and at the poles."""
+    """Return points (p, 3) of a unit sphere: its poles, and rings as far apart as the points on the equator are."""
     quarter = max(round(edges / 4), 1)
     found = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
     for ring in range(1 - quarter, quarter):

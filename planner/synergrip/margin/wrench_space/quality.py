@@ -1,12 +1,13 @@
 """The classical figures of a grasp, and what its synergies cost of them.
 
-Unit normal forces: those of all contacts together are one newton at most (L1), or each of them is (L-infinity), both after
-Ferrari and Canny, Planning optimal grasps, 1992. Wrenches are those of the length-scaled norm: moments about the centroid of the contacts, divided
-by their mean distance L from it, so that all figures are free of units.
+Unit normal forces: those of all contacts together are one newton at most (L1), or each of them is (L-infinity), both
+after Ferrari and Canny, Planning optimal grasps, 1992. Wrenches are those of the length-scaled norm: moments about the
+centroid of the contacts, divided by their mean distance L from it, so that all figures are free of units.
 
 Fully actuated, a hand makes every contact force in the cones: the grasp wrench space is the hull of what the contacts
-do one by one (L1) or their Minkowski sum (L-infinity), epsilon the radius of the largest ball about 0 in it. With synergies alone an external wrench w is met by
-``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller convex set, of the same norm and unit forces.
+do one by one (L1) or their Minkowski sum (L-infinity), epsilon the radius of the largest ball about 0 in it. With
+synergies alone an external wrench w is met by ``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller
+convex set, of the same norm and unit forces.
 """
 
 from __future__ import annotations
@@ -70,7 +71,8 @@ class WrenchSpaceQuality(Value):
     length: float
     """L [m]."""
     epsilon_each: tuple[float, float] | None = None
-    """Epsilon where each normal force is 1 at most (L-infinity), every contact force being made; None if not asked for."""
+    """Epsilon where each normal force is 1 at most (L-infinity), every contact force being made; None where it was
+    not asked for."""
     epsilon_each_synergies: tuple[float, float] | None = None
     """The same where internal forces are those of E_s."""
     why: str = ""

@@ -15,7 +15,7 @@ from synergrip.reports.text.tables import table, wrapped
 NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")
 SAME = 5e-5
 """Relative difference of two ends that are told as one number."""
-FAR_APART = 0.01
+FAR_APART = 0.05
 """The same from which on both are told to two digits."""
 NONE_LEFT = 1e-5
 """[N] or [N m] below which nothing is left."""

@@ -31,6 +31,10 @@ ASKS = {
 """Name of a number -> what it answers, and the words for its unit where it has none."""
 
 
+ROUNDING = 1e-8
+"""[N], degrees or a share below which a margin is none."""
+
+
 def margins_text(
     problem: Problem, found: Margins, color: bool = False, *, whole: bool = False, written: Path | None = None
 ) -> str:
@@ -48,8 +52,8 @@ def margins_text(
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
     head = [
         *problem_lines(problem), "",
-        f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
-        f"t = {slip.time_s:.2f} s){guaranteed_margin(plan)}",
+        f"{verdict_word(plan.verdict, color)}  smallest slip margin {_value(found.measures['slip margin'])} "
+        f"({slip.name}, t = {slip.time_s:.2f} s){guaranteed_margin(plan)}",
     ]  # fmt: skip
     parts = [head, [f"How sure it is: the worst of all knots, of {who}", _measures(found)], *_parts(found, whole=whole)]
     if found.timing is not None:
@@ -96,7 +100,7 @@ def _cases(found: Margins) -> Iterator[str]:
 def _value(measure: Measure) -> str:
     value = measure.worst.value
     if np.isfinite(value):
-        return f"{value:.4g} {measure.unit}".strip()
+        return f"{value if abs(value) > ROUNDING else 0.0:.4g} {measure.unit}".strip()
     return "none would do" if measure.most_is_worst else "no friction is needed"
 
 
