@@ -31,7 +31,8 @@ MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES, NEAR = 1, 0.02
-"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number."""
+"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number. A bound is not
+looked for along the motion where a plan that was made without it is as near to its end."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -126,7 +127,8 @@ def number_of(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> Direct
     found = extreme(dial, own, own.program())
     if found.value is None:
         return DirectNumber.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
-    if abs(found.value - dial.value) < AT_END * abs(dial.value):
+    near = NEAR if dial.cause in OF_PLAN and plan.executed is not None else AT_END
+    if abs(found.value - dial.value) < near * abs(dial.value):
         return _near(of, found, plan)
     if plan.executed is not None:
         return _along(of, found, plan)
