@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,8 +31,8 @@ MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES, NEAR = 1, 0.02
-"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number. A bound is not
-looked for along the motion where a plan that was made without it is as near to its end."""
+"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number. A
+bound is not looked for along the motion where a plan that was made without it is as near to its end."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -178,7 +178,8 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
     dial, end = found.dial, found.value
     assert end is not None
-    search, rest = _Search(dial, end, dial.value, plan, None).tried(WHOLE_WAY), NEARER
+    search = _Search(dial, end, dial.value, plan, None).tried(WHOLE_WAY)
+    rest: Sequence[float] = NEARER
     while search.bad is not None and rest:
         middle, before = len(rest) // 2, search.good
         search = search.tried(rest[middle])

@@ -12,7 +12,7 @@ convex set, of the same norm and unit forces.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -35,7 +35,6 @@ EDGES = 12
 MOST = 64
 """Edges: a hull of more takes longer than adding points where they count."""
 ENDS = (0.0, 0.0)
-OF_EACH = ("epsilon_each", "epsilon_each_synergies")
 
 
 @made_by("wrench_space_quality(grasp)")
@@ -127,11 +126,11 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES, each: b
     around = own.points(edges, outside=True)
     if not response.restrained or is_flat(around):
         why = "the wrench space is flat: there is a wrench that no contact forces make"
-        return found(*(ENDS,) * 5, **(dict.fromkeys(OF_EACH, ENDS) if each else {}), why=why)
+        flat = found(*(ENDS,) * 5, why=why)
+        return replace(flat, epsilon_each=ENDS, epsilon_each_synergies=ENDS) if each else flat
     inner, (outer, most) = hull(own.points(edges))[0], hull(around)
     whole = hull_figures(own.points(edges), own.farthest)
     made = controlled_figures(response, analysis.spaces.E_s)
-    of_each = _of_each(own, response, analysis.spaces.E_s) if each else {}
     why = _none_of(whole.epsilon, "the grasp has force closure", "the grasp has no force closure")
     why = why or _none_of(
         made.epsilon, "the synergies hold loads from every direction",
@@ -139,13 +138,15 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES, each: b
     )  # fmt: skip
     part = _no_more(made.epsilon, whole.epsilon)
     pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
-    return found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), **of_each, why=why)
+    told = found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), why=why)
+    return _with_each(told, own, analysis) if each else told
 
 
-def _of_each(own: Contacts, response: Response, internal: Array) -> dict[str, tuple[float, float]]:
-    """Return epsilon of any contact forces, and of some internal forces, where each normal force is 1 at most."""
-    whole, made = figures_of_support(own.farthest_sum), controlled_figures(response, internal, each=True)
-    return dict(zip(OF_EACH, (whole.epsilon, _no_more(made.epsilon, whole.epsilon)), strict=True))
+def _with_each(told: WrenchSpaceQuality, own: Contacts, analysis: Analysis) -> WrenchSpaceQuality:
+    """Return figures with epsilon of any contact forces, and of E_s, where each normal force is 1 at most."""
+    whole = figures_of_support(own.farthest_sum).epsilon
+    made = controlled_figures(analysis.response, analysis.spaces.E_s, each=True).epsilon
+    return replace(told, epsilon_each=whole, epsilon_each_synergies=_no_more(made, whole))
 
 
 def _no_more(part: tuple[float, float], whole: tuple[float, float]) -> tuple[float, float]:
