@@ -36,6 +36,9 @@ STEP = 2e-6
 """[m] By which poses are differentiated: short, as third derivatives jump at the poses of a path."""
 NONE_FASTER, NEAR = 1e-4, 1e-2
 """Share of the time by which the optimiser may be faster, for its own tolerance; and within which it counts as near."""
+BESIDE = 1e-3
+"""Share of a part from its ends on where forces are looked at: differences across a pose, at which third derivatives
+jump, are those of neither side."""
 SLIPS = 2e-4
 """[N] By which a margin may be missed between the points."""
 
@@ -165,7 +168,7 @@ def missed(statics: Statics, found: Timing, margin: float, cap: float) -> float:
     for leg in question.legs:
         own = slice(first, first + len(leg.at))
         b, squeeze, h = found.b[own], alpha[own], np.diff(leg.at)
-        for share in np.linspace(0.0, 1.0, 14):
+        for share in np.linspace(BESIDE, 1.0 - BESIDE, 14):
             rest, of_a, of_b = statics.loads(leg, leg.at[:-1] + share * h)
             a, square = np.diff(b) / (2 * h), (1 - share) * b[:-1] + share * b[1:]
             wrench = rest + of_a * a[:, None] + of_b * square[:, None]

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from random_grasps import random_grasp
-from scipy.optimize import linprog
+from scipy.optimize import linprog, minimize
 from scipy.spatial import ConvexHull
+from second_disturbances import unscaled
 from second_wrench_space import EDGES, edge_wrenches
 from small_grasps import pinch, tripod
 
@@ -53,13 +54,46 @@ def test_pyramids_have_the_epsilon_and_volume_of_an_independent_hull(seed: int) 
 
 def test_a_pinch_of_soft_fingers_is_as_good_as_its_spin() -> None:
     """Spin by one finger, nu / L of the normal force; where spin is strong, the plane 2 u = mu (2 - 2 u^2)^(1/2)."""
-    weak, strong = (sg.wrench_space_quality(pinch(0.5, nu)) for nu in (0.005, 0.05))
+    weak, strong = (sg.wrench_space_quality(pinch(0.5, nu), each=nu < 0.01) for nu in (0.005, 0.05))
     assert weak.epsilon[0] <= 0.25 <= weak.epsilon[1]
     assert strong.epsilon[0] <= 1 / 3 <= strong.epsilon[1]
     assert weak.epsilon[1] - weak.epsilon[0] < 0.02 * 0.25
-    assert weak.epsilon_synergies[0] <= 0.25 <= weak.epsilon_synergies[1] * (1 + 1e-6)  # its squeeze is all there is
+    # both share a spin, and the finger that a force along their line unloads has less: |m| / nu + |f| <= 1
+    shared = 1 / np.hypot(1.0, 0.02 / 0.005)
+    assert weak.epsilon_synergies[0] <= shared <= weak.epsilon_synergies[1] * (1 + 1e-6)
+    assert weak.epsilon_synergies[0] > 0.94 * weak.epsilon_synergies[1]
+    assert strong.epsilon_each is None
+    assert weak.epsilon_each is not None
+    # each presses with 1: both spin, and a force along their line that takes one of them away, |m| / nu + |f| <= 2
+    assert weak.epsilon_each[0] <= 2 * shared
+    assert weak.epsilon_each[0] > 0.93 * weak.epsilon_each[1]
     assert weak.singular_values == pytest.approx([np.sqrt(2)] * 6)
     assert weak.isotropy == pytest.approx(1.0)
+
+
+def test_each_normal_force_alone_is_the_support_of_a_sum() -> None:
+    """L-infinity: the least of ``sum max(0, n + mu |(t, o)|)`` over unit wrenches, by another optimiser's descent."""
+    rng = np.random.default_rng(13)
+    grasp = closing(rng)
+    found, inverse = sg.wrench_space_quality(grasp, each=True), np.linalg.inv(unscaled(grasp))
+    arms = [inverse @ np.vstack([np.eye(3), np.cross(c.point, np.eye(3)).T]) @ c.frame for c in grasp.contacts]
+
+    def support(along: np.ndarray) -> float:
+        parts = [arm.T @ (along / np.linalg.norm(along)) for arm in arms]
+        pairs = zip(parts, grasp.contacts, strict=True)
+        return float(sum(max(0.0, n + c.friction * np.hypot(t, o)) for (n, t, o), c in pairs))
+
+    starts = sorted(rng.normal(size=(300, 6)), key=support)[:6]
+    least = min(minimize(support, start, method="Nelder-Mead", options={"maxiter": 3000}).fun for start in starts)
+    assert found.epsilon_each is not None
+    assert found.epsilon_each_synergies is not None
+    assert found.epsilon_each[0] <= least * (1 + 1e-9)
+    assert found.epsilon_each[1] == pytest.approx(least, rel=0.02)
+    assert found.epsilon[0] <= found.epsilon_each[1]
+    assert found.epsilon_each[0] <= len(grasp.contacts) * found.epsilon[1]
+    held = found.epsilon_each_synergies
+    assert held[0] <= found.epsilon_each[1]
+    assert found.epsilon_synergies[0] <= held[1]
 
 
 def test_three_fingers_on_a_sphere_have_the_singular_values_of_their_arms() -> None:

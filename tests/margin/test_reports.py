@@ -10,6 +10,8 @@ import pytest
 from command_line import run
 
 import synergrip as sg
+from synergrip.cli.margins import ASKED
+from synergrip.margin.margins import BESIDE
 from synergrip.reports.data.json_margins import margins_document
 
 PAGE = (Path(__file__).parents[2] / "docs" / "margins.md").read_text(encoding="utf-8")
@@ -46,6 +48,12 @@ def test_one_number_of_a_hand_is_printed_beside_its_linear_model() -> None:
     assert setting is not None
     again = sg.load_problem("gripper-peg", [setting[1]])
     assert sg.plan(again.grasp, again.task).verdict == "feasible"
+
+
+def test_the_help_has_every_name_that_may_be_asked_for() -> None:
+    assert set(ASKED.split(", ")) == {*NAMES, *BESIDE}
+    words = " ".join(re.sub(r"[^\w ]", " ", run("margins", "--help").stdout).split())
+    assert all(name in words.replace(" ", "") for name in NAMES)
 
 
 def test_where_there_is_no_plan_the_no_is_told() -> None:

@@ -23,7 +23,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Plan
 from synergrip.reports.data.json_plan import outcome_document
-from synergrip.reports.text.text_cases import case_lines
+from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 
 WEIGHT = sg.Wrench((0, 0, -3.0, 0, 0, 0))
 
@@ -359,6 +359,18 @@ def test_between_the_knots_every_case_holds() -> None:
         drawn = sample(rng, allow, grasp)
         forces = elastic_forces(grasp, dz_r, load + drawn.load, np.zeros(3))
         assert slip_margins(grasp, forces, drawn).min() > 0.1 - 1e-4
+
+
+def test_a_mass_interval_is_two_loads_by_which_the_weight_differs() -> None:
+    """As a grasp given as matrices, which has no object, says it: ``w (m / m_0 - 1)`` for both ends."""
+    grasp = sg.load_problem("gripper-box").grasp
+    weight = np.array([0, 0, -9.81 * 0.2, 0, 0, 0])
+    task = sg.Task(knots=1, loads=[sg.Gravity((0, 0, -9.81))], limits=[sg.SlipMargin(0.5)], linearise="once")
+    both = [sg.Allowances(mass=(0.1, 0.25)), sg.Allowances(load=[-0.5 * weight, 0.25 * weight])]
+    by_mass, by_load = (planned(grasp, task.replace(allow=each)) for each in both)
+    assert by_load.dz_r == pytest.approx(by_mass.dz_r, rel=1e-6)
+    text = "\n".join([*case_lines(by_load), guaranteed_margin(by_load)])
+    assert f"as stated; {min(each.margin for each in by_load.cases):.4g} N in the worst case" in text
 
 
 def test_margins_tell_the_worst_case() -> None:

@@ -53,6 +53,19 @@ def test_a_plan_holds_for_its_share_and_one_without_does_not() -> None:
     assert missed[1] > 3 * SCENARIOS.share
 
 
+def test_the_largest_margin_is_that_of_the_worst_scenario_not_of_the_one_nearest_to_another_limit() -> None:
+    task = TASK.replace(goals=[sg.LargestMargin()], limits=[sg.NormalForce(upper=5.0)])
+    made = planned(task)
+    assert made.formulation.allowed is not None
+    least = min(margins(each, made.dz_r[0]).min() for each in made.formulation.allowed.samples)
+    assert made.largest_margin == pytest.approx(least, abs=1e-6)
+    stated, worst, *capped = made.cases
+    assert worst.margin == pytest.approx(least, abs=1e-6)
+    assert worst.margin < min([each.margin for each in (stated, *capped)])
+    assert capped
+    assert capped[0].usages[1].value.max() == pytest.approx(5.0, abs=1e-6)
+
+
 @pytest.mark.parametrize(("unknowns", "share", "confidence"), [(1, 0.05, 0.999), (4, 0.1, 0.99), (45, 0.05, 0.999)])
 def test_the_number_of_samples_is_the_least_that_the_bound_has(unknowns: int, share: float, confidence: float) -> None:
     """Sum over i < d of C(N, i) e^i (1 - e)^(N - i) <= 1 - confidence, added up term by term."""

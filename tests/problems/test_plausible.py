@@ -12,7 +12,7 @@ import pytest
 
 import synergrip as sg
 from synergrip.files import bundled
-from synergrip.grasps.plausible import edge_distance
+from synergrip.grasps.plausible import edge_distance, mass_doubt
 from synergrip.hands.hand import Joint
 from synergrip.hands.posture_units import posture_doubt
 from synergrip.problems.problem import load_problem
@@ -52,6 +52,7 @@ NOTED = [
     ),
     ('task.palm={shift=["300 m", "0 m", "0 m"], inertia=true}', "task.palm", "the palm moves by 300 m"),
     ('allow.mass=["250 g", "300 g"]', "allow.mass", "the object's own mass, 200 g, is not between 250 g and 300 g"),
+    ('allow.mass=["150 kg", "250 kg"]', "allow.mass", "1.5e+05 g in the box around the box 40 x 30 x 60 mm are 2.08"),
     ("allow.friction={'left/tip' = [0.7, 0.8]}", "allow.friction", "that of contact 'left/tip', 0.6, is not between"),
     (
         "object.position=['0 mm', '4 mm', '90.8 mm']",
@@ -121,6 +122,22 @@ def test_plans_made_in_code_say_the_same_and_those_of_files_say_it_once(tmp_path
         "limits.margin=0.1 N",
     )
     assert len(doubts(told["notes"])) == 1
+
+
+def test_masses_in_another_unit_are_noted_of_a_no_and_of_many_plans() -> None:
+    held = load_problem("barrett-ball-still", "task.linearise=once")
+    grams = held.task.replace(allow=sg.Allowances(mass=(150, 250)))
+    answer = sg.plan(held.grasp, grams)
+    assert isinstance(answer, sg.Infeasible)
+    assert any(note.startswith("Task.allow.mass: 1.5e+05 g in the box around the ball") for note in answer.notes)
+    gravity, cap = sg.Gravity((0, 0, -9.81)), sg.NormalForce(upper=20.0)
+    still = sg.Task(knots=1, loads=[gravity], limits=[cap], linearise="once")
+    many = sg.plan_many(held.grasp, still, masses=[0.15, 200.0])
+    assert [note.split(" g ")[0] for note in many.notes] == ["masses: 2e+05"]
+    assert not sg.plan_many(held.grasp, still, masses=[0.15, 0.2]).notes
+    bare = sg.Object(mass=0.2, position=(0, 0, 0.1))  # without a shape the mass that is stated says it
+    assert "1e+03 times the object's own mass" in mass_doubt(bare, 200.0)
+    assert mass_doubt(bare, 2.0) == mass_doubt(bare, 0.02) == ""
 
 
 def joints(upper: float = math.radians(140)) -> list[Joint]:

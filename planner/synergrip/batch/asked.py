@@ -20,6 +20,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.judging import as_numbers, described, is_list
 from synergrip.errors import InputError, kind_of
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.plausible import mass_doubt
 from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array, frozen
 from synergrip.statics.analysis import Analysis
@@ -41,6 +42,8 @@ class Asked(Value):
     """What they have in common."""
     wrench: Array  # (N, 6) [N, N m]
     friction: Array | None  # (N,) factors
+    notes: tuple[str, ...] = ()
+    """What of it can hardly be meant."""
 
     @property
     def count(self) -> int:
@@ -103,7 +106,15 @@ def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: A
     if loads is None:
         loads = _own_loads(whose, task) if isinstance(whose, GraspStack) and isinstance(task, Task) else None
         loads = np.broadcast_to(timed.wrench, (count, 6)) if loads is None else loads
-    return Asked(whose, timed, frozen(loads), None if factors is None else frozen(factors))
+    doubts = _doubts(whose, masses)
+    return Asked(whose, timed, frozen(loads), None if factors is None else frozen(factors), doubts)
+
+
+def _doubts(whose: Grasp | Analysis | GraspStack, masses: Any) -> tuple[str, ...]:
+    """Return what of some masses can hardly be meant: of the least and the largest of them."""
+    held = None if masses is None else _like(whose).held
+    ends = [] if held is None else [float(np.min(masses)), float(np.max(masses))]
+    return tuple(dict.fromkeys(f"masses: {said}" for each in ends if held and (said := mass_doubt(held.body, each))))
 
 
 def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:

@@ -47,8 +47,14 @@ class ManyPlans(Value):
     finished: NDArray[np.bool_]
     """(N,) False for tasks of the chunks that were not through when somebody interrupted it."""
     refusals: Mapping[int, InputError]
+<<<<<<< HEAD
     """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal): they
     are "unknown" here."""
+=======
+    """Of grasps that are rigid in some contact direction, what `plan` raises, by their place; "unknown" here."""
+    notes: tuple[str, ...] = ()
+    """What of what was asked can hardly be meant."""
+>>>>>>> part-thirteen
 
     @property
     def worst_margin(self) -> Array:
@@ -70,7 +76,8 @@ class ManyPlans(Value):
             f"{int((self.verdicts == each).sum())} {each}" for each in (FEASIBLE, INFEASIBLE, UNKNOWN)
         )  # fmt: skip
         rest = f"; interrupted after {int(self.finished.sum())}" if self.interrupted else ""
-        return f"ManyPlans({len(self)} tasks: {counts}; {int(self.one_by_one.sum())} planned one by one{rest})"
+        noted = f"; note: {self.notes[0]}" if self.notes else ""
+        return f"ManyPlans({len(self)} tasks: {counts}; {int(self.one_by_one.sum())} planned one by one{rest}{noted})"
 
 
 class Unfinished:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from typing import Any, Literal
 
@@ -106,7 +107,7 @@ def plan_many(
                 progress("planning", (int(places[-1]) + 1) / question.count)
     except KeyboardInterrupt:
         LOG.info("interrupted after %d tasks", int(found.flags["finished"].sum()))
-    many = found.told()
+    many = replace(found.told(), notes=question.notes)
     LOG.info("%r", many)
     return many
 

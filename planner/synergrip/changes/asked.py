@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
@@ -26,6 +28,8 @@ from synergrip.tasks.timed_task import TimedTask
 from synergrip.tasks.timing import at_start
 from synergrip.values import Value
 
+MANY, FEWER = 4, 5
+"""Instants between the knots for each knot from which on some of them are looked at first: each fifth."""
 STATED = "other numbers are planned without allow.scenarios, for the grasp as it is stated: each takes many plans"
 
 
@@ -138,6 +142,19 @@ class Posed(Value):
     def at_knots(self) -> Posed:
         """The same where nothing is asked between the knots: without an answer there is none to the whole, either."""
         return replace(self, formulation=replace(self.formulation, intersample=None))
+
+    @property
+    def at_fewer(self) -> Posed | None:
+        """The same where only some instants between the knots are looked at; None where there are few anyhow.
+
+        Without an answer there is none to the whole, either.
+        """
+        between = self.formulation.intersample
+        if between is None or not between.exact or between.corner.sum() < MANY * (~between.corner).sum():
+            return None
+        keep = ~between.corner | (np.arange(len(between.corner)) % FEWER == 0)
+        fewer = replace(between, grid=between.grid.of(keep), corner=between.corner[keep])
+        return replace(self, formulation=replace(self.formulation, intersample=fewer))
 
     def program(self) -> Program:
         """Return the program of least effort within all limits."""

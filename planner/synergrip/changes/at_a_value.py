@@ -57,11 +57,19 @@ def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outco
 
 
 def no_plan(posed: Posed | None) -> bool:
-    """Return whether it is certified that there is no plan; with the rows of the knots first, which are fewer."""
+    """Return whether it is certified that there is no plan; with the rows of fewer instants first, which prove as much.
+
+    Where some of the instants between the knots leave a plan, all of them hardly leave less: that is not looked into.
+    """
     if posed is None:
         return False
-    every = (posed,) if posed.formulation.intersample is None else (posed.at_knots, posed)
-    return any(solved("any plan", each.program()).infeasible for each in every)
+    if posed.formulation.intersample is not None and solved("any plan", posed.at_knots.program()).infeasible:
+        return True
+    fewer = posed.at_fewer
+    decision = None if fewer is None else solved("any plan", fewer.program())
+    if decision is not None and (decision.infeasible or decision.acceptable):
+        return decision.infeasible
+    return solved("any plan", posed.program()).infeasible
 
 
 def first_plan(dial: Dial[Asked], values: Iterable[float], effort: Effort = WHOLE) -> tuple[float, Plan] | None:

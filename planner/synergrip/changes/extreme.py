@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import decided_at, narrowed, no_plan, posed_at, solved, with_room
 from synergrip.changes.least_change import turning_column, with_turns
+from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
+from synergrip.linalg import Array
 from synergrip.values import Value
 
 FAR = 1e3
@@ -41,26 +44,31 @@ def extreme(dial: Dial[Asked], posed: Posed, program: Program) -> Extreme:
         posed: what is asked, as a program of the start posture.
         program: that program, which has a plan.
     """
-    value = _by_one_program(dial, posed, program) if dial.smooth else None
+    value, rays = _by_one_program(dial, posed, program) if dial.smooth else (None, ())
     if value is None:
         value = _by_bisection(dial, posed)
     if value is None:
         return Extreme(dial, None, None)
     value = with_room(dial, value)
-    return Extreme(dial, value, _past(dial, value, posed))
+    return Extreme(dial, value, _past(dial, value, posed, rays))
 
 
-def _by_one_program(dial: Dial[Asked], posed: Posed, program: Program) -> float | None:
-    """Return the extreme value by a program with one more unknown; None where nothing verifies."""
+def _by_one_program(dial: Dial[Asked], posed: Posed, program: Program) -> tuple[float | None, tuple[Array, ...]]:
+    """Return the extreme value by a program with one more unknown, and the multipliers there; None without any.
+
+    None where nothing verifies.
+    """
     column = turning_column(dial, posed, program)
     if column is None:
-        return None
+        return None, ()
     most = 1.0 if dial.eased == "up" else FAR  # to 0, or to many times the number
     decision = solved("farthest turn", with_turns(program, [-column], [most], most=True))
     if not decision.optimal:
-        return None
+        return None, ()
     turn = float(np.clip(decision.solution.x[-1], 0.0, most))
-    return dial.ahead(-turn) if turn < most * (1 - 1e-6) else None
+    if turn >= most * (1 - 1e-6):
+        return None, ()
+    return dial.ahead(-turn), (decision.solution.z[: len(program.b)],)
 
 
 def _by_bisection(dial: Dial[Asked], posed: Posed) -> float | None:
@@ -79,10 +87,22 @@ def _by_bisection(dial: Dial[Asked], posed: Posed) -> float | None:
     return None
 
 
-def _past(dial: Dial[Asked], value: float, posed: Posed) -> float | None:
-    """Return the nearest of some values farther on of which it is certified that there is no plan."""
+def _past(dial: Dial[Asked], value: float, posed: Posed, rays: Sequence[Array]) -> float | None:
+    """Return the nearest of some values farther on of which it is certified that there is no plan.
+
+    Where it is the same program that is asked there, the multipliers at the extreme are tried as proofs first.
+    """
     for share in () if not dial.nested else BEYOND[:1] if posed.strict else BEYOND:
         farther = dial.easier(value, -share * abs(value))
-        if no_plan(posed_at(dial, farther, posed, every=True)):
+        there = posed_at(dial, farther, posed, every=True)
+        if _proven_by(rays, there, posed) or no_plan(there):
             return farther
     return None
+
+
+def _proven_by(rays: Sequence[Array], there: Posed | None, posed: Posed) -> bool:
+    """Return whether some multipliers certify that there is no plan, in the units in which they were found."""
+    if there is None or not rays or not posed.strict:
+        return False
+    program = replace(there, formulation=there.formulation.in_units(posed.formulation.units)).program()
+    return any(len(ray) == len(program.b) and judge_infeasible(program, ray).verified for ray in rays)

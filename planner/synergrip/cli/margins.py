@@ -31,6 +31,11 @@ if TYPE_CHECKING:
     from synergrip.margin.found import Margins
     from synergrip.margin.timing.fastest_timing import FastestTiming
 
+ASKED = (
+    "critical_friction_scale, heaviest_kg, load_factor, least_peak_N, least_effort, shortest_duration_s, "
+    "largest_amplitude, disturbance, quality, sensitivities, critical_friction_per_contact, "
+    "largest_amplitude_per_mode, fastest_timing_s"
+)
 TIMED = "palm.csv"
 """The file of the fastest timing, in the folder that is asked for."""
 
@@ -42,7 +47,7 @@ def margins(
     only: Annotated[
         list[str] | None,
         typer.Option(
-            "--only", metavar="NAME", help="heaviest_kg, disturbance, fastest_timing_s, ...; may be repeated."
+            "--only", metavar="NAME", help=f"One of {ASKED}; may be repeated. Without it, all but the last three."
         ),
     ] = None,
     direction: Annotated[

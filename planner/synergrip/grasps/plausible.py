@@ -22,6 +22,8 @@ LIGHTEST, HEAVIEST = 1.0, 25000.0
 """Densities that objects have [kg/m^3]: more than air has, and less than osmium and iridium have."""
 EARTH = 9.81
 """[m/s^2]"""
+OTHER_UNIT = 100.0
+"""Factor between masses of one object from which on one of them is in another unit."""
 MUCH = 0.2
 """Share of an object by which no contact gives under its weight."""
 STEPS, WAYS = 10, 16
@@ -77,17 +79,28 @@ def _on_edges(grasp: Grasp) -> Iterator[Issue]:
 
 
 def _unlikely_mass(body: Object) -> Iterator[Issue]:
-    """Yield a mass that no solid of this shape has, by the box around it."""
-    if body.shape is None or not body.mass:
-        return
-    density = body.mass / float(np.prod(extents(body.shape)))
-    if not LIGHTEST < density < HEAVIEST:
+    """Yield a mass that no solid of this shape has."""
+    if body.mass and (said := mass_doubt(body, body.mass)):
+        yield Issue(said, key="object.mass")
+
+
+def mass_doubt(body: Object, mass: float) -> str:
+    """Return why an object can hardly have a mass [kg], by the box around its shape or the mass that is stated."""
+    if body.shape is not None:
+        density = mass / float(np.prod(extents(body.shape)))
+        if LIGHTEST < density < HEAVIEST:
+            return ""
         than = f"more than {HEAVIEST:g}: no solid" if density > 1 else f"less than {LIGHTEST:g}, as air: nothing"
-        message = (
-            f"{1e3 * body.mass:.4g} g in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
+        return (
+            f"{1e3 * mass:.4g} g in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
             "that hands hold is so; is it in another unit?"
         )
-        yield Issue(message, key="object.mass")
+    if not body.mass or 1 / OTHER_UNIT < mass / body.mass < OTHER_UNIT:
+        return ""
+    return (
+        f"{mass:.4g} kg are {mass / body.mass:.3g} times the object's own mass, {body.mass:.4g} kg: in code masses are "
+        "in kg; is it in another unit?"
+    )
 
 
 def _soft_contacts(grasp: Grasp, body: Object) -> Iterator[Issue]:

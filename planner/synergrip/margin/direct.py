@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,8 +19,9 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
-NEARER = (0.999, 0.97, 0.9, 0.7, 0.4)
-"""Shares of the way to the extreme of the start posture that are tried on a hand that moves until there is a plan."""
+WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.97)
+"""Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
+where that has no plan the others, halved until the last one with a plan is known."""
 FARTHER = (1.1, 1.5)
 """Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
@@ -29,8 +30,9 @@ MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
 """Shares by which a bound is wider than what the plan uses that is there; the least with a plan is found by halves."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
-HALVES = 1
-"""How often it is halved, if nothing else is said."""
+HALVES, NEAR = 1, 0.02
+"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number. A
+bound is not looked for along the motion where a plan that was made without it is as near to its end."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -125,7 +127,8 @@ def number_of(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> Direct
     found = extreme(dial, own, own.program())
     if found.value is None:
         return DirectNumber.none(of.name, of.unit, f"no end of it was found up to {FAR:g} times what it is")
-    if abs(found.value - dial.value) < AT_END * abs(dial.value):
+    near = NEAR if dial.cause in OF_PLAN and plan.executed is not None else AT_END
+    if abs(found.value - dial.value) < near * abs(dial.value):
         return _near(of, found, plan)
     if plan.executed is not None:
         return _along(of, found, plan)
@@ -175,11 +178,14 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
     dial, end = found.dial, found.value
     assert end is not None
-    search = _Search(dial, end, dial.value, plan, None)
-    for share in NEARER:
-        search = search.tried(share)
-        if search.bad is None or search.best is not plan:
-            break
+    search = _Search(dial, end, dial.value, plan, None).tried(WHOLE_WAY)
+    rest: Sequence[float] = NEARER
+    while search.bad is not None and rest:
+        middle, before = len(rest) // 2, search.good
+        search = search.tried(rest[middle])
+        rest = rest[:middle] if search.good == before else rest[middle + 1 :]
+    if search.best is plan and dial.cause in OF_PLAN:
+        return _near(of, found, plan)
     if search.bad is None and np.any(plan.task.target.values):
         for share in FARTHER:
             search = search.tried(share)
@@ -187,8 +193,6 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
                 break
     for _ in range(of.halves):
         search = search.halved()
-    if search.best is plan and dial.cause in OF_PLAN:
-        return _near(of, found, plan)
     return _ends(of, found, search.good, search.best, search.bad)
 
 
@@ -212,7 +216,8 @@ class _Search(Value):
 
     def halved(self) -> _Search:
         """Return it with the value between those with and without a plan, as many times the one as the other of it."""
-        return self if self.bad is None else self._with(between(self.good, self.bad))
+        near = self.bad is None or abs(self.good - self.bad) <= NEAR * abs(self.good)
+        return self if near or self.bad is None else self._with(between(self.good, self.bad))
 
     def _with(self, value: float) -> _Search:
         value = self.dial.rounded(value)

@@ -149,6 +149,6 @@ def _more(found: Margins, wants: _Wants, asked: Asked, task: Task | TimedTask, h
 
 def _quality(made: Plan) -> WrenchSpaceQuality | None:
     try:
-        return wrench_space_quality(made.analysis)
+        return wrench_space_quality(made.analysis, each=True)
     except InputError:  # contacts of a kind of one's own
         return None

@@ -59,14 +59,17 @@ def in_cases(task: TimedTask, analysis: Analysis, formulation: Formulation, dz_r
             found.append(InCase(title, tuple(use(limit, moved) for limit in limits)))
     if allowed.samples:
         moved_by = (forward(each, looks.times, references, looks.wrench, started(each)) for each in allowed.samples)
-        found.append(_worst(allowed, [tuple(use(limit, each) for limit in limits) for each in moved_by]))
+        found += _worst(len(allowed.samples), [tuple(use(limit, each) for limit in limits) for each in moved_by])
     return tuple(found)
 
 
-def _worst(allowed: Allowed, every: Sequence[tuple[Usage, ...]]) -> InCase:
-    """Return the sample that is nearest to a limit, or farthest beyond it."""
-    worst = max(every, key=lambda usages: max(usage.violation for usage in usages))
-    return InCase(f"the worst of {len(allowed.samples)} scenarios", worst)
+def _worst(count: int, every: Sequence[tuple[Usage, ...]]) -> Iterator[InCase]:
+    """Yield the sample with the smallest slip margin and, where it is another, the one nearest to or beyond a limit."""
+    slips = min(every, key=lambda usages: float(usages[0].value.min()))
+    nearest = max(every, key=lambda usages: max(usage.violation for usage in usages))
+    yield InCase(f"the worst of {count} scenarios", slips)
+    if nearest is not slips:
+        yield InCase(f"of {count} scenarios the nearest to a limit", nearest)
 
 
 def titled(allowed: Allowed, narrow: Formulation, stated: Formulation, *parts: str) -> str:

@@ -81,7 +81,6 @@ class Plan(Tabled):
     """What the plan is not, although its goal would have it so."""
     between: Between | None = None
     """The plan between its knots; None when nothing is known of it."""
-
     executed: Execution | None = None
     """The true states along the plan, when its figures are those of the hand that moves; None for the linear model."""
     fixed: Execution | None = None
@@ -192,10 +191,11 @@ class Infeasible(Reasoned):
     """What in the problem may not say what its author means, and what would come of it; computed, not guessed."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
+    notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant
 
     verdict: ClassVar[str] = "infeasible"
     exit_code: ClassVar[int] = 1
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "conflicts", "repairs", "when", "hints", "certificate")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "conflicts", "repairs", "when", "hints", "notes", "certificate")
 
     def __repr__(self) -> str:
         """Return stage and reason."""
@@ -237,6 +237,7 @@ class Unknown(Reasoned):
     """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
+    notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""
@@ -244,7 +245,7 @@ class Unknown(Reasoned):
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "notes", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

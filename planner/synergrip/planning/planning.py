@@ -58,9 +58,9 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     """
     outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
-    if not isinstance(outcome, Plan):
-        return replace(outcome, asked=task)
     doubts = (*grasp_doubts(outcome.grasp), *task_doubts(task, outcome.task, outcome.grasp))
+    if not isinstance(outcome, Plan):
+        return replace(outcome, asked=task, notes=tuple(map(str, doubts)))
     return replace(outcome, notes=(*outcome.notes, *map(str, doubts))) if doubts else outcome
 
 

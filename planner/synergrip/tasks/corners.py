@@ -91,7 +91,9 @@ def _unweighed(allow: Allowances, grasp: Grasp, weight: tuple[Profile, ...]) -> 
     if allow.mass is None:
         return
     if grasp.held is None:
-        message = "a grasp given as matrices has no object; allow for other loads by 'load' instead"
+        message = (
+            "a grasp given as matrices has no object; give what its weight differs by at both ends as two of 'load'"
+        )
         yield Issue(message, key=f"{KEY}.mass", on_key=True)
     elif not weight:
         message = "another mass changes nothing without gravity, or a palm that moves with inertia"

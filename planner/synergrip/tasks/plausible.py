@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import Issue
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.plausible import EARTH, extents
+from synergrip.grasps.plausible import EARTH, extents, mass_doubt
 from synergrip.grasps.scale import scale_of
 from synergrip.tasks.allowances import Allowances
 from synergrip.tasks.gravity import Gravity
@@ -85,8 +85,12 @@ def _shift_of(load: object) -> float:
 
 def _beside_what_is_stated(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
     """Yield intervals that the value stated lies outside of: it is held for all the same."""
-    mass = grasp.held.body.mass if grasp.held is not None else 0.0
-    if allow.mass is not None and mass and not allow.mass[0] <= mass <= allow.mass[1]:
+    body = grasp.held.body if grasp.held is not None else None
+    mass = body.mass if body is not None else 0.0
+    unlikely = [] if body is None else [said for each in allow.mass or () if (said := mass_doubt(body, each))]
+    if unlikely:
+        yield Issue(unlikely[0], key="Task.allow.mass")
+    elif allow.mass is not None and mass and not allow.mass[0] <= mass <= allow.mass[1]:
         low, high = (f"{1e3 * each:.4g} g" for each in allow.mass)
         message = f"the object's own mass, {1e3 * mass:.4g} g, is not between {low} and {high}: it is held for, too"
         yield Issue(message, key="Task.allow.mass")

@@ -32,6 +32,10 @@ from synergrip.values import Value
 
 LOOKS = (1 / 32, 1 / 16, 1 / 8, 1 / 4, 3 / 8, 1 / 2, 5 / 8, 3 / 4, 7 / 8, 15 / 16, 31 / 32)
 """Where between grid points it is looked whether all limits hold there, too, as shares of the part."""
+CLOSER = 3
+"""How often it is looked again about the instant of each part at which limits are missed most, or nearly missed."""
+BETWEEN = 7
+"""Instants that are looked at then, between those beside it."""
 ADDS_UP = 1e-9
 """Share by which what limits say of a sum of loads may differ from the sum of what they say of each."""
 
@@ -98,20 +102,40 @@ class TimingQuestion(Value):
             v: (n + 1, n_v) unknowns of the plan at the grid points.
             b: (n + 1,) squares of the speed there [m^2/s^2].
         """
-        a, share = np.diff(b) / (2 * self.parts), np.array(LOOKS)
+        share = np.tile(LOOKS, (len(self.parts), 1))
+        beyond = self._beyond(v, b, share)
+        worst = beyond.max(axis=1)
+        for _ in range(CLOSER):
+            at, every = beyond.argmax(axis=1), np.arange(len(share))
+            ends = np.pad(share, ((0, 0), (1, 1)), constant_values=((0, 0), (0, 1)))
+            share = np.linspace(ends[every, at], ends[every, at + 2], BETWEEN + 2, axis=1)[:, 1:-1]
+            beyond = self._beyond(v, b, share)
+            worst = np.maximum(worst, beyond.max(axis=1))
+        return frozen(np.maximum(worst, 0.0))
+
+    def _beyond(self, v: Array, b: Array, share: Array) -> Array:
+        """Return how far limits are missed (n, k), below 0 where they hold.
+
+        Args:
+            v: (n + 1, n_v).
+            b: (n + 1,).
+            share: (n, k) where in each part, from 0 to 1.
+        """
+        a, count = np.diff(b) / (2 * self.parts), share.shape[1]
         inner = b[:-1, None] * (1 - share) + b[1:, None] * share
         found = None
         for leg, first in zip(self.legs, self.stops, strict=False):
-            at = (leg.at[:-1, None] + np.diff(leg.at)[:, None] * share).ravel()
-            load = load_along(self.grasp, self.task, leg, at)
             own = slice(int(first), int(first) + len(leg.at) - 1)
-            wrench = load.wrench(np.repeat(a[own], len(share)), inner[own].ravel())
+            at = (leg.at[:-1, None] + np.diff(leg.at)[:, None] * share[own]).ravel()
+            load = load_along(self.grasp, self.task, leg, at)
+            wrench = load.wrench(np.repeat(a[own], count), inner[own].ravel())
             found = wrench if found is None else np.concatenate([found, wrench])
         assert found is not None
-        unknowns = (v[:-1, None] * (1 - share[:, None]) + v[1:, None] * share[:, None]).reshape(-1, v.shape[1])
+        part = share[:, :, None]
+        unknowns = (v[:-1, None] * (1 - part) + v[1:, None] * part).reshape(-1, v.shape[1])
         formulation = _at(self.formulation, found)
         program = Question(formulation, self.limits, LeastEffort()).program()
-        return frozen(_outside(program, program.b - program.A @ unknowns.ravel()).reshape(-1, len(share)).max(axis=1))
+        return _outside(program, program.b - program.A @ unknowns.ravel()).reshape(-1, count)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -183,8 +207,8 @@ def _at(formulation: Formulation, wrench: Array) -> Formulation:
 
 
 def _outside(program: Program, slack: Array) -> Array:
-    """Return how far the slack (m,) is outside the cones of each instant (T,), 0 inside."""
-    worst = np.zeros(program.knots)
+    """Return how far the slack (m,) is outside the cones of each instant (T,), below 0 inside."""
+    worst = np.full(program.knots, -np.inf)
     for block, rows in program.slices():
         np.maximum.at(worst, block.instants, outside(block, slack[rows]))
     return worst

@@ -20,8 +20,6 @@ from synergrip.values import Value
 
 FEWEST = 3
 """Edges of a pyramid."""
-LATITUDE = np.pi / 4
-"""Of the rings of points beside the equator of a sphere."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,6 +76,18 @@ class UnitForces(Value):
         return np.asarray(force)
 
 
+def _rings(edges: int) -> Array:
+    """Return points (p, 3) of a unit sphere: its poles, and rings as far apart as the points on the equator are."""
+    quarter = max(round(edges / 4), 1)
+    found = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+    for ring in range(1 - quarter, quarter):
+        latitude = np.pi / 2 * ring / quarter
+        count = max(round(edges * np.cos(latitude)), FEWEST)
+        for angle in 2 * np.pi * (np.arange(count) + ring % 2 / 2) / count:
+            found.append([np.cos(latitude) * np.cos(angle), np.cos(latitude) * np.sin(angle), np.sin(latitude)])
+    return np.array(found)
+
+
 @cache
 def sphere_points(dimension: int, edges: int) -> tuple[Array, float]:
     """Return points (p, dimension) of a unit sphere and the radius of the ball inside their hull."""
@@ -90,9 +100,7 @@ def sphere_points(dimension: int, edges: int) -> tuple[Array, float]:
     if dimension == 2:
         return frozen(ring), float(np.cos(np.pi / edges))
     if dimension == 3:
-        turned = np.column_stack([np.cos(angles + np.pi / edges), np.sin(angles + np.pi / edges)])
-        high = [np.column_stack([np.cos(LATITUDE) * turned, np.full(edges, s * np.sin(LATITUDE))]) for s in (1.0, -1.0)]
-        points = np.vstack([np.column_stack([ring, np.zeros(edges)]), *high, [[0, 0, 1.0], [0, 0, -1.0]]])
+        points = _rings(edges)
     else:
         corner = np.array(list(product((-1.0, 1.0), repeat=dimension))) / np.sqrt(dimension)
         points = np.vstack([np.eye(dimension), -np.eye(dimension), corner])

@@ -1,4 +1,4 @@
-"""The external wrenches that internal forces of some kind can meet, with normal forces of one newton together.
+"""The external wrenches that internal forces of some kind can meet, with normal forces of one newton together or each.
 
 A wrench w is met by ``lambda = -G+ w + E x``: where E spans all internal forces, by any contact forces that balance it.
 """
@@ -14,27 +14,26 @@ from synergrip.changes.at_a_value import solved
 from synergrip.conic.program import Block, Program
 from synergrip.conic.rows import Item, Kind
 from synergrip.linalg import Array, frozen
-from synergrip.margin.wrench_space.wrench_hull import HullFigures, hull_figures
+from synergrip.margin.wrench_space.wrench_hull import HullFigures, figures_of_support
 from synergrip.statics.response import Response
 
 FAR = 1e3
 """Largest internal force in the unit of the normal forces: these are 1, and friction is not as large."""
-RANDOM = 20
-"""Directions beside the axes in which the farthest wrenches that synergies hold are looked for first."""
 ROOM = 1e-7
 """How much less far than the solver says a wrench is taken to be held, and how much farther none."""
 NOTHING = 1e-6
 """How far a wrench may go along a direction in which the synergies hold none, for the digits of the solver."""
 
 
-def controlled_figures(response: Response, internal: Array) -> HullFigures:
-    """Return the figures of external wrenches that are met with some internal forces, unit normal forces together.
+def controlled_figures(response: Response, internal: Array, *, each: bool = False) -> HullFigures:
+    """Return the figures of external wrenches that are met with some internal forces, and unit normal forces.
 
     Args:
         response: of the grasp.
         internal: (n_l, k) the internal forces, such as E_s; with all of them the wrenches are the grasp wrench space.
+        each: whether each normal force is 1 at most (L-infinity), not all of them together (L1).
     """
-    program = _unit_program(response, internal)
+    program = _unit_program(response, internal, each=each)
 
     def farthest(along: Array) -> tuple[Array, float]:
         q = np.append(-along, np.zeros(internal.shape[1]))
@@ -44,15 +43,11 @@ def controlled_figures(response: Response, internal: Array) -> HullFigures:
             return np.zeros((1, 6)), np.inf
         return x[None, :6] * (1 - ROOM), float(along @ x[:6]) + ROOM
 
-    rng = np.random.default_rng(0)
-    first = np.vstack([np.eye(6), -np.eye(6), rng.normal(size=(RANDOM, 6))])
-    found = [farthest(along / np.linalg.norm(along)) for along in first]
-    points, most = np.vstack([np.zeros((1, 6)), *(each for each, _ in found)]), min(reach for _, reach in found)
-    return hull_figures(points, farthest, NOTHING, most)
+    return figures_of_support(farthest, NOTHING)
 
 
-def _unit_program(response: Response, internal: Array) -> Program:
-    """Return cones of ``-G+ w + internal x``, and that the normal forces together are 1 at most.
+def _unit_program(response: Response, internal: Array, *, each: bool) -> Program:
+    """Return cones of ``-G+ w + internal x``, and that the normal forces together, or each, are 1 at most.
 
     The unknowns are w in scaled coordinates, and x.
     """
@@ -64,12 +59,13 @@ def _unit_program(response: Response, internal: Array) -> Program:
             kind = Kind.NONNEGATIVE if len(W) == 1 else Kind.SECOND_ORDER
             rows.append(row)
             blocks.append(Block("friction cone", kind, len(W), (Item(contact.name, side),), 0, 1, friction=True))
-    total = np.zeros((1, grasp.n_l))
-    total[0, grasp.normal_rows] = -1.0
-    whole = np.vstack([*rows, total])
-    blocks.append(Block("normal forces", Kind.NONNEGATIVE, 1, (Item("all"),), 0, 1))
+    normals = -np.eye(grasp.n_l)[np.asarray(grasp.normal_rows)]
+    bounds = normals if each else normals.sum(axis=0, keepdims=True)
+    items = tuple(Item(contact.name) for contact in grasp.contacts) if each else (Item("all"),)
+    whole = np.vstack([*rows, bounds])
+    blocks.append(Block("normal forces", Kind.NONNEGATIVE, 1, items, 0, 1))
     A = -whole @ np.hstack([response.dlambda_dw @ response.scale.motion.T, internal])
-    n, b = A.shape[1], np.eye(len(whole))[-1]
+    n, b = A.shape[1], np.append(np.zeros(len(whole) - len(bounds)), np.ones(len(bounds)))
     return Program(
         sparse.csc_matrix((n, n)), frozen(np.zeros(n)), sparse.csc_matrix(A), frozen(b), tuple(blocks), 1, n,
         frozen(np.full(n, FAR)),

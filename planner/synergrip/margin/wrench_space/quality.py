@@ -1,17 +1,18 @@
 """The classical figures of a grasp, and what its synergies cost of them.
 
-Unit normal forces, L1: the normal forces of all contacts together are one newton at most (Ferrari and Canny, Planning
-optimal grasps, 1992). Wrenches are those of the length-scaled norm: moments about the centroid of the contacts, divided
-by their mean distance L from it, so that all figures are free of units.
+Unit normal forces: those of all contacts together are one newton at most (L1), or each of them is (L-infinity), both
+after Ferrari and Canny, Planning optimal grasps, 1992. Wrenches are those of the length-scaled norm: moments about the
+centroid of the contacts, divided by their mean distance L from it, so that all figures are free of units.
 
 Fully actuated, a hand makes every contact force in the cones: the grasp wrench space is the hull of what the contacts
-do one by one, epsilon the radius of the largest ball about 0 in it. With synergies alone an external wrench w is met by
-``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller convex set, of the same norm and unit forces.
+do one by one (L1) or their Minkowski sum (L-infinity), epsilon the radius of the largest ball about 0 in it. With
+synergies alone an external wrench w is met by ``lambda = -G+ w + E_s alpha``: what of it lies in the cones is a smaller
+convex set, of the same norm and unit forces.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -23,13 +24,13 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, split
 from synergrip.margin.wrench_space.contact_wrenches import FEWEST, UnitForces
 from synergrip.margin.wrench_space.controlled_wrenches import controlled_figures
-from synergrip.margin.wrench_space.wrench_hull import hull, hull_figures, is_flat
+from synergrip.margin.wrench_space.wrench_hull import figures_of_support, hull, hull_figures, is_flat
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.response import Response
 from synergrip.statics.restraint import NO_LOAD
 from synergrip.values import Value
 
-EDGES = 8
+EDGES = 12
 """Of the pyramid of a hard finger, to begin with."""
 MOST = 64
 """Edges: a hull of more takes longer than adding points where they count."""
@@ -68,6 +69,11 @@ class WrenchSpaceQuality(Value):
     """Of the pyramid of a hard finger, before points were added where they count."""
     length: float
     """L [m]."""
+    epsilon_each: tuple[float, float] | None = None
+    """Epsilon where each normal force is 1 at most (L-infinity), every contact force being made; None where it was
+    not asked for."""
+    epsilon_each_synergies: tuple[float, float] | None = None
+    """The same where internal forces are those of E_s."""
     why: str = ""
     """Why there is no ball, where it is known."""
 
@@ -88,12 +94,14 @@ class WrenchSpaceQuality(Value):
 
 
 @naming_arguments
-def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> WrenchSpaceQuality:
+def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES, each: bool = False) -> WrenchSpaceQuality:
     """Return the classical figures of a grasp: epsilon and volume of its wrench space, singular values, isotropy.
 
     Args:
         grasp: the grasp, or its analysis.
-        edges: of the pyramid of a hard finger, 3 to 64; a sphere of three components has three rings of as many.
+        edges: of the pyramid of a hard finger, 3 to 64; a sphere of three components has rings of as many
+            and fewer.
+        each: whether epsilon is told for normal forces of 1 each (L-infinity), too, beside 1 together (L1).
 
     Raises:
         InputError: no grasp; fewer edges, or more; a kind of contact of one's own whose cones share components.
@@ -118,7 +126,8 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
     around = own.points(edges, outside=True)
     if not response.restrained or is_flat(around):
         why = "the wrench space is flat: there is a wrench that no contact forces make"
-        return found(ENDS, ENDS, ENDS, ENDS, ENDS, why=why)
+        flat = found(*(ENDS,) * 5, why=why)
+        return replace(flat, epsilon_each=ENDS, epsilon_each_synergies=ENDS) if each else flat
     inner, (outer, most) = hull(own.points(edges))[0], hull(around)
     whole = hull_figures(own.points(edges), own.farthest)
     made = controlled_figures(response, analysis.spaces.E_s)
@@ -127,9 +136,22 @@ def wrench_space_quality(grasp: Grasp | Analysis, *, edges: int = EDGES) -> Wren
         made.epsilon, "the synergies hold loads from every direction",
         "the synergies do not hold loads from every direction",
     )  # fmt: skip
-    part = (made.epsilon[0], min(made.epsilon[1], whole.epsilon[1]))  # of the same wrenches, with fewer forces
+    part = _no_more(made.epsilon, whole.epsilon)
     pyramids = max(float(-inner[:, -1].max()), 0.0), max(float(-outer[:, -1].max()), 0.0)
-    return found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), why=why)
+    told = found(whole.epsilon, part, pyramids, (whole.volume, most), (made.volume, most), why=why)
+    return _with_each(told, own, analysis) if each else told
+
+
+def _with_each(told: WrenchSpaceQuality, own: Contacts, analysis: Analysis) -> WrenchSpaceQuality:
+    """Return figures with epsilon of any contact forces, and of E_s, where each normal force is 1 at most."""
+    whole = figures_of_support(own.farthest_sum).epsilon
+    made = controlled_figures(analysis.response, analysis.spaces.E_s, each=True).epsilon
+    return replace(told, epsilon_each=whole, epsilon_each_synergies=_no_more(made, whole))
+
+
+def _no_more(part: tuple[float, float], whole: tuple[float, float]) -> tuple[float, float]:
+    """Return the ends of epsilon of some of the wrenches of a set: what all of them do not hold they do not."""
+    return part[0], min(part[1], whole[1])
 
 
 def _none_of(epsilon: tuple[float, float], some: str, none: str) -> str:
@@ -164,6 +186,16 @@ class Contacts(Value):
         """Return the wrench (n_c, 6) of each contact that goes farthest along a direction, and how far one does."""
         points = np.array([G @ own.farthest(G.T @ along) for own, G in zip(self.forces, self.maps, strict=True)])
         return points, max(float((points @ along).max()), 0.0)
+
+    def farthest_sum(self, along: Array) -> tuple[Array, float]:
+        """Return the wrench (1, 6) of all contacts together that goes farthest along a direction, and how far it does.
+
+        Each does what goes farthest, or nothing where all that it can do goes the other way: the support of a Minkowski
+        sum is the sum of the supports.
+        """
+        points, _ = self.farthest(along)
+        gained = points @ along
+        return points[gained > 0].sum(axis=0, keepdims=True), float(np.maximum(gained, 0.0).sum())
 
 
 def _made(analysis: Analysis) -> Array:

@@ -30,9 +30,10 @@ def disturbance_document(found: Disturbances) -> dict[str, Any]:
 def quality_document(found: WrenchSpaceQuality) -> dict[str, Any]:
     """Return the part of the classical figures."""
     pairs = ("epsilon", "epsilon_synergies", "epsilon_pyramids", "volume", "volume_synergies")
+    each = ("epsilon_each", "epsilon_each_synergies") if found.epsilon_each is not None else ()
     numbers = ("smallest_singular_value", "isotropy", "isotropy_synergies")
     return {
-        **{name: dict(zip(("lower", "upper"), getattr(found, name), strict=True)) for name in pairs},
+        **{name: dict(zip(("lower", "upper"), getattr(found, name), strict=True)) for name in (*pairs, *each)},
         **{name: getattr(found, name) for name in numbers},
         "singular_values": found.singular_values.tolist(),
         "singular_values_synergies": found.singular_values_synergies.tolist(),

@@ -18,7 +18,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.cone_sections import cone_sections
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.layout import MARGIN
-from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, GREY, INK, SKY, Panel, Sheet
+from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.strips import LEFT, WIDTH, Strip, plain, write_strips
 from synergrip.reports.text.text_sensitivities import change_of
 
@@ -117,8 +117,8 @@ def _directions(panel: Panel, forces: Array, names: list[str], half: float) -> N
     reach = half / 1.2
     panel.strokes([np.array([[-reach, 0.0], [reach, 0.0]]), np.array([[0.0, -reach], [0.0, reach]])], FAINT, 0.8)
     if not np.any(np.isnan(forces)):
-        panel.area(forces, SKY, 0.45, near=2)
-    panel.strokes([np.vstack([forces, forces[:1]])], BLUE, 1.6, near=3)
+        panel.area(forces, GREY, 0.2, near=2)
+    panel.strokes([np.vstack([forces, forces[:1]])], INK, 1.6, near=3)
     panel.note(np.array([reach * 1.1, 0.0]), names[0])
     panel.note(np.array([0.0, reach * 1.1]), names[1])
 
@@ -136,7 +136,7 @@ def _worth(bars: list[Sensitivity]) -> Strip:
 
     def draw(sheet: Sheet, top: float) -> None:
         axes = sheet.chart(NAMES, top + 0.1, WIDTH - NAMES - MARGIN, high)
-        colors = [BLUE if each.kind == LARGEST else GREEN for each in bars]
+        colors = [INK if each.kind == LARGEST else GREY for each in bars]
         places = np.arange(len(bars))[::-1]
         axes.barh(places, [each.gain for each in bars], color=colors, height=0.7)
         axes.set_yticks(places, [change_of(each) for each in bars])
@@ -145,8 +145,8 @@ def _worth(bars: list[Sensitivity]) -> Strip:
         axes.tick_params(axis="y", length=0)
 
     title = (
-        "What changes add, each by 1 % of a number, 1 mm of a contact or 1 deg of its normal: blue to the largest "
-        "margin that there is, green to the worst margin under these references"
+        "What changes add, each by 1 % of a number, 1 mm of a contact or 1 deg of its normal: dark to the largest "
+        "margin that there is, grey to the worst margin under these references"
     )
     return Strip(title, high + BELOW + 0.1, draw)
 
@@ -167,7 +167,7 @@ def _timing(found: FastestTiming) -> Strip:
                 label=f"as asked, {found.given_s:.4g} s",
             )
         if found.path is not None and found.share is not None:
-            axes.plot(found.path.times, 100 * found.share, color=BLUE, lw=1.8, label=f"fastest, {found.value:.4g} s")
+            axes.plot(found.path.times, 100 * found.share, color=INK, lw=1.8, label=f"fastest, {found.value:.4g} s")
         axes.margins(x=0.0)
         plain(axes, "time [s]", "way of the palm [%]")
         _legend(axes)

@@ -27,6 +27,18 @@ def case_lines(plan: Plan) -> Iterator[str]:
         yield from wrapped("allow    ", f"{told}; {_least(plan.cases)}{_share(plan)}")
 
 
+def guaranteed_margin(plan: Plan) -> str:
+    """Return that the smallest slip margin is the one as stated, and which one is kept in all that is allowed for."""
+    if not plan.cases:
+        return ""
+    least = worst_case(plan.cases)
+    if plan.fresh is not None:
+        also = f"; {least.margin:.4g} N in what is guaranteed beside" if len(plan.cases) > 1 else ""
+        return f" as stated{also}; scenarios keep what is asked, not this"
+    drawn = " and of the scenarios drawn" if plan.formulation.allowed and plan.formulation.allowed.samples else ""
+    return f" as stated; {least.margin:.4g} N in the worst case of all that is allowed for{drawn}"
+
+
 def judged_cases(cases: Sequence[InCase], fresh: FreshSamples | None, allowed: Allowed | None) -> Iterator[str]:
     """Yield the lines of ``allow`` about references that were judged, and were not made for it: the worst cases."""
     if not cases or allowed is None:

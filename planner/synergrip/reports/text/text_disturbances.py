@@ -15,7 +15,7 @@ from synergrip.reports.text.tables import table, wrapped
 NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")
 SAME = 5e-5
 """Relative difference of two ends that are told as one number."""
-FAR_APART = 0.01
+FAR_APART = 0.05
 """The same from which on both are told to two digits."""
 NONE_LEFT = 1e-5
 """[N] or [N m] below which nothing is left."""
@@ -60,6 +60,7 @@ def quality_lines(found: WrenchSpaceQuality) -> Iterator[str]:
     yield "Classical figures, free of units: normal forces of 1 together (L1), moments divided by the same length"
     rows = (
         ("epsilon quality", _pair(found.epsilon), _pair(found.epsilon_synergies)),
+        *_of_each(found),
         ("volume", _pair(found.volume), _pair(found.volume_synergies)),
         (
             "smallest singular value",
@@ -71,6 +72,12 @@ def quality_lines(found: WrenchSpaceQuality) -> Iterator[str]:
     yield table(("", "any contact forces", "those that synergies and loads make"), rows)
     if found.why:
         yield from wrapped("         ", found.why)
+
+
+def _of_each(found: WrenchSpaceQuality) -> Iterator[tuple[str, str, str]]:
+    """Yield the row of normal forces of 1 each, where it was asked for."""
+    if found.epsilon_each is not None and found.epsilon_each_synergies is not None:
+        yield "epsilon, 1 each (L-infinity)", _pair(found.epsilon_each), _pair(found.epsilon_each_synergies)
 
 
 def _about(found: Disturbances) -> str:

@@ -14,7 +14,7 @@ from synergrip.margin.measures import Measure
 from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_cases import case_table
+from synergrip.reports.text.text_cases import case_table, guaranteed_margin
 from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
 from synergrip.reports.text.text_on_request import attained_cells, several_lines
 from synergrip.reports.text.text_plan import verdict_word
@@ -29,6 +29,10 @@ ASKS = {
     "largest_amplitude": ("how far", "times the motion"),
 }  # fmt: skip
 """Name of a number -> what it answers, and the words for its unit where it has none."""
+
+
+ROUNDING = 1e-8
+"""[N], degrees or a share below which a margin is none."""
 
 
 def margins_text(
@@ -48,8 +52,8 @@ def margins_text(
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
     head = [
         *problem_lines(problem), "",
-        f"{verdict_word(plan.verdict, color)}  smallest slip margin {slip.value:.4g} N ({slip.name}, "
-        f"t = {slip.time_s:.2f} s)",
+        f"{verdict_word(plan.verdict, color)}  smallest slip margin {_value(found.measures['slip margin'])} "
+        f"({slip.name}, t = {slip.time_s:.2f} s){guaranteed_margin(plan)}",
     ]  # fmt: skip
     parts = [head, [f"How sure it is: the worst of all knots, of {who}", _measures(found)], *_parts(found, whole=whole)]
     if found.timing is not None:
@@ -96,7 +100,7 @@ def _cases(found: Margins) -> Iterator[str]:
 def _value(measure: Measure) -> str:
     value = measure.worst.value
     if np.isfinite(value):
-        return f"{value:.4g} {measure.unit}".strip()
+        return f"{value if abs(value) > ROUNDING else 0.0:.4g} {measure.unit}".strip()
     return "none would do" if measure.most_is_worst else "no friction is needed"
 
 

@@ -24,7 +24,7 @@ from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
-from synergrip.reports.text.text_cases import case_lines
+from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
@@ -139,7 +139,8 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
-    yield f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){best}"
+    head = f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
+    yield f"{head}{best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
     limits = plan.task.limits
     if not any(isinstance(limit, NormalForce) and np.isfinite(limit.upper) for limit in limits):
@@ -157,7 +158,8 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
 def _largest_of(plan: Plan) -> str:
     """Return among what a margin is the largest."""
     if plan.executed is not None:
-        return "found along the motion" if plan.passes else "of the start posture, executed"
+        told = "found along the motion" if plan.passes else "of the start posture, executed"
+        return f"{told}, as stated" if plan.cases else told
     held = plan.task.between == "hold" and plan.between is not None and not plan.between.exact
     held = held or (plan.task.allowed is not None and plan.task.allowed.reserves)
     return "there is with the reserve" if held else "there is"  # the program asks for more where a load is curved
