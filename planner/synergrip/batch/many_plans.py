@@ -47,14 +47,10 @@ class ManyPlans(Value):
     finished: NDArray[np.bool_]
     """(N,) False for tasks of the chunks that were not through when somebody interrupted it."""
     refusals: Mapping[int, InputError]
-<<<<<<< HEAD
     """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal): they
     are "unknown" here."""
-=======
-    """Of grasps that are rigid in some contact direction, what `plan` raises, by their place; "unknown" here."""
     notes: tuple[str, ...] = ()
     """What of what was asked can hardly be meant."""
->>>>>>> part-thirteen
 
     @property
     def worst_margin(self) -> Array:
