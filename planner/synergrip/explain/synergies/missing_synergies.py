@@ -183,7 +183,7 @@ def _with_whole_set(
         whole = in_place_of(extending)
     except KeyboardInterrupt:
         return found, (*notes, INTERRUPTED)
-    return (found if whole is None else (whole, *found)), notes
+    return (found if whole is None else (*found, whole)), notes
 
 
 def _none(no: Infeasible, count: int | None, why: str) -> MissingSynergies:
