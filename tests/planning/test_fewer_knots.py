@@ -101,17 +101,21 @@ def test_from_knot_to_knot_they_are_cubics_that_turn_at_corners() -> None:
     assert np.allclose(begun.references, linear.dz_r + kink, rtol=0, atol=1e-12)
 
 
-def test_an_interrupt_in_them_tells_how_far_they_had_come(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = 0
+class Interrupted:
+    """A solver that somebody interrupts at the third program along the motion: one pass has been made then."""
 
-    def solver(question: Question, program: Program, settings: Settings) -> Solution:
-        nonlocal asked
-        asked += question.formulation.along_path
-        if asked == 3:
+    def __init__(self) -> None:
+        self.asked = 0
+
+    def __call__(self, question: Question, program: Program, settings: Settings) -> Solution:
+        self.asked += question.formulation.along_path
+        if self.asked == 3:
             raise KeyboardInterrupt
         return SOLVERS["clarabel"](question, program, settings)
 
-    problem = load_problem("human-ball-far", [AT_41])
+
+def test_an_interrupt_in_them_tells_how_far_they_had_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, solver = load_problem("human-ball-far", [AT_41]), Interrupted()
     begun: list[Walk] = []
     made = beginning._on_from
 
@@ -125,3 +129,11 @@ def test_an_interrupt_in_them_tells_how_far_they_had_come(monkeypatch: pytest.Mo
         plan(problem.grasp, problem.task, solver)
     assert begun[0].interrupted
     assert len(begun[0].references) == 41
+
+
+def test_an_interrupt_ends_it_where_not_all_knots_are_reached(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, solver = load_problem("human-ball-far", [AT_41]), Interrupted()
+    monkeypatch.setattr(FewerKnots, "at_all_knots", lambda *_: None)
+    with pytest.raises(KeyboardInterrupt, match="does not get through all knots yet"):
+        plan(problem.grasp, problem.task, solver)
+    assert solver.asked == 3, "programs were asked for after the interrupt"

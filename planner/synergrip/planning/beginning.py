@@ -47,10 +47,16 @@ def _on_from(fewer: FewerKnots, there: Walk, smooth: Array) -> Walk | None:
         fewer: whose knots some of them are.
         there: the walk at these.
         smooth: (T, n_z) references where it began, at all knots.
+
+    Raises:
+        KeyboardInterrupt: it was interrupted, and what it had come to ends before the last knot.
     """
     if not fewer.walker.arrived(there) and not there.interrupted:
         return None
     begun = fewer.at_all_knots(there, smooth)
+    if begun is None and there.interrupted:
+        come = f"after {there.passes} pass{'es' * (there.passes != 1)} along the motion"
+        raise KeyboardInterrupt(f"{come}, the hand does not get through all knots yet")
     whole = None if begun is None else fewer.whole.on(begun)
     return whole if whole is not None and _done(fewer.whole, whole) else None
 
