@@ -1,4 +1,4 @@
-"""Vectors of space in stacks."""
+"""Vectors of space in stacks, and cubics between vectors."""
 
 from __future__ import annotations
 
@@ -23,3 +23,15 @@ def skews(vectors: Array) -> Array:
 def crossed(left: Array, right: Array) -> Array:
     """Return the cross products (..., 3) of vectors (..., 3): for small stacks much sooner than `np.cross`."""
     return np.asarray(left[..., _NEXT] * right[..., _LAST] - left[..., _LAST] * right[..., _NEXT])
+
+
+def off_chord(share: Array, chord: Array, leaving: Array, arriving: Array) -> Array:
+    """Return how far Hermite's cubics (M, m) are off the chords from one value to the next.
+
+    Args:
+        share: (M, 1) how far along each it is, from 0 to 1.
+        chord: (M, m) from the value before to the one after.
+        leaving: (M, m) where the slope before would lead in the time of the chord.
+        arriving: (M, m) the same of the slope after.
+    """
+    return np.asarray(share * (1 - share) * ((1 - share) * (leaving - chord) - share * (arriving - chord)))

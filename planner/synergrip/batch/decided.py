@@ -116,9 +116,9 @@ def _best(
         possible = possible[~right[possible]]
         if not len(possible):
             return x, right
-    nothing = np.zeros((len(possible), 1))  # without a load, to do nothing may be the best
+    # without a load, to do nothing may be the best
     theirs, own = problems.taken(possible), None if constant is None else constant[possible]
-    x_0, z_0 = nothing + np.zeros(problems.q.shape[-1]), nothing + np.zeros(problems.b.shape[1])
+    x_0, z_0 = (np.zeros((len(possible), size)) for size in (problems.q.shape[-1], problems.b.shape[1]))
     still = verifier.judge_optimal(theirs, x_0, z_0, bounds[possible], own).verified
     x[possible[still]], right[possible[still]] = 0.0, True
     return x, right

@@ -30,22 +30,23 @@ def chosen(count: int, kernel: str | None = None) -> Solver:
     """
     if kernel is not None and not is_word(kernel, KERNELS):
         raise InputError.at("kernel", one_of(kernel, KERNELS))
-    there = find_spec("numba") is not None
-    if kernel == "numba" and not there:
+    if kernel == "numba" and not _numba():
         raise InputError.at("kernel", "'numba' needs Numba: pip install 'synergrip[fast]'")
-    if kernel == "numba" or (kernel is None and there and _repays(fast_kernel.compiled, count, COMPILED)):
-        return fast_kernel.solve
-    return numpy_kernel.solve
+    return fast_kernel.solve if _used(fast_kernel.compiled, count, COMPILED, kernel) else numpy_kernel.solve
 
 
 def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
     """Return what works out the statics of many grasps by compiled lanes; None where that does not repay."""
-    there = find_spec("numba") is not None
-    if kernel == "numba" or (kernel is None and there and _repays(fast_statics.compiled, count, STATICS_COMPILED)):
-        return fast_statics.ClearStatics()
-    return None
+    used = _used(fast_statics.compiled, count, STATICS_COMPILED, kernel)
+    return fast_statics.ClearStatics() if used else None
 
 
-def _repays(what: Compiled, count: int, compiled: int) -> bool:
-    """Return whether so many problems are worth the time until something compiled is there."""
+def _numba() -> bool:
+    return find_spec("numba") is not None
+
+
+def _used(what: Compiled, count: int, compiled: int, kernel: str | None) -> bool:
+    """Return whether something compiled is used: where it is asked for, or repays the time until it is there."""
+    if kernel is not None or not _numba():
+        return kernel == "numba"
     return what.loaded or count >= compiled or (count >= LOADED and what.kept())

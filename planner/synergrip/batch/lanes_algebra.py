@@ -16,11 +16,12 @@ from synergrip.batch.lanes import all_of, load, root, store, where_less
 def compiled(function: Any, *, inner: bool = True) -> Any:
     """Return a function as Numba compiles it: kept on the disk, where there is a folder for that.
 
-    An inner one is called by others that are compiled, and by nobody else.
+    An inner one is called by others that are compiled, and by nobody else: it is kept as a part of them alone, since
+    what is kept of a function is not made anew when another file, which it calls, has changed.
     """
     options = {"error_model": "numpy", "nogil": True, "no_cpython_wrapper": inner, "no_cfunc_wrapper": True}
     try:
-        return numba.njit(cache=True, **options)(function)
+        return numba.njit(cache=not inner, **options)(function)
     except RuntimeError:  # no folder can be written
         return numba.njit(**options)(function)
 

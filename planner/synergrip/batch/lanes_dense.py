@@ -78,34 +78,30 @@ def cholesky(w: Any, a: int, n: int) -> Any:
 @compiled
 def lower_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
     """Write ``L^-1 B`` over B (n, columns), for L of `cholesky`."""
-    kept_apart()
-    for c in range(0, columns, 2):
-        d = c + 1 if c + 1 < columns else c
-        for i in range(n):
-            one, two = load(w, b + i * columns + c), load(w, b + i * columns + d)
-            for k in range(i):
-                part = load(w, L + i * n + k)
-                one, two = one - part * load(w, b + k * columns + c), two - part * load(w, b + k * columns + d)
-            over = load(w, L + i * n + i)
-            store(w, b + i * columns + c, one * over)
-            store(w, b + i * columns + d, two * over)
+    _solved_in_turn(w, Matrix(L, n, 1), n, b, columns, columns)
 
 
 @compiled
 def lower_transposed_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
-    """Write ``L'^-1 B`` over B (n, columns), for L of `cholesky`."""
+    """Write ``L'^-1 B`` over B (n, columns), for L of `cholesky`: from the last row up L' is lower triangular."""
+    _solved_in_turn(w, Matrix(L + n * n - 1, -1, -n), n, b + (n - 1) * columns, -columns, columns)
+
+
+@compiled
+def _solved_in_turn(w: Any, L: Matrix, n: int, b: int, down: int, columns: int) -> None:
+    """Write ``L^-1 B`` over B (n, columns), whose rows are `down` apart, for a lower L with an inverted diagonal."""
     kept_apart()
     for c in range(0, columns, 2):
         d = c + 1 if c + 1 < columns else c
-        for back in range(n):
-            i = n - 1 - back
-            one, two = load(w, b + i * columns + c), load(w, b + i * columns + d)
-            for k in range(i + 1, n):
-                part = load(w, L + k * n + i)
-                one, two = one - part * load(w, b + k * columns + c), two - part * load(w, b + k * columns + d)
-            over = load(w, L + i * n + i)
-            store(w, b + i * columns + c, one * over)
-            store(w, b + i * columns + d, two * over)
+        for i in range(n):
+            row, here = b + i * down, L.first + i * L.down
+            one, two = load(w, row + c), load(w, row + d)
+            for k in range(i):
+                part, above = load(w, here + k * L.right), b + k * down
+                one, two = one - part * load(w, above + c), two - part * load(w, above + d)
+            over = load(w, here + i * L.right)
+            store(w, row + c, one * over)
+            store(w, row + d, two * over)
 
 
 @compiled
@@ -129,14 +125,7 @@ def reflected(w: Any, a: int, m: int, n: int, factors: int) -> None:
         store(w, a + j * n + j, size)
         store(w, factors + 2 * j, head)
         store(w, factors + 2 * j + 1, over)
-        for c in range(j + 1, n):
-            total = head * load(w, a + j * n + c)
-            for i in range(j + 1, m):
-                total = total + load(w, a + i * n + j) * load(w, a + i * n + c)
-            total = total * over
-            store(w, a + j * n + c, load(w, a + j * n + c) - total * head)
-            for i in range(j + 1, m):
-                store(w, a + i * n + c, load(w, a + i * n + c) - total * load(w, a + i * n + j))
+        _turned_by(w, a, m, n, j, head, over, a, n, j + 1)
 
 
 @compiled
@@ -145,15 +134,20 @@ def turned(w: Any, a: int, m: int, n: int, factors: int, b: int, columns: int, b
     kept_apart()
     for step in range(n):
         j = n - 1 - step if back else step
-        head, over = load(w, factors + 2 * j), load(w, factors + 2 * j + 1)
-        for c in range(columns):
-            total = head * load(w, b + j * columns + c)
-            for i in range(j + 1, m):
-                total = total + load(w, a + i * n + j) * load(w, b + i * columns + c)
-            total = total * over
-            store(w, b + j * columns + c, load(w, b + j * columns + c) - total * head)
-            for i in range(j + 1, m):
-                store(w, b + i * columns + c, load(w, b + i * columns + c) - total * load(w, a + i * n + j))
+        _turned_by(w, a, m, n, j, load(w, factors + 2 * j), load(w, factors + 2 * j + 1), b, columns, 0)
+
+
+@compiled
+def _turned_by(w: Any, a: int, m: int, n: int, j: int, head: Any, over: Any, b: int, columns: int, first: int) -> None:
+    """Write what the reflection of column j of A (m, n) makes of B (m, columns), from its column `first` on."""
+    for c in range(first, columns):
+        total = head * load(w, b + j * columns + c)
+        for i in range(j + 1, m):
+            total = total + load(w, a + i * n + j) * load(w, b + i * columns + c)
+        total = total * over
+        store(w, b + j * columns + c, load(w, b + j * columns + c) - total * head)
+        for i in range(j + 1, m):
+            store(w, b + i * columns + c, load(w, b + i * columns + c) - total * load(w, a + i * n + j))
 
 
 @compiled

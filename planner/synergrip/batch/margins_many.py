@@ -117,17 +117,15 @@ def margins_many(
     if not is_word(of, NUMBERS):
         raise InputError.at("of", one_of(of, NUMBERS))
     question = asked(grasp, task, wrenches, friction_factors, masses)
-    if of == "heaviest_kg" and (not isinstance(task, Task) or isinstance(question.grasp, GraspStack)):
-        raise InputError.at("of", "'heaviest_kg' needs one grasp on an object that has a mass, and a Task")
     whole = (analysed(question.grasp) or question.grasp) if isinstance(question.grasp, Grasp) else question.grasp
-    begun = _masses(question, masses) if of == "heaviest_kg" else np.ones(question.count)
+    begun = _masses(question, task, masses) if of == "heaviest_kg" else np.ones(question.count)
     tried = _Tried(question, task, whole, of, begun, {"kernel": kernel, "threads": threads})
     return _searched(tried, of, begun, harder=1 / STEP if of == "critical_friction_scale" else STEP)
 
 
-def _masses(question: Asked, masses: Array | None) -> Array:
-    held = question.like.held
-    if held is None or not held.body.mass:
+def _masses(question: Asked, task: Task | TimedTask, masses: Array | None) -> Array:
+    held, stack = question.like.held, isinstance(question.grasp, GraspStack)
+    if not isinstance(task, Task) or stack or held is None or not held.body.mass:
         raise InputError.at("of", "'heaviest_kg' needs one grasp on an object that has a mass, and a Task")
     return np.full(question.count, held.body.mass) if masses is None else np.asarray(masses, dtype=float)
 
@@ -182,14 +180,13 @@ def _searched(tried: _Tried, of: str, begun: Array, *, harder: float) -> ManyMar
     N = len(begun)
     good, bad = np.full(N, np.nan), np.full(N, np.nan)
     at_good, at_bad = np.full(N, np.nan), np.full(N, np.nan)
-    open_, factors = np.arange(N), np.ones(N)
-    while len(open_) and 1 / FAR <= factors[0] <= FAR:
-        signs, beyond = tried(open_, factors)
-        with_plan, without = open_[signs > 0], open_[(signs < 0) & (factors[0] != 1)]
-        good[with_plan], at_good[with_plan] = factors[0], beyond[signs > 0]
-        bad[without], at_bad[without] = factors[0], beyond[(signs < 0) & (factors[0] != 1)]
-        open_ = with_plan
-        factors = np.full(len(open_), factors[0] * harder) if len(factors) else factors
+    open_, factor = np.arange(N), 1.0
+    while len(open_) and 1 / FAR <= factor <= FAR:
+        signs, beyond = tried(open_, np.full(len(open_), factor))
+        with_plan, without = signs > 0, (signs < 0) & (factor != 1)
+        good[open_[with_plan]], at_good[open_[with_plan]] = factor, beyond[with_plan]
+        bad[open_[without]], at_bad[open_[without]] = factor, beyond[without]
+        open_, factor = open_[with_plan], factor * harder
     open_ = np.flatnonzero(np.isfinite(good) & np.isfinite(bad))
     for turn in range(MOST):
         open_ = open_[np.abs(bad - good)[open_] > CLOSE * good[open_]]

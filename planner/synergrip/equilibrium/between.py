@@ -8,6 +8,7 @@ from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Maps
+from synergrip.vectors import off_chord
 
 
 def states_between(
@@ -61,12 +62,12 @@ def _bend(
         for by in ("dzr", "dw")
     )
     (first, last), z, w = ends, equilibria.references, equilibria.loads.wrench
-    dz, dw, bend = z[last] - z[first], w[last] - w[first], np.zeros_like(chord)
-    for end, sign, near in ((first, 1.0, 1 - share), (last, -1.0, share)):
-        leaving = _times(of_references[end], dz) + _times(of_load[end], dw)
-        bend += sign * near * share * (1 - share) * (leaving - chord)
-        if wrench is not None:
-            bend += near * _times(of_load[end], wrench - w[first] - share * dw)
+    dz, dw = z[last] - z[first], w[last] - w[first]
+    leaving, arriving = (_times(of_references[end], dz) + _times(of_load[end], dw) for end in ends)
+    bend = off_chord(share, chord, leaving, arriving)
+    if wrench is not None:
+        beside = wrench - w[first] - share * dw
+        bend += (1 - share) * _times(of_load[first], beside) + share * _times(of_load[last], beside)
     return bend
 
 

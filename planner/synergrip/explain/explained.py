@@ -76,9 +76,8 @@ def explained(
     if isinstance(no, Unknown) and (walked or not short) and not interrupted:
         known_to_help = short and any(each.verified for each in planned)
         turned = [each.dial for each in helping] if known_to_help else numbers
-        numbers_left = _with_room(turned, planned)
-        more = tried_briefly(numbers_left, heard, WHOLE if known_to_help else BRIEF) if short else None
-        others, interrupted = _as_found(tried(numbers_left, heard) if more is None else more)
+        left, brief = _with_room(turned, planned), WHOLE if known_to_help else BRIEF
+        others, interrupted = _as_found(tried_briefly(left, heard, brief) if short else tried(left, heard))
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping, numbers)
     text, in_vain = _text(no, held, known), _in_vain(found)

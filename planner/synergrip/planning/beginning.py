@@ -55,8 +55,7 @@ def _on_from(fewer: FewerKnots, there: Walk, smooth: Array) -> Walk | None:
         return None
     begun = fewer.at_all_knots(there, smooth)
     if begun is None and there.interrupted:
-        come = f"after {there.passes} pass{'es' * (there.passes != 1)} along the motion"
-        raise KeyboardInterrupt(f"{come}, the hand does not get through all knots yet")
+        raise KeyboardInterrupt(f"{there.come}, the hand does not get through all knots yet")
     whole = None if begun is None else fewer.whole.on(begun)
     return whole if whole is not None and _done(fewer.whole, whole) else None
 

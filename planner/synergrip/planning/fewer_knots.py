@@ -14,6 +14,7 @@ from synergrip.linalg import Array, Places, frozen
 from synergrip.planning.pace import FirstPasses
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
+from synergrip.vectors import off_chord
 
 FEWEST, PER_KNOT = 10, 1 / 40
 """Into how many pieces the knots are split at least, and into how many more for each of them."""
@@ -47,8 +48,7 @@ class FewerKnots:
     def walker(self) -> Walker:
         """Who walks at these knots, without a look between them."""
         task = replace(self.whole.task.at(self.knots), between="report")
-        executor, aim = replace(self.whole.executor, task=task), frozen(self.whole.wanted[self.knots])
-        return replace(self.whole, task=task, executor=executor, aim=aim, leads=True)
+        return replace(self.whole, task=task, aim=frozen(self.whole.wanted[self.knots]), leads=True)
 
     def at_all_knots(self, found: Walk, smooth: Array) -> Walk | None:
         """Return a walk at all knots, of which none has been asked for yet; None where some are not reached.
@@ -88,5 +88,4 @@ def _cubics(known: Array, values: Array, times: Array) -> Array:
     k = np.clip(np.searchsorted(known, times, side="right") - 1, 0, len(known) - 2)
     step = (known[k + 1] - known[k])[:, None]
     share, chord = (times - known[k])[:, None] / step, values[k + 1] - values[k]
-    bend = (1 - share) * (step * slopes[k] - chord) - share * (step * slopes[k + 1] - chord)
-    return np.asarray(values[k] + share * chord + share * (1 - share) * bend)
+    return values[k] + share * chord + off_chord(share, chord, step * slopes[k], step * slopes[k + 1])

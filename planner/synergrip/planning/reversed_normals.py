@@ -80,11 +80,8 @@ def _holds(grasp: Grasp, task: TimedTask, plan_again: Callable[[Grasp, TimedTask
 
 def _at_its_largest_load(task: TimedTask) -> TimedTask:
     """Return the task at the knot of its largest load alone, which is soon judged and part of the whole."""
-    at = [int(np.argmax(np.abs(task.wrench).sum(axis=1)))]
-    wanted = replace(task.target, values=frozen(task.target.values[at]))
-    return replace(
-        task, times=frozen(task.times[at]), wrench=frozen(task.wrench[at]), target=wanted, course=None, between="report"
-    )
+    largest = np.argmax(np.abs(task.wrench).sum(axis=1), keepdims=True)
+    return replace(task.at(largest), course=None, between="report")
 
 
 def _advice(grasp: Grasp, chosen: tuple[int, ...]) -> str:

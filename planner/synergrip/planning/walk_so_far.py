@@ -123,6 +123,11 @@ class Walk(Value):
         """How far the rigid motion is behind the wanted one [m], at most; infinitely where knots were not reached."""
         return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
 
+    @property
+    def come(self) -> str:
+        """After how many passes it is there, in words."""
+        return f"after {self.all_passes} pass{'es' * (self.all_passes != 1)} along the motion"
+
     def after(self, before: Walk) -> Walk:
         """Return it with the passes of another one, which led nowhere, before it."""
         tried, first = (*before.tried, *self.tried), self.first or before.first

@@ -147,7 +147,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     Raises:
         KeyboardInterrupt: it does not; with how far it had come.
     """
-    come = f"after {walk.all_passes} pass{'es' * (walk.all_passes != 1)} along the motion, "
+    come = f"{walk.come}, "
     if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
@@ -159,7 +159,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
         missed = "it was not looked at which share of scenarios holds"
     if missed:
         raise KeyboardInterrupt(come + missed)
-    note = f"interrupted after {walk.all_passes} passes along the motion; it holds, and may not be the best"
+    note = f"interrupted {walk.come}; it holds, and may not be the best"
     plan = replace(_decided(linear, walk), interrupted=True)
     return _with(plan, walk, walker, found, cases, Judged(), (*_goal_notes(walk), note))
 

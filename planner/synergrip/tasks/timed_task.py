@@ -18,7 +18,7 @@ from synergrip.documents.judging import described, is_list, is_word
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, Issue, one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
-from synergrip.linalg import Array, Places
+from synergrip.linalg import Array, Places, frozen
 from synergrip.tasks.control import Control
 from synergrip.tasks.marks import Marks
 from synergrip.tasks.task_judging import goal_issues, limit_issues, size_issues, times_of, word_issues, wrench_of
@@ -167,8 +167,8 @@ class TimedTask(Value):
 
     def at(self, knots: Places | slice) -> TimedTask:
         """Return the task at some of its knots, in order."""
-        target = replace(self.target, values=self.target.values[knots])
-        return replace(self, times=self.times[knots], wrench=self.wrench[knots], target=target)
+        target = replace(self.target, values=frozen(self.target.values[knots]))
+        return replace(self, times=frozen(self.times[knots]), wrench=frozen(self.wrench[knots]), target=target)
 
     @property
     def binding(self) -> tuple[Limit, ...]:

@@ -9,7 +9,6 @@ import numpy as np
 from synergrip.changes.asked import Asked
 from synergrip.changes.at_a_value import solved
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import frozen
 from synergrip.planning.outcome import Outcome
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.tasks.timed_task import TimedTask
@@ -42,8 +41,5 @@ def briefly(grasp: Grasp, task: TimedTask) -> Verdict | Outcome:
 def _thinned(task: TimedTask) -> TimedTask:
     """Return the task at a few of its knots, each by itself: it asks for less."""
     few = np.unique(np.linspace(0, len(task.times) - 1, FEW).astype(int))
-    return replace(
-        task, times=frozen(task.times[few]), wrench=frozen(task.wrench[few]), course=None, between="report",
-        target=replace(task.target, values=frozen(task.target.values[few])),
-        limits=tuple(limit for limit in task.limits if not limit.couples_knots),
-    )  # fmt: skip
+    limits = tuple(limit for limit in task.limits if not limit.couples_knots)
+    return replace(task.at(few), course=None, between="report", limits=limits)
