@@ -14,10 +14,33 @@ _SKEW = np.array([
 ], dtype=float).reshape(3, 9)  # fmt: skip
 """The skew matrices of the axes: one product makes those of a stack, where entry by entry takes longer."""
 
+_SINES_AND_COSINE = np.column_stack([_SKEW.T / 2, np.eye(3).reshape(9) / 2])
+"""What a rotation matrix, as nine numbers, is multiplied with: axis times sine of the angle, and cosine plus a half."""
+FAR_ROUND = -0.5
+"""Cosine of an angle from which on its sine tells too little of the axis."""
+
 
 def skews(vectors: Array) -> Array:
     """Return the skew matrices (..., 3, 3) of vectors (..., 3)."""
     return np.asarray(vectors @ _SKEW).reshape(*vectors.shape, 3)
+
+
+def lengths_of(vectors: Array) -> Array:
+    """Return the lengths (...) of vectors (..., 3): for small stacks much sooner than `np.linalg.norm`."""
+    return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
+
+
+def rotation_vectors(rotations: Array) -> Array:
+    """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3); those by nearly pi are SciPy's."""
+    parts = rotations.reshape(*rotations.shape[:-2], 9) @ _SINES_AND_COSINE
+    sines, cosine = parts[..., :3], parts[..., 3] - 0.5
+    sine = lengths_of(sines)
+    found = sines * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0) + (sine == 0))[..., None]
+    if np.any(far := cosine < FAR_ROUND):
+        from scipy.spatial.transform import Rotation
+
+        found[far] = Rotation.from_matrix(rotations[far]).as_rotvec()
+    return np.asarray(found)
 
 
 def crossed(left: Array, right: Array) -> Array:

@@ -51,12 +51,12 @@ def free_basis(squares: Sequence[Squares], knots: int, n_v: int) -> sparse.csc_m
 
 def _scaled(basis: sparse.csc_matrix, n_v: int) -> sparse.csc_matrix:
     """Return the columns without rounding, each 1 in size at the knot where it is largest."""
-    if not basis.shape[1]:
-        return basis
-    knots = sparse.eye_array(basis.shape[0] // n_v, format="csr")
-    squared = sparse.csc_matrix(sparse.kron(knots, sparse.csr_matrix(np.ones((1, n_v)))) @ basis.multiply(basis))
-    size = np.repeat(np.sqrt(squared.max(axis=0).toarray().ravel()), np.diff(basis.indptr))
-    basis.data = np.where(np.abs(basis.data) > ROUNDING * size, basis.data / size, 0.0)
+    column, knots = np.repeat(np.arange(basis.shape[1]), np.diff(basis.indptr)), basis.shape[0] // n_v
+    places, which = np.unique(column * knots + basis.indices // n_v, return_inverse=True)
+    largest = np.zeros(basis.shape[1])
+    np.maximum.at(largest, places // knots, np.bincount(which, basis.data**2))
+    shares = basis.data / np.sqrt(largest)[column]
+    basis.data = np.where(np.abs(shares) > ROUNDING, shares, 0.0)
     basis.eliminate_zeros()
     return basis
 

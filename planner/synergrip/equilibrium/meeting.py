@@ -18,6 +18,7 @@ from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
+from synergrip.vectors import rotation_vectors
 
 EDGE = 1e-6
 """How far a normal may be from that a little inside of the surface, where there is no edge."""
@@ -184,11 +185,3 @@ def whole(placed: Placed) -> Places:
 def times(matrices: Array, vectors: Array) -> Array:
     """Return matrices (..., 3, 3) times vectors (..., 3)."""
     return np.asarray((matrices @ vectors[..., None])[..., 0])
-
-
-def rotation_vectors(rotations: Array) -> Array:
-    """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3)."""
-    from scipy.spatial.transform import Rotation
-
-    flat = np.ascontiguousarray(rotations.reshape(-1, 3, 3))
-    return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(rotations.shape[:-1]))

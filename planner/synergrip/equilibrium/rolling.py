@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face, rotation_vectors, times
+from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face, times
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array
-from synergrip.vectors import crossed, skews
+from synergrip.vectors import crossed, rotation_vectors, skews
 
 BENT = 1e-4
 """Share of a tip's radius over which the bending of the surface is looked at."""
@@ -79,11 +79,12 @@ class Rolling(Model):
         centres, outward = self._put_back(near)
         first = self._put_back(self.centre)
         close = SAME * float(np.abs(self.centre).max(initial=0.0))
+        way = skews(self.radius[:, None] * turns)
         for _ in range(len(turns) + 1):  # each time one instant more is as if they had been gone one by one
             start = np.concatenate([self.centre[None], centres[:-1]])
             nu = np.concatenate([first[1][None], outward[:-1]])
-            middle = self.shape.surface(start + crossed(turns, self.radius[:, None] / 2 * nu))[1]
-            moved, _ = self._put_back(start + crossed(turns, self.radius[:, None] * middle))
+            middle = self.shape.surface(start + times(way, nu / 2))[1]
+            moved, _ = self._put_back(start + times(way, middle))
             found, outward = self._put_back(self.centre + np.cumsum(moved - start, axis=0))
             change, centres = np.abs(found - centres).max(initial=0.0), found
             if not change > close:

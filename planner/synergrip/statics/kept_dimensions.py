@@ -78,6 +78,6 @@ def _bases(maps: EachResponse, metric: Metric, dimensions: tuple[int, int, int])
     return Bases(
         E_s=canonical(internal) / metric.force[..., None],
         Gamma_ucs=np.asarray(np.linalg.solve(metric.motion, basis), dtype=np.float64),
-        Gamma_zcs=synergies @ (np.linalg.pinv(moved) @ basis),
+        Gamma_zcs=synergies @ np.linalg.inv(basis.mT @ moved),
         Gamma_zr=canonical(free[..., motions:]),
     )

@@ -10,6 +10,7 @@ import numpy as np
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
+from synergrip.vectors import lengths_of
 
 
 @naming_arguments
@@ -40,9 +41,11 @@ class Sphere(Shape):
 
     def surface(self, points: Array) -> tuple[Array, Array]:
         """Return signed distances and outward normals; at the centre itself the normal is z."""
-        lengths = np.linalg.norm(points, axis=-1, keepdims=True)
-        normals = np.where(lengths > 0, points / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
-        return lengths[..., 0] - self.radius, normals
+        lengths = lengths_of(points)
+        normals = points / np.where(lengths > 0, lengths, 1.0)[..., None]
+        if not lengths.all():
+            normals[lengths == 0] = (0.0, 0.0, 1.0)
+        return lengths - self.radius, normals
 
     @property
     def inertia(self) -> Array:
