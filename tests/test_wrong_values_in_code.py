@@ -119,6 +119,7 @@ RIGHT: dict[str, dict[str, Any]] = {
     "Scenarios": {"position": 1e-3, "normal": 0.05, "compliance": 0.1, "share": 0.05, "confidence": 0.99, "seed": 1},
     "Control": {"forces": 1, "motions": ("z",), "reconfiguration": 0},
     "load_problem": {"problem": "tripod", "overrides": []},
+    "grasps_in_postures": {"grasp": grasp, "q": [grasp.held.q], "positions": None, "normals": None},
     "plan": {"grasp": grasp, "task": task},
     "plan_many": {"grasp": [grasp], "task": sg.Task(knots=1, linearise="once"), "wrenches": [np.zeros(6)],
                   "friction_factors": [1.0], "masses": None, "kernel": None, "threads": 1},

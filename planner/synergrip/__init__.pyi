@@ -33,6 +33,7 @@ from synergrip.statics.analysis import Analysis as Analysis
 from synergrip.statics.grasp_properties import grasp_properties as grasp_properties
 from synergrip.statics.grasp_properties import GraspProperties as GraspProperties
 from synergrip.grasps.stack import GraspStack as GraspStack
+from synergrip.grasps.in_postures import grasps_in_postures as grasps_in_postures
 from synergrip.statics.analyses import analyse_many as analyse_many
 from synergrip.statics.analyses import Analyses as Analyses
 from synergrip.statics import respond as respond

@@ -43,6 +43,11 @@ def rotation_vectors(rotations: Array) -> Array:
     return np.asarray(found)
 
 
+def times(matrices: Array, vectors: Array) -> Array:
+    """Return matrices (..., 3, 3) times vectors (..., 3)."""
+    return np.asarray((matrices @ vectors[..., None])[..., 0])
+
+
 def crossed(left: Array, right: Array) -> Array:
     """Return the cross products (..., 3) of vectors (..., 3): for small stacks much sooner than `np.cross`."""
     return np.asarray(left[..., _NEXT] * right[..., _LAST] - left[..., _LAST] * right[..., _NEXT])

@@ -1,9 +1,11 @@
 """Joints in, verdict out: grasps of one hand on random objects a second: ``many_end_to_end.py [COUNT]``.
 
 The Barrett hand around balls of random radius, mass and friction in random postures around "ball", three tips touching;
-each grasp is made by its kinematics (`make_grasp`; the ball is where the tips say), then all are planned at once for
-their weight and the largest margin, statics, proofs and checks included. With half of the COUNT (1,000) it closes its
-fingers, too. Prints verified grasps a second of processor time, and the shares of the stages.
+planned at once for their weight and the largest margin, kinematics, statics, proofs and checks included. First with
+places of the balls and normals of the contacts given (`grasps_in_postures`, COUNT of them, 20,000), then each made by
+itself (`make_grasp`; the ball is where the tips say), and with fingers that close until they touch (a fortieth of the
+COUNT). Prints verified grasps a second of processor time, with two threads of time on the clock, and the shares of the
+stages.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ import os
 import sys
 import time
 from importlib.util import find_spec
+from typing import Literal
 
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -20,6 +23,7 @@ import numpy as np  # noqa: E402 - after the threads
 
 import synergrip as sg  # noqa: E402
 
+KERNEL: Literal["numba", "numpy"] = "numba" if find_spec("numba") else "numpy"
 TIPS = [f"finger{finger}/tip" for finger in (1, 2, 3)]
 TASK = sg.Task(
     knots=1, loads=[sg.Gravity((0, 0, -9.81))], goals=[sg.LargestMargin()], linearise="once",
@@ -51,6 +55,37 @@ def made(hand: sg.Hand, count: int, *, closing: bool) -> tuple[list[sg.Grasp], i
     return grasps, none
 
 
+def given(hand: sg.Hand, count: int) -> tuple[sg.Grasp, dict[str, np.ndarray], np.ndarray, np.ndarray]:
+    """Return a grasp, postures with places and normals as of `grasps_in_postures`, weights and friction factors."""
+    few, _ = made(hand, 60, closing=False)
+    rng = np.random.default_rng(1)
+    which = rng.integers(0, len(few), count)
+    held = [each.held for each in few if each.held is not None]
+    arrays = {
+        "q": np.array([each.q for each in held])[which] + 0.01 * rng.normal(size=(count, few[0].n_q)),
+        "positions": np.array([each.body.position for each in held])[which],
+        "normals": np.array([[contact.normal for contact in each.contacts] for each in few])[which],
+    }
+    weights = np.zeros((count, 6))
+    weights[:, 2] = -9.81 * rng.uniform(0.02, 0.4, count)
+    return few[0], arrays, weights, rng.uniform(0.3, 0.9, count) / few[0].contacts[0].friction
+
+
+def told_of_given(hand: sg.Hand, count: int) -> None:
+    """Print the figures of grasps whose contacts are given."""
+    grasp, arrays, weights, friction = given(hand, count)
+    for threads, clock, name in ((1, time.process_time, "processor time"), (2, time.perf_counter, "two threads")):
+        start = clock()
+        stack = sg.grasps_in_postures(grasp, **arrays)
+        between = clock()
+        many = sg.plan_many(
+            stack, TASK, wrenches=weights, friction_factors=friction, kernel=KERNEL, threads=threads
+        )  # fmt: skip
+        end = clock()
+        print(f"contacts given, {name}: {many.verified.sum() / (end - start):,.0f} verified grasps a second; "
+              f"{(between - start) / (end - start):.0%} of the time for kinematics; {many}", flush=True)  # fmt: skip
+
+
 def told(name: str, hand: sg.Hand, count: int, *, closing: bool) -> None:
     """Print the figures of one way to make grasps."""
     start = time.process_time()
@@ -59,7 +94,7 @@ def told(name: str, hand: sg.Hand, count: int, *, closing: bool) -> None:
         print(f"{name}: no grasp in {none} postures")
         return
     between = time.process_time()
-    many = sg.plan_many(grasps, TASK, kernel="numba" if find_spec("numba") else "numpy")
+    many = sg.plan_many(grasps, TASK, kernel=KERNEL)
     end = time.process_time()
     verified, share = int(many.verified.sum()), (between - start) / (end - start)
     print(f"{name}: {verified / (end - start):,.0f} verified grasps a second; {share:.0%} of the time from joints to "
@@ -68,13 +103,13 @@ def told(name: str, hand: sg.Hand, count: int, *, closing: bool) -> None:
 
 
 def main() -> None:
-    """Print both."""
-    count, hand = int(sys.argv[1]) if len(sys.argv) > 1 else 1000, sg.load_hand("barrett")
-    if find_spec("numba"):  # loaded before anything is measured
-        few, _ = made(hand, 2, closing=False)
-        sg.plan_many(few, TASK, kernel="numba")
-    told("contacts given", hand, count, closing=False)
-    told("with closing", hand, count // 2, closing=True)
+    """Print all."""
+    count, hand = int(sys.argv[1]) if len(sys.argv) > 1 else 20000, sg.load_hand("barrett")
+    few, _ = made(hand, 2, closing=False)
+    sg.plan_many(few, TASK, kernel=KERNEL)  # loaded before anything is measured
+    told_of_given(hand, count)
+    told("made one by one", hand, count // 40, closing=False)
+    told("with closing", hand, count // 40, closing=True)
 
 
 if __name__ == "__main__":

@@ -107,6 +107,8 @@ def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: A
         loads = _own_loads(whose, task) if isinstance(whose, GraspStack) and isinstance(task, Task) else None
         loads = np.broadcast_to(timed.wrench, (count, 6)) if loads is None else loads
     doubts = _doubts(whose, masses)
+    if isinstance(whose, GraspStack):
+        timed = _from_each_posture(timed, task)
     return Asked(whose, timed, frozen(loads), None if factors is None else frozen(factors), doubts)
 
 
@@ -154,6 +156,17 @@ def _task(task: Any, grasp: Grasp) -> TimedTask:
         message = "plan_many answers the linear model at the start posture: write Task(..., linearise='once'); along "
         raise InputError.at("Task.linearise", f"{message}the motion, or the hand that really moves, is for plan(...)")
     return timed
+
+
+def _from_each_posture(timed: TimedTask, task: Task | TimedTask) -> TimedTask:
+    """Return the task with joint ranges that begin at the posture of each grasp, unless the task states where."""
+    stated = [limit for limit in task.limits if isinstance(limit, JointRange)]
+    begins = iter(stated or [JointRange()])
+    limits = (
+        replace(limit, start=None) if isinstance(limit, JointRange) and next(begins).start is None else limit
+        for limit in timed.limits
+    )
+    return replace(timed, limits=tuple(limits))
 
 
 def _loads(whose: Any, task: Any, timed: TimedTask, wrenches: Any, masses: Any) -> Array | None:

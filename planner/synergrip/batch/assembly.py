@@ -21,7 +21,7 @@ from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows, within
 from synergrip.conic.variable_bounds import LARGEST, variable_bounds
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
 
@@ -123,9 +123,7 @@ def _rows(stated: Stated, limit: Limit) -> list[Rows]:
     if limit.lets_go:
         return []
     own = limit.on(stated.grasps[0])
-    start = np.broadcast_to(own.start, (stated.count, len(own.start)))
-    if len(stated.grasps) > 1:
-        start = np.array([limit.on(grasp).start for grasp in stated.grasps])
+    start = np.broadcast_to(stated.begins(limit), (stated.count, len(own.start)))
     half = (own.upper - own.lower) / 2
     size = np.where(np.isfinite(half) & (half > 0), half, 1.0)
     value = formulation.joint.plus(start)
@@ -146,10 +144,18 @@ def _bounds(stated: Stated, cones: tuple[Cones, ...], unit: Array, scale: Array)
     formulation, first = stated.formulation, stated.grasps[0]
     stated_most = np.concatenate([contact.kind.most for contact in first.contacts])
     larger = max(1.0, float((most(cones, first) / stated_most).max()))
-    wider = [
-        replace(limit, upper=larger * limit.upper) if isinstance(limit, NormalForce) else limit
-        for limit in stated.task.limits
-    ]
+    wider = [_widest(stated, limit, larger) for limit in stated.task.limits]
     known = np.broadcast_to(variable_bounds(formulation, [SlipMargin(stated.task.margin), *wider]), scale.shape)
     far = LARGEST / min(float(each.unit.min()) for each in cones)
     return np.where(known >= LARGEST, far, np.minimum(known / scale, far))
+
+
+def _widest(stated: Stated, limit: Limit, larger: float) -> Limit:
+    """Return a limit that keeps less than that of any of the tasks: with more friction, from any of their postures."""
+    if isinstance(limit, NormalForce):
+        return replace(limit, upper=larger * limit.upper)
+    if not isinstance(limit, JointRange) or limit.lets_go:
+        return limit
+    own, begins = limit.on(stated.grasps[0]), stated.begins(limit)
+    room = np.maximum(own.upper - begins, begins - own.lower).max(axis=0)
+    return replace(own, lower=frozen(own.start - room), upper=frozen(own.start + room))

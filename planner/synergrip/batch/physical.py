@@ -84,12 +84,11 @@ def _kept(stated: Stated, limit: Limit, forces: Array, dz_r: Array, wrench: Arra
     if limit.lets_go:
         return np.ones(len(forces), dtype=bool)
     own = limit.on(stated.grasps[0])
-    start = np.array([limit.on(grasp).start for grasp in stated.grasps])
     load = wrench - formulation.map_of(lambda at: at.response.grasp.w_0)
     of_load = 0.0 if formulation.departure is not None else times(
         formulation.map_of(lambda at: at.response.dq_dw), load
     )  # fmt: skip
-    value = start + times(formulation.map_of(lambda at: at.response.dq_dzr), dz_r) + of_load
+    value = stated.begins(limit) + times(formulation.map_of(lambda at: at.response.dq_dzr), dz_r) + of_load
     half = np.where(np.isfinite(own.upper - own.lower), (own.upper - own.lower) / 2, 1.0)
     beyond = np.maximum(value - own.upper, own.lower - value)
     return np.asarray(np.all(beyond <= LIMIT * half, axis=1))

@@ -169,7 +169,7 @@ def _on_stack(
 
     def stated(like: Analysis, each: Each, whose: GraspStack, within: NDArray[np.intp]) -> Stated:
         own = None if question.friction is None else question.friction[places[within]]
-        return stated_each(like, each, whose.given or (part.like,), question.task, question.wrench[places[within]], own)
+        return stated_each(like, each, whose, question.task, question.wrench[places[within]], own)
 
     if quick is not None and (found := quick(part)) is not None:
         yield found.places, stated(found.like, found.each, found.grasps, found.places), np.ones(len(found.places), bool)

@@ -14,10 +14,12 @@ from synergrip.conic.affine import times
 from synergrip.conic.departure import Departure
 from synergrip.conic.formulate import formulate
 from synergrip.conic.formulation import Formulation, Units
+from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.normal_force import least_normal_force
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric
+from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array, frozen
 from synergrip.statics.analyses import AnalysisGroup
 from synergrip.statics.analysis import Analysis
@@ -42,6 +44,8 @@ class Stated(Value):
     """One for all, or N."""
     metric: Metric
     """Scaled coordinates of the one grasp, or (N, ...) of each."""
+    postures: Array | None
+    """(1, n_q) joint values of the hand at the start, or (N, n_q) of each; None for grasps given as matrices."""
 
     @property
     def count(self) -> int:
@@ -64,6 +68,12 @@ class Stated(Value):
         one = Analysis(self.grasps[0], formulation.response, formulation.spaces, formulation.coordinates)
         return np.where(unit > 0, unit, smallest_cap(one, self.task))
 
+    def begins(self, ranges: JointRange) -> Array:
+        """Return joint values (1, n_q), or (N, n_q), from which joints move within their ranges."""
+        if self.postures is not None and ranges.start is None:
+            return self.postures
+        return np.asarray(ranges.on(self.grasps[0]).start[None])
+
     @property
     def at_rest(self) -> Array:
         """(N, n_l) contact forces without references: what the load causes by itself [N, N m]."""
@@ -73,24 +83,27 @@ class Stated(Value):
 def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Array | None) -> Stated:
     """Return the tasks with loads (N, 6) and friction factors (N,) on one grasp."""
     found = _formulated(analysis, task, wrench)
-    return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), analysis.response.scale)
+    held, scale = analysis.grasp.held, analysis.response.scale
+    postures = None if held is None else held.q[None]
+    return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), scale, postures)
 
 
 def stated_each(
-    like: Analysis, each: Each, grasps: tuple[Grasp, ...], task: TimedTask, wrench: Array, friction: Array | None
-) -> Stated:
+    like: Analysis, each: Each, stack: GraspStack, task: TimedTask, wrench: Array, friction: Array | None
+) -> Stated:  # fmt: skip
     """Return the tasks with loads (N, 6) and friction factors (N,) on N grasps, each on its own.
 
     Args:
         like: of a grasp whose subspaces have the dimensions of all.
         each: the statics of the N.
-        grasps: the N; or one, from which they differ in numbers alone.
+        stack: the N.
         task: what the tasks have in common.
         wrench: (N, 6) [N, N m].
         friction: (N,) factors; None for friction as it is.
     """
+    grasps = stack.given or (stack.like,)
     found = replace(_formulated(like, task, wrench), each=_begun(each, grasps))
-    return Stated(task, _held_at_start(found, wrench), friction, grasps, each.metric)
+    return Stated(task, _held_at_start(found, wrench), friction, grasps, each.metric, stack.starts)
 
 
 def _formulated(analysis: Analysis, task: TimedTask, wrench: Array) -> Formulation:

@@ -21,6 +21,7 @@ import numpy as np
 from synergrip.equilibrium.meeting import Meeting, Placed
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
+from synergrip.grasps.contact_maps import grasp_matrices, hand_jacobians, moved_points
 from synergrip.grasps.contacts.kind import is_moment
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Maps
@@ -56,8 +57,7 @@ class Balance(Value):
         links = setting.held.hand.kinematics.along(states.q, setting.points)
         placed = Placed(links.position, links.rotation @ setting.links.mT, states.position, states.rotation)
         meeting = setting.model.at(placed, None if near is None else near.meeting.centre)
-        moving, turning = links.jacobian[:, :, 0], links.jacobian[:, :, 1]
-        jacobians = np.stack([moving - skews(meeting.place - placed.point) @ turning, turning], axis=2)
+        jacobians = moved_points(links.jacobian, meeting.place - placed.point)
         return cls(setting, states, loads, references, placed, meeting, jacobians)
 
     def under(self, loads: Loads, references: Array) -> Balance:
@@ -88,19 +88,12 @@ class Balance(Value):
     @cached_property
     def G(self) -> Array:
         """(T, 6, n_l) grasp matrix about the origin of B where it is."""
-        T, n_c = self.arms.shape[:2]
-        whole = np.zeros((T, 2, 3, n_c, 2, 3))  # force and moment of each contact's force, and of its moment
-        frames = self.frames.transpose(0, 2, 1, 3)
-        whole[:, 0, :, :, 0] = whole[:, 1, :, :, 1] = frames
-        whole[:, 1, :, :, 0] = (skews(self.arms) @ self.frames).transpose(0, 2, 1, 3)
-        return whole.reshape(T, 6, 6 * n_c)[:, :, self.setting.components]
+        return grasp_matrices(self.arms, self.frames, self.setting.components)
 
     @cached_property
     def J(self) -> Array:
         """(T, n_l, n_q) hand Jacobian in the contact frames."""
-        T, n_c = self.arms.shape[:2]
-        whole = self.frames.mT[:, :, None] @ self.jacobians
-        return np.asarray(whole.reshape(T, 6 * n_c, -1)[:, self.setting.components])
+        return hand_jacobians(self.jacobians, self.frames, self.setting.components)
 
     @cached_property
     def stretch(self) -> Array:

@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.grasps.contacts.contact import contact_frame
+from synergrip.grasps.contacts.contact import contact_frames
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
-from synergrip.vectors import rotation_vectors
+from synergrip.vectors import rotation_vectors, times
 
 EDGE = 1e-6
 """How far a normal may be from that a little inside of the surface, where there is no edge."""
@@ -161,8 +161,7 @@ class Sliding(Model):
     def at(self, placed: Placed, near: Array | None) -> Meeting:
         """Return how much nearer the pads are; the force acts where the surface is nearest."""
         distance, outward = self.shape.surface(placed.seen)
-        normals = -outward.reshape(-1, 3)
-        frame = placed.rotation[:, None] @ np.array([contact_frame(n) for n in normals]).reshape(*outward.shape, 3)
+        frame = placed.rotation[:, None] @ contact_frames(-outward)
         stretch = np.zeros((*outward.shape[:2], 6))
         stretch[..., 0] = self.radius - distance
         place = placed.point + distance[..., None] * frame[..., 0]
@@ -180,8 +179,3 @@ def on_face(shape: Shape, points: Array, distances: Array, outward: Array) -> Pl
 def whole(placed: Placed) -> Places:
     """Return (n,) that contacts stay on their faces at all instants."""
     return np.full(placed.point.shape[1], len(placed.point))
-
-
-def times(matrices: Array, vectors: Array) -> Array:
-    """Return matrices (..., 3, 3) times vectors (..., 3)."""
-    return np.asarray((matrices @ vectors[..., None])[..., 0])

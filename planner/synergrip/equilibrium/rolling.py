@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face, times
+from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array
-from synergrip.vectors import crossed, rotation_vectors, skews
+from synergrip.vectors import crossed, rotation_vectors, skews, times
 
 BENT = 1e-4
 """Share of a tip's radius over which the bending of the surface is looked at."""

@@ -15,8 +15,8 @@ from synergrip.equilibrium.meeting import Model, Several, Sliding, Stuck
 from synergrip.equilibrium.rolling import Rolling
 from synergrip.equilibrium.states import Loads, States
 from synergrip.errors import InputError, one_of
+from synergrip.grasps.contact_maps import component_places
 from synergrip.grasps.contacts.contact import Contact
-from synergrip.grasps.contacts.kind import COMPONENTS
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.grasps.placing import Touch
@@ -75,8 +75,7 @@ class Setting(Value):
     @cached_property
     def components(self) -> Places:
         """(n_l,) the place of each force component among n, t, o and the moments about them of all contacts (6 n_c)."""
-        pairs = enumerate(contact.kind.components for contact in self.grasp.contacts)
-        return np.array([6 * i + COMPONENTS.index(name) for i, names in pairs for name in names])
+        return component_places(self.grasp.contacts)
 
     @cached_property
     def torques(self) -> Array:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from synergrip.equilibrium.meeting import Meeting, Model, Placed, times
+from synergrip.equilibrium.meeting import Meeting, Model, Placed
 from synergrip.linalg import Array
+from synergrip.vectors import times
 
 
 @dataclass(frozen=True, eq=False, repr=False)

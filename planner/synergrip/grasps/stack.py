@@ -10,18 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, as_numbers, described, place_of, places_of
+from synergrip.documents.judging import Arguments, described, place_of, places_of
 from synergrip.documents.naming import naming_arguments
-from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.matrix_reading import SEMIDEFINITE, SYMMETRY
+from synergrip.grasps.postures import Postures
 from synergrip.grasps.scale import Metric, metric_of
+from synergrip.grasps.varied_arrays import judged_array
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
-VARIED = ("points", "G", "J", "S", "C_s", "C_q", "C_z", "w_0")
-"""What may differ from grasp to grasp."""
 _COMPONENTS = attrgetter("kind.components")
 Form = tuple[tuple[tuple[str, ...], ...], tuple[int, ...]]
 """Components of every contact, and the shape of S."""
@@ -54,7 +52,8 @@ class Matrices(Value):
 class GraspStack(Value, Sequence[Grasp]):
     """N grasps whose contacts are of the same kinds, with as many joints and synergies each.
 
-    Make one with `of` (from grasps) or `varied` (from one grasp and arrays); ``stack[i]`` is the grasp at a place.
+    Make one with `of` (from grasps), `varied` (from one grasp and arrays) or `grasps_in_postures`; ``stack[i]`` is the
+    grasp at a place.
 
     Example:
         A thousand compliances: ``GraspStack.varied(grasp, C_s=np.linspace(1, 2, 1000)[:, None, None] * grasp.C_s)``,
@@ -69,6 +68,8 @@ class GraspStack(Value, Sequence[Grasp]):
     """What all are like but for the arrays."""
     given: tuple[Grasp, ...] = ()
     """The N grasps themselves, where the stack was made of some."""
+    postures: Postures | None = None
+    """(N) of the hand, where the stack was made of these."""
 
     def __post_init__(self) -> None:
         """Judge what `of` and `varied` make right."""
@@ -123,7 +124,7 @@ class GraspStack(Value, Sequence[Grasp]):
         """
         one = cls.of([grasp])
         own = {**vars(one.matrices), "points": one.points, "w_0": one.w_0}
-        found = {name: _judged(name, value, own) for name, value in arrays.items()}
+        found = {name: judged_array(name, value, own) for name, value in arrays.items()}
         if "points" in found and "G" not in found:
             raise InputError.at("G", "missing: it does not follow from points; give both where the contacts move")
         counts = {name: len(value) for name, value in found.items()}
@@ -154,7 +155,10 @@ class GraspStack(Value, Sequence[Grasp]):
         arrays: dict[str, Any] = {name: frozen(value) for name, value in vars(self.matrices.taken(place)).items()}
         moved = zip(grasp.contacts, self.points[place], strict=True)
         contacts = tuple(replace(contact, point=frozen(point)) for contact, point in moved)
-        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=None, **arrays)
+        held = None
+        if self.postures is not None:
+            contacts, held = self.postures.contacts(contacts, place), self.postures.held(grasp.held, place)
+        return replace(grasp, contacts=contacts, w_0=frozen(self.w_0[place]), held=held, **arrays)
 
     def taken(self, places: Any) -> GraspStack:
         """Return the stack of the grasps at some places (whole numbers, a slice, or True or False for each), in order.
@@ -167,12 +171,24 @@ class GraspStack(Value, Sequence[Grasp]):
         if self.given:
             chosen = isinstance(places, slice)
             given = self.given[places] if chosen else tuple(self.given[i] for i in np.arange(len(self))[places])
-        stack = GraspStack(self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given)
+        postures = None if self.postures is None else self.postures.taken(places)
+        stack = GraspStack(
+            self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
+        )  # fmt: skip
         for name in ("metric", "of_object"):  # as cached properties would work them out again
             if name in self.__dict__:
                 own = self.__dict__[name]
                 stack.__dict__[name] = own.taken(places) if isinstance(own, Metric) else own[places]
         return stack
+
+    @cached_property
+    def starts(self) -> Array | None:
+        """(N, n_q) joint values of the hand at the start, (1, n_q) if the same in all; None for matrices alone."""
+        if self.postures is not None:
+            return self.postures.q
+        if self.like.held is None:
+            return None
+        return np.array([each.held.q for each in self.given or (self.like,) if each.held is not None])
 
     @cached_property
     def of_object(self) -> Array:
@@ -214,35 +230,3 @@ def _told(form: Form) -> str:
     contacts, (n_q, n_z) = form
     components = ", ".join("".join(each) for each in contacts)
     return f"contacts with components ({components}), {n_q} joints and {n_z} synergies"
-
-
-def _judged(name: str, value: object, own: dict[str, Array]) -> Array:
-    if name not in VARIED:
-        raise InputError.at(name, f"is no array of a grasp; expected one of {', '.join(VARIED)}")
-    wanted = own[name].shape[1:]
-    found = as_numbers(value)
-    if found is None:
-        raise InputError.at(name, f"expected numbers of shape {('N', *wanted)}, got {described(value)}")
-    found = frozen(found)
-    if found.ndim != len(wanted) + 1 or found.shape[1:] != wanted or not len(found):
-        shape = ", ".join(map(str, ("N", *wanted)))
-        raise InputError.at(name, f"expected shape ({shape}), a matrix for each of N grasps, got {found.shape}")
-    if not np.all(np.isfinite(found)):
-        raise InputError.at(name, f"expected finite numbers, got {float(found[~np.isfinite(found)][0])}")
-    if np.abs(found).max() > LARGEST_NUMBER:
-        raise InputError.at(name, f"{np.abs(found).max():g} is too large")
-    if name.startswith("C_"):
-        _judge_compliances(name, found)
-    return found
-
-
-def _judge_compliances(name: str, found: Array) -> None:
-    """Refuse what `Grasp` refuses: matrices that are not symmetric, or not positive semidefinite."""
-    largest = np.abs(found).max(axis=(-2, -1), initial=0.0)
-    askew = np.abs(found - found.mT).max(axis=(-2, -1), initial=0.0) > SYMMETRY * largest
-    diagonal = np.diagonal(found, axis1=-2, axis2=-1)
-    root = np.sqrt(np.where(diagonal > 0, diagonal, np.where(largest > 0, largest, 1.0)[:, None]))
-    least = np.linalg.eigvalsh(found / (root[:, :, None] * root[:, None, :])).min(axis=-1, initial=0.0)
-    for what, wrong in (("symmetric", askew), ("positive semidefinite", least < -SEMIDEFINITE)):
-        if np.any(wrong):
-            raise InputError.at(f"{name}[{int(np.argmax(wrong))}]", f"is not {what}, as a compliance must be")

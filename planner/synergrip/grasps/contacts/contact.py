@@ -12,6 +12,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.linalg import Array, frozen
 from synergrip.values import ByContent
+from synergrip.vectors import crossed
 
 ORTHONORMAL = 1e-4
 """How far the products of the columns of a frame may be from those of unit vectors normal to each other."""
@@ -116,11 +117,15 @@ def contact_frame(normal: Array, tangent: Array | None = None) -> Array:
         normal: (3,) of any length.
         tangent: (3,) direction that t follows as far as it is normal to n; the axis farthest from n when absent.
     """
-    n = np.asarray(normal, dtype=float) / np.linalg.norm(normal)
-    axis = np.zeros(3)
-    axis[int(np.argmin(np.abs(n) > np.abs(n).min() + 1e-9))] = 1.0
-    if tangent is not None:
-        axis = np.asarray(tangent, dtype=float)
-    t = axis - (axis @ n) * n
-    t /= np.linalg.norm(t)
-    return frozen(np.column_stack([n, t, np.cross(n, t)]))
+    return frozen(contact_frames(np.asarray(normal, dtype=float), tangent))
+
+
+def contact_frames(normals: Array, tangents: Array | None = None) -> Array:
+    """Return (..., 3, 3) the same for normals (..., 3), and tangents (..., 3)."""
+    n = normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+    if tangents is None:
+        sizes = np.abs(n)
+        tangents = np.eye(3)[np.argmin(sizes > sizes.min(axis=-1, keepdims=True) + 1e-9, axis=-1)]
+    t = tangents - (tangents * n).sum(axis=-1, keepdims=True) * n
+    t = t / np.linalg.norm(t, axis=-1, keepdims=True)
+    return np.stack([n, t, crossed(n, t)], axis=-1)
