@@ -24,8 +24,9 @@ class Kept:
     def __setstate__(self, state: Mapping[str, object]) -> None:
         """Come out of a pickle or a copy, which forgets that arrays are read-only."""
         for value in state.values():
-            if isinstance(value, np.ndarray):
-                value.setflags(write=False)
+            for part in value if isinstance(value, tuple) else (value,):
+                if isinstance(part, np.ndarray):
+                    part.setflags(write=False)
         self.__dict__.update(state)
 
 

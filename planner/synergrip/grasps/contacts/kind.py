@@ -181,7 +181,7 @@ class ByFormula(ContactKind):
     def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
         """Return the cones W (..., d, rows) of one contact of this kind or of many, with values (...) of parameters."""
 
-    @property
+    @cached_property
     def cones(self) -> tuple[Array, ...]:
         """Cone matrices W (d, rows) of this contact, as `cones_with` has them."""
         return tuple(frozen(W) for W in self.cones_with({name: np.array(getattr(self, name)) for name in self.named()}))
