@@ -11,12 +11,12 @@ from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.execution import Execution
-from synergrip.equilibrium.first_squeeze import SQUEEZE, led, led_states, squeezes
 from synergrip.equilibrium.newton import AT_REST, ROUGH, at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
+from synergrip.equilibrium.way import SQUEEZE, Way, parts_needed, parts_of, squeezes
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
+from synergrip.linalg import Array, Places
 from synergrip.statics.response import Response
 
 SHORTEST = Fraction(1, 640)
@@ -69,15 +69,47 @@ def equilibria(
         wrong: says of forces (T, n_l) that are known to `ROUGH` whether they are not those that are looked for, so that
             more digits of them are of no use.
     """
-    lead = squeezes(own)
-    if guess is not None:
-        way = led(own, references, loads, lead)
-        near, known = _near(own, guess, lead, len(times))
-        enough = None if wrong is None else lambda forces: wrong(forces[lead:])
-        balance, count = settled(own, near, way.loads, way.references, known, enough)
-        if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(near):
-            return Execution(times, references, balance, np.arange(lead, lead + len(times)), count)
-    return _followed(own, times, references, loads)
+    found = None if guess is None else _together(own, times, references, loads, guess, wrong)
+    found = found or _followed(own, times, references, loads)
+    parts = parts_needed(own, found.path, found.kept)
+    if len(found.states) < len(times) or not np.any(parts > parts_of(found.kept)):
+        return found
+    finer = _at_steps(own, times, references, loads, parts, found.states, wrong)
+    return finer or _followed(own, times, references, loads, parts)
+
+
+def _together(
+    own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution,
+    wrong: Callable[[Array], bool] | None,
+) -> Execution | None:  # fmt: skip
+    """Return the equilibria of all instants, found at once from what is near them; None where that does not do."""
+    if isinstance(guess, Execution):
+        if guess.setting is own and len(guess.kept) == len(times) and guess.kept[0] == squeezes(own):
+            return _at_steps(own, times, references, loads, parts_of(guess.kept), guess.path, wrong)
+        guess = guess.states
+    parts = np.ones(len(times), dtype=np.intp)
+    return _at_steps(own, times, references, loads, parts, guess, wrong)
+
+
+def _at_steps(
+    own: Setting, times: Array, references: Array, loads: Loads, parts: Places, near: States | Balance,
+    wrong: Callable[[Array], bool] | None,
+) -> Execution | None:  # fmt: skip
+    """Return the equilibria with `parts` (T,) steps from each instant to the next; None where none are near.
+
+    `near` are the equations at other equilibria of these steps, or states of the instants, or of all steps.
+    """
+    way = Way.of(own, references, loads, parts)
+    known = near if isinstance(near, Balance) else None
+    if isinstance(near, Balance):
+        near = near.states
+    elif len(near) != len(way.references):
+        near = way.states(own, near, parts)
+    enough = None if wrong is None else lambda forces: wrong(forces[way.kept])
+    balance, count = settled(own, near, way.loads, way.references, known, enough)
+    if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(near):
+        return Execution(times, references, balance, way.kept, count)
+    return None
 
 
 def _judged(
@@ -112,21 +144,13 @@ def _judged(
     return np.asarray(instants), references
 
 
-def _near(own: Setting, guess: States | Execution, lead: int, count: int) -> tuple[States, Balance | None]:
-    """Return states to begin at, those of the first squeeze, too, and the equations there when they are known."""
-    if isinstance(guess, Execution):
-        if guess.setting is own and len(guess.path.states) == lead + count:
-            return guess.path.states, guess.path
-        guess = guess.states
-    return guess if len(guess) == lead + count else led_states(own, guess, lead), None
-
-
-def _followed(own: Setting, times: Array, references: Array, loads: Loads) -> Execution:
-    """Follow the equilibria from the start, in steps as short as it takes."""
+def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts: Places | None = None) -> Execution:
+    """Follow the equilibria from the start, in steps as short as it takes; `parts` (T,) from each instant, at least."""
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
     path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
     for k in range(len(times)):
-        gone, step = Fraction(0), Fraction(1, SQUEEZE if k == 0 else 1)
+        first = SQUEEZE if k == 0 else 1 if parts is None else int(parts[k - 1])
+        gone, step = Fraction(0), Fraction(1, first)
         from_z, from_w, to_w = z, w, loads.taken([k])
         while gone < 1 and not why:
             there = float(min(Fraction(1), gone + step))

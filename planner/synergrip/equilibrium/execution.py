@@ -11,9 +11,9 @@ from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import made_by
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.between import states_between
-from synergrip.equilibrium.first_squeeze import squeezes
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import States
+from synergrip.equilibrium.way import squeezes
 from synergrip.errors import InputError
 from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Maps
