@@ -47,9 +47,9 @@ def jaws(
         kind: of both contacts.
         turned: how all of it, hand and object, is turned in the palm frame.
     """
-    joints, pads = [TreeJoint("base", "fixed", "palm", "hand", quaternion=_wxyz(turned))], {}
+    joints, pads = [TreeJoint("base", "fixed", "palm", "hand", quaternion=wxyz(turned))], {}
     for side, yaw in (("left", 0.0), ("right", np.pi)):
-        about, far = _wxyz(Rotation.from_rotvec([0, 0, yaw])), (-half - radius, 0.0, 0.0)
+        about, far = wxyz(Rotation.from_rotvec([0, 0, yaw])), (-half - radius, 0.0, 0.0)
         names = [f"{side}_{part}" for part in ("in", "across", "jaw")]
         joints += [
             TreeJoint(names[0], "slide", "hand", names[0], quaternion=about, lower=-1, upper=1),
@@ -69,6 +69,6 @@ def jaws(
     return replace(grasp, C_s=whole, C_q=yielding, lambda_0=np.zeros(grasp.n_l))
 
 
-def _wxyz(rotation: Rotation) -> tuple[float, ...]:
+def wxyz(rotation: Rotation) -> tuple[float, ...]:
     x, y, z, w = rotation.as_quat()
     return (float(w), float(x), float(y), float(z))

@@ -15,8 +15,14 @@ from scipy.spatial.transform import Rotation
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.setting import Setting, setting
 from synergrip.equilibrium.states import Loads, States
+from synergrip.grasps.contact_at import ContactAt
+from synergrip.grasps.contacts.frictionless import Frictionless
+from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.making import make_grasp
+from synergrip.grasps.objects import Object
 from synergrip.grasps.shapes.box import Box
+from synergrip.grasps.shapes.cylinder import Cylinder
 from synergrip.grasps.shapes.sphere import Sphere
 from synergrip.linalg import Array
 from synergrip.problems.problem import load_problem
@@ -224,3 +230,19 @@ def test_a_way_looked_at_in_one_go_is_that_gone_step_by_step(shape: Sphere | Box
             assert getattr(at_once.meeting, name)[k] == pytest.approx(getattr(one.meeting, name)[0], abs=1e-13)
     near = Balance.of(own, states, loads, references, near=at_once)
     assert near.meeting.stretch == pytest.approx(at_once.meeting.stretch, abs=1e-14)
+
+
+@pytest.mark.parametrize("shape", [Sphere(radius=0.05), Cylinder(radius=0.045, height=0.2), Box(size=(0.3, 0.3, 0.3))])
+@pytest.mark.parametrize("kinds", [("frictionless",) * 3, ("hard", "frictionless", "hard")])
+def test_the_tangent_of_pads_that_slide_is_the_derivative(shape: Any, kinds: tuple[str, ...]) -> None:
+    """Where a pad slides the normal turns with the surface: far from the start, and with forces."""
+    made = {"frictionless": Frictionless(), "hard": HardFinger(friction=0.6)}
+    contacts = [ContactAt(f"finger{i}/tip", made[kind], stiffness=8e3) for i, kind in enumerate(kinds, start=1)]
+    place = bundled("barrett-ball-hold").held.body.position
+    body = Object(mass=0.2, shape=Sphere(radius=0.05), position=place)
+    grasp = make_grasp("barrett", body, posture="ball", contacts=contacts, synergies="joints", joint_compliance=0.02)
+    assert grasp.held is not None
+    own = setting(replace(grasp, held=replace(grasp.held, body=replace(body, shape=shape))), "fixed")
+    for seed in range(3):
+        apart, size = off(anywhere(own, seed), 1e-4)
+        assert np.all(apart < 2e-6 * size)

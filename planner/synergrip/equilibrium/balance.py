@@ -20,6 +20,7 @@ import numpy as np
 
 from synergrip.equilibrium.meeting import Meeting, Placed
 from synergrip.equilibrium.setting import Setting
+from synergrip.equilibrium.sliding_pads import of_sliding
 from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.contact_maps import grasp_matrices, hand_jacobians, moved_points
 from synergrip.grasps.contacts.kind import is_moment
@@ -130,17 +131,20 @@ class Balance(Value):
         grasp, C = self.setting.grasp, self.setting.compliance
         n_l, n_q = grasp.n_l, grasp.n_q
         J, G = self.J, self.G
-        of_joints, of_pose, of_arms, of_object = self._geometric
+        of_joints, of_pose, of_arms, of_object = self.geometric
         whole = np.zeros((len(J), n_l + n_q + 6, n_l + n_q + 6))
         q, u = slice(n_l, n_l + n_q), slice(n_l + n_q, None)
         whole[:, :n_l, :n_l], whole[:, :n_l, q], whole[:, :n_l, u] = grasp.C_s, -J, G.mT
         whole[:, q, :n_l], whole[:, q, q], whole[:, q, u] = C @ J.mT, np.eye(n_q) + C @ of_joints, C @ of_pose
         whole[:, u, :n_l], whole[:, u, q], whole[:, u, u] = G, -of_arms.mT, -of_object
-        of_springs, of_torques, of_wrench = self._rolling
+        of_springs, of_torques, of_wrench = self.rolling
         for columns, own in ((q, slice(0, n_q)), (slice(n_l + n_q + 3, None), slice(n_q, None))):
             whole[:, :n_l, columns] -= of_springs[:, :, own]
             whole[:, q, columns] += C @ of_torques[:, :, own]
             whole[:, u, columns] += of_wrench[:, :, own]
+        if (slid := self.slid) is not None:
+            whole[:, q, n_l:] += C @ slid[:, :n_q]
+            whole[:, u, n_l:] -= slid[:, n_q:]
         return whole
 
     @cached_property
@@ -177,13 +181,15 @@ class Balance(Value):
     @cached_property
     def maps(self) -> Maps:
         """How forces and motions answer to references and load, (T, ...) at each state, geometric stiffness too."""
-        grasp, (of_joints, of_pose, _, _) = self.setting.grasp, self._geometric
+        grasp, (of_joints, of_pose, _, _) = self.setting.grasp, self.geometric
         n_l, n_z = grasp.n_l, grasp.n_z
         of_references, of_load = self.inverse[:, :, n_l:-6] @ grasp.S, -self.inverse[:, :, -6:]
         whole = np.concatenate([of_references, of_load], axis=2)
         forces, joints, pose = whole[:, :n_l], whole[:, n_l:-6], whole[:, -6:]
         turns = np.concatenate([joints, pose[:, 3:]], axis=1)
-        torques = self.J.mT @ forces + of_joints @ joints + of_pose @ pose + self._rolling[1] @ turns
+        torques = self.J.mT @ forces + of_joints @ joints + of_pose @ pose + self.rolling[1] @ turns
+        if (slid := self.slid) is not None:
+            torques = torques + slid[:, : grasp.n_q] @ np.concatenate([joints, pose], axis=1)
         efforts = grasp.S.T @ torques
         synergies = np.eye(n_z, n_z + 6) - grasp.C_z @ efforts
         parts = {"lambda": forces, "u": pose, "tau": torques, "sigma": efforts, "z": synergies, "q": joints}
@@ -192,7 +198,7 @@ class Balance(Value):
         return Maps(**own, **loads)
 
     @cached_property
-    def _geometric(self) -> tuple[Array, Array, Array, Array]:
+    def geometric(self) -> tuple[Array, Array, Array, Array]:
         """Return how torques change with q (T, n_q, n_q) and u (T, n_q, 6), and wrenches, less, with q and u.
 
         Forces and moments turn with B. These are the second derivatives of ``lambda' d`` where there are no moments; a
@@ -215,7 +221,7 @@ class Balance(Value):
         return of_joints, of_pose, of_arms, of_object
 
     @cached_property
-    def _rolling(self) -> tuple[Array, Array, Array]:
+    def rolling(self) -> tuple[Array, Array, Array]:
         """How stretch, torques and wrench change as rolling contacts turn and travel: with q and turns of the object.
 
         (T, n_l, n_q + 3), (T, n_q, n_q + 3), (T, 6, n_q + 3). The way before is taken to turn with its end.
@@ -235,6 +241,12 @@ class Balance(Value):
         of_wrench = acting.sum(axis=1)
         of_wrench[:, 3:] += (skews(self.arms) @ acting[:, :, :3]).sum(axis=1)
         return stretch.reshape(T, -1, n_q + 3)[:, self.setting.components], of_torques, of_wrench
+
+    @cached_property
+    def slid(self) -> Array | None:
+        """(T, n_q + 6, n_q + 6) what sliding pads add to torques and, less, wrenches; None where none slide."""
+        slid, forces = self.setting.model.slid(self.placed, self.meeting), self._acting[:, :, 0]
+        return None if slid is None else of_sliding(self.placed, self.meeting, self.jacobians, forces, slid)
 
     @cached_property
     def _acting(self) -> Array:

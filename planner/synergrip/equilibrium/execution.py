@@ -12,6 +12,7 @@ from synergrip.documents.naming import made_by
 from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.between import states_between
 from synergrip.equilibrium.setting import Setting
+from synergrip.equilibrium.stability import lacking_stiffness
 from synergrip.equilibrium.states import States
 from synergrip.equilibrium.way import squeezes
 from synergrip.errors import InputError
@@ -128,14 +129,18 @@ class Execution(Value):
     def stiffness(self) -> Array:
         """(K,) the smallest stiffness with which the object is held [N/m]; not above 0 where it is not stable.
 
-        It is 0 in a state whose tangent has no inverse.
+        It is 0 in a state whose tangent has no inverse, and the least of hand and object together where these give way
+        there, or on the way there (`lacking_stiffness`).
         """
         length = self.setting.length
         wrench = np.diag([1.0, 1.0, 1.0, length, length, length])
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
         values = np.linalg.eigvalsh((given + given.mT) / 2)
         soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        return frozen(np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0))
+        held = np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0)
+        begins = np.concatenate([[0], self.kept[:-1] + 1])
+        lacking = np.minimum.reduceat(lacking_stiffness(self.path), begins)
+        return frozen(np.where(lacking < 0, np.minimum(held, lacking), held))
 
     @cached_property
     def du(self) -> Array:

@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.grasps.contacts.contact import contact_frames
 from synergrip.grasps.shapes.shape import Shape
@@ -22,6 +23,8 @@ from synergrip.vectors import rotation_vectors, times
 
 EDGE = 1e-6
 """How far a normal may be from that a little inside of the surface, where there is no edge."""
+BENT = 1e-4
+"""Share of how far a pad is from the object's origin over which the bending of the surface is looked at."""
 INSIDE = 1e-3
 """Share of the distance of a pad's centre from the surface that is a little inside."""
 
@@ -73,6 +76,16 @@ class Meeting(Value):
         return self.taken((slice(None), places))
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Slid(Value):
+    """Pads that slide without friction."""
+
+    which: NDArray[np.bool_]
+    """(n,) which of the contacts do."""
+    bent: Array
+    """(T, n, 3, 3) how the outward normals change with the pads' points, palm axes [1/m]; 0 for the others."""
+
+
 class Model(ABC):
     """How n contacts move."""
 
@@ -96,6 +109,10 @@ class Model(ABC):
         """
         none = np.zeros_like(meeting.frame)
         return none, none
+
+    def slid(self, placed: Placed, meeting: Meeting) -> Slid | None:
+        """Return how normals change where pads slide; None where none does."""
+        return None
 
     def after(self, placed: Placed, meeting: Meeting) -> Model:
         """Return what the model is after the instants: one that remembers its way has gone it."""
@@ -125,6 +142,14 @@ class Several(Model):
         for own, model in self.parts:
             frames[:, own], arms[:, own] = model.rolled(placed.of(own), meeting.of(own))
         return frames, arms
+
+    def slid(self, placed: Placed, meeting: Meeting) -> Slid | None:
+        """Return it for all contacts, in their order."""
+        which, bent = np.zeros(meeting.frame.shape[1], dtype=bool), np.zeros_like(meeting.frame)
+        for own, model in self.parts:
+            if (found := model.slid(placed.of(own), meeting.of(own))) is not None:
+                which[own], bent[:, own] = found.which, found.bent
+        return Slid(which, bent) if which.any() else None
 
     def after(self, placed: Placed, meeting: Meeting) -> Several:
         """Return the models, each after its instants."""
@@ -166,6 +191,16 @@ class Sliding(Model):
         stretch[..., 0] = self.radius - distance
         place = placed.point + distance[..., None] * frame[..., 0]
         return Meeting(place, frame, stretch, placed.seen, on_face(self.shape, placed.seen, distance, outward))
+
+    def slid(self, placed: Placed, meeting: Meeting) -> Slid:
+        """Return it by differences, a small share of the way from B apart."""
+        seen = placed.seen
+        step = BENT * np.abs(seen).max(initial=0.0)
+        ways = step * np.eye(3)[:, None, None]
+        sides = [self.shape.surface(seen + sign * ways)[1] for sign in (1, -1)]
+        bent = np.moveaxis(sides[0] - sides[1], 0, -1) / (2 * step)
+        whole = placed.rotation[:, None] @ bent @ placed.rotation.mT[:, None]
+        return Slid(np.ones(seen.shape[1], dtype=bool), whole)
 
 
 def on_face(shape: Shape, points: Array, distances: Array, outward: Array) -> Places:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from synergrip.equilibrium.meeting import Meeting, Model, Placed
+from synergrip.equilibrium.meeting import Meeting, Model, Placed, Slid
 from synergrip.linalg import Array
 from synergrip.vectors import times
 
@@ -31,6 +31,10 @@ class Tilted(Model):
     def rolled(self, placed: Placed, meeting: Meeting) -> tuple[Array, Array]:
         """Return what a small turn of a link makes of frames and arms: the same as of level ones."""
         return self.level.rolled(placed, self._level(meeting))
+
+    def slid(self, placed: Placed, meeting: Meeting) -> Slid | None:
+        """Return how normals change where pads slide: as those of the level ones."""
+        return self.level.slid(placed, self._level(meeting))
 
     def after(self, placed: Placed, meeting: Meeting) -> Model:
         """Return the model with the instants behind it."""

@@ -101,7 +101,12 @@ def coordinates_of(maps: Maps, bases: Bases, metric: Metric) -> Coordinates:
     motions = (motion @ bases.Gamma_ucs).mT @ (motion @ maps.du_dzr)
     M = np.concatenate([forces, motions, bases.Gamma_zr.mT], axis=-2)
     rows = np.linalg.norm(M, axis=-1, keepdims=True)  # N, m and 1 in one matrix: equilibrate before inverting
-    return Coordinates(frozen(M), frozen(np.linalg.inv(M / rows) / rows.mT), bases.dimensions)
+    scaled = M / np.where(rows > 0, rows, 1.0)
+    try:
+        inverse = np.linalg.inv(scaled)
+    except np.linalg.LinAlgError:  # where an equilibrium is about to be lost
+        inverse = np.linalg.pinv(scaled)
+    return Coordinates(frozen(M), frozen(inverse / np.where(rows > 0, rows, 1.0).mT), bases.dimensions)
 
 
 def motion_coordinates(response: Response, spaces: Subspaces, motion: Array) -> tuple[Array, Array]:
