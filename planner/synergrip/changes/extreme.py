@@ -26,8 +26,8 @@ BEYOND = (1e-3, 1e-2, 1e-1)
 """Shares of a value by which it is left behind, one after the other, until it is proven that there is no plan."""
 ROUGHLY = Settings(tolerance=1e-8)
 """How a program is solved that says where it is worth while to look."""
-GUESSES, ABOUT = 10, 2e-5
-"""How often it is guessed where plans end, and how near two guesses are that end it, relatively."""
+GUESSES, ABOUT = 12, 2e-5
+"""How often it is guessed where plans end, and how near each other guesses are at least, relatively."""
 NEARER = {"up": (0.5, 0.8, 0.9, 0.96, 0.99, 0.999), "down": (0.25, 1.0, 3.0, 10.0, 100.0, FAR)}
 """Relative turns that are tried until there is no plan, before the last one with a plan is looked for."""
 
@@ -125,14 +125,15 @@ def _guessed(
         known[value] = short
         (goods if short <= 0 else bads).append(value)
         good, bad = goods[-1], bads[-1]
+        if abs(good - bad) <= 2 * ABOUT * abs(good):
+            break
         value = _zero(known, (bad, good) if count % 2 and good in known else tuple(bads[-2:]))
         if not min(good, bad) < value < max(good, bad):
             value = between(good, bad)
-        if min(abs(value - bad), abs(value - good)) <= ABOUT * abs(value):
-            break
-    toward = np.sign(good - bad) * ABOUT * abs(value)
-    good = next((each for each in (value + toward, *reversed(goods[1:])) if has_plan(each)), goods[0])
-    bad = next((each for each in (value - toward, *reversed(bads[1:])) if not has_plan(each)), bads[0])
+        inside = np.sign(good - bad) * ABOUT * abs(good)  # past the zero, where a guess is next to one of them
+        value = float(np.clip(value, *sorted((bad + inside, good - inside))))
+    good = next((each for each in reversed(goods[1:]) if has_plan(each)), goods[0])
+    bad = next((each for each in reversed(bads[1:]) if not has_plan(each)), bads[0])
     return good, bad
 
 
