@@ -109,7 +109,7 @@ class Walker:
             done = best.true and not best.left_out and there
             done = done or best.interrupted or (self.leads and self.arrived(best))
             done = done or (roughly and (pace.tries > 0 or self.near(best)))
-            if best.way is None or done or pace.ends(best):
+            if best.way is None or done or pace.ends(best) or best.short >= self.effort.short:
                 break
             try:
                 answered, found = self._passed(best, pace)
@@ -122,7 +122,8 @@ class Walker:
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             now = found if good and found is not None else best
             pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
-            best = replace(now, passes=count, tried=tried, hindered=met, pace=pace)
+            short = best.short + 1 if self._falls_short(answered, best) else 0
+            best = replace(now, passes=count, tried=tried, hindered=met, pace=pace, short=short)
         return best
 
     def _passed(self, best: Walk, pace: Pace) -> tuple[Answered, Walk | None]:
@@ -143,6 +144,12 @@ class Walker:
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
         found = self.executed(references, promised, best.executed, fewer=True)
         return answered, replace(found, stage=stage, left_out=wait)
+
+    def _falls_short(self, answered: Answered, best: Walk) -> bool:
+        """Return whether the largest margin around a walk is less than is asked, by more than counts as kept."""
+        if not isinstance(answered.question.goal, LargestMargin) or not answered.decision.optimal:
+            return False
+        return answered.largest_margin < self.task.margin - best.kept_to
 
     def _wait(self, best: Walk) -> bool:
         """Return whether goals after the first wait until promises are near what happens."""
