@@ -48,6 +48,9 @@ class Effort:
     """How often more is asked for at the knots than before, for what is missed between them."""
     short: float = np.inf
     """After how many passes in a row that find less than the margin that is asked it is given up."""
+    brief: bool = False
+    """Whether passes begin at the plan of least effort, whatever the goals, and end where another one or two would make
+    true what is promised, if all limits hold there; and no more is told of a walk in vain than that it is."""
 
     def until(self, passes: int) -> int:
         """Return the number of the last pass of a round that begins after some."""
@@ -55,7 +58,7 @@ class Effort:
 
 
 WHOLE, BRIEF = Effort(16, rounds=True), Effort(6, rounds=False, short=2)
-SHORT = Effort(6, rounds=False, harder=1, short=2)
+SHORT = Effort(6, rounds=False, harder=1, short=2, brief=True)
 """What an answer is worth, what a change that is looked at beside others is, and one of those that go with a no."""
 
 

@@ -88,8 +88,15 @@ class Walker:
 
     def arrived(self, walk: Walk) -> bool:
         """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
-        good = walk.close and not walk.left_out if self.leads else walk.true
-        return good and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+        return self.good(walk) and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+
+    def good(self, walk: Walk) -> bool:
+        """Return whether promise and truth are as near each other as is wanted."""
+        return walk.close and not walk.left_out if self._ends_sooner else walk.true
+
+    @property
+    def _ends_sooner(self) -> bool:
+        return self.leads or self.effort.brief
 
     @property
     def allowed(self) -> float:
@@ -107,7 +114,7 @@ class Walker:
         for count in range(best.passes + 1, self.effort.until(best.passes) + 1):
             there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
-            done = done or best.interrupted or (self.leads and self.arrived(best))
+            done = done or best.interrupted or (self._ends_sooner and self.arrived(best))
             done = done or (roughly and (pace.tries > 0 or self.near(best)))
             if best.way is None or done or pace.ends(best) or best.short >= self.effort.short:
                 break
@@ -183,6 +190,13 @@ class Walker:
             return Walk(frozen(references), executed, gap, None)
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
+
+    def to_all_digits(self, walk: Walk) -> Walk:
+        """Return a walk executed to all digits, where fewer did as long as promises did not hold."""
+        if walk.true:
+            return walk
+        again = self.executed(walk.references, None, walk.executed)
+        return replace(walk, executed=again.executed, way=again.way)
 
     def _limits(self, walk: Walk, pace: Pace) -> tuple[Limit, ...]:
         """Return the limits that a pass around a path keeps.
