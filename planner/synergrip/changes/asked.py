@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.build import Constraints
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.limits.limit import Limit
@@ -158,4 +159,12 @@ class Posed(Value):
 
     def program(self) -> Program:
         """Return the program of least effort within all limits."""
-        return Question(self.formulation, self.timed.all_limits, LeastEffort()).program()
+        return self._question.program()
+
+    def constraints(self) -> Constraints:
+        """Return the rows of that program alone."""
+        return self._question.constraints()
+
+    @property
+    def _question(self) -> Question:
+        return Question(self.formulation, self.timed.all_limits, LeastEffort())

@@ -12,6 +12,7 @@ from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
 from synergrip.conic.relaxed import proving
 from synergrip.conic.solvers import clarabel_
+from synergrip.conic.units import Units
 from synergrip.errors import SynergripError
 from synergrip.log import LONG
 from synergrip.planning.outcome import Outcome, Plan
@@ -28,13 +29,15 @@ def solved(name: str, program: Program) -> Decision:
     return decide(name, program, proving(clarabel_.solve))
 
 
-def posed_at(dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False) -> Posed | None:
+def posed_at(
+    dial: Dial[Asked], value: float, posed: Posed, *, every: bool = False, units: Units | None = None
+) -> Posed | None:
     """Return the program with another value; of `every` instant without a reserve where it is for a proof.
 
     None where a value is none that the number can have.
     """
     try:
-        return dial.turned(value).posed(posed.analysis, every=every)
+        return dial.turned(value).posed(posed.analysis, units, every=every)
     except SynergripError:
         return None
 

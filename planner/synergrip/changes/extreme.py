@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import decided_at, narrowed, no_plan, posed_at, solved, with_room
+from synergrip.changes.at_a_value import between, decided_at, narrowed, no_plan, posed_at, solved, with_room
 from synergrip.changes.least_change import turning_column, with_turns
 from synergrip.conic.certificate import judge_infeasible
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Program
+from synergrip.conic.relaxed import relaxed
+from synergrip.conic.solution import Settings
+from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import Array
 from synergrip.values import Value
 
@@ -20,6 +24,10 @@ FAR = 1e3
 """Times itself as far as which a number is followed that grows."""
 BEYOND = (1e-3, 1e-2, 1e-1)
 """Shares of a value by which it is left behind, one after the other, until it is proven that there is no plan."""
+ROUGHLY = Settings(tolerance=1e-8)
+"""How a program is solved that says where it is worth while to look."""
+GUESSES, ABOUT = 12, 2e-5
+"""How often it is guessed where plans end, and how near each other guesses are at least, relatively."""
 NEARER = {"up": (0.5, 0.8, 0.9, 0.96, 0.99, 0.999), "down": (0.25, 1.0, 3.0, 10.0, 100.0, FAR)}
 """Relative turns that are tried until there is no plan, before the last one with a plan is looked for."""
 
@@ -82,9 +90,59 @@ def _by_bisection(dial: Dial[Asked], posed: Posed) -> float | None:
     for turn in NEARER[dial.eased]:
         value = dial.ahead(-turn)
         if not has_plan(value):
-            return narrowed(good, value, has_plan)[0]
+            good, bad = _guessed(good, value, partial(_missing, dial, posed), has_plan)
+            return narrowed(good, bad, has_plan)[0]
         good = value
     return None
+
+
+def _missing(dial: Dial[Asked], posed: Posed, value: float) -> float | None:
+    """Return about by how much all cones must be wider at another value, below 0 where there is room; None unknown.
+
+    It is not verified, and says only where it is worth while to look.
+    """
+    other = posed_at(dial, value, posed)
+    if other is None:
+        return None
+    found = clarabel_.solve(relaxed(other.program()), ROUGHLY)
+    return float(found.x[-1]) if np.isfinite(found.x[-1]) else None
+
+
+def _guessed(
+    good: float, bad: float, missing: Callable[[float], float | None], has_plan: Callable[[float], bool]
+) -> tuple[float, float]:
+    """Return values nearer each other, one with a plan and one without, around a zero of what is missing.
+
+    What is missing is convex in many numbers: a line through two values without a plan then ends short of the zero, one
+    through a value with and one without beyond it. So guesses close in from both sides.
+    """
+    known: dict[float, float] = {}
+    goods, bads, value = [good], [bad], bad
+    for count in range(GUESSES):
+        short = missing(value)
+        if short is None:
+            break
+        known[value] = short
+        (goods if short <= 0 else bads).append(value)
+        good, bad = goods[-1], bads[-1]
+        if abs(good - bad) <= 2 * ABOUT * abs(good):
+            break
+        value = _zero(known, (bad, good) if count % 2 and good in known else tuple(bads[-2:]))
+        if not min(good, bad) < value < max(good, bad):
+            value = between(good, bad)
+        inside = np.sign(good - bad) * ABOUT * abs(good)  # past the zero, where a guess is next to one of them
+        value = float(np.clip(value, *sorted((bad + inside, good - inside))))
+    good = next((each for each in reversed(goods[1:]) if has_plan(each)), goods[0])
+    bad = next((each for each in reversed(bads[1:]) if not has_plan(each)), bads[0])
+    return good, bad
+
+
+def _zero(known: Mapping[float, float], pair: Sequence[float]) -> float:
+    """Return where the line through two known values is 0; nowhere (NaN) where there is no such place."""
+    if len(pair) < 2 or not all(value in known for value in pair):
+        return float("nan")
+    (first, second), (much, less) = pair, (known[value] for value in pair)
+    return second - less * (second - first) / (less - much) if less != much else float("nan")
 
 
 def _past(dial: Dial[Asked], value: float, posed: Posed, rays: Sequence[Array]) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +10,9 @@ from scipy import sparse
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import CLOSE, decided_at, narrowed, no_plan, posed_at, solved
+from synergrip.changes.few_instants import by_few_instants
+from synergrip.changes.some_rows import proven_without
+from synergrip.conic.build import Constraints
 from synergrip.conic.decide import Decision
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.program import Block, Program
@@ -46,7 +49,9 @@ class LeastChange(Value):
         return np.inf if self.value is None else self.dial.size(self.value)
 
 
-def least_change(dial: Dial[Asked], posed: Posed, program: Program, *, rough: float = 0.0) -> LeastChange:
+def least_change(
+    dial: Dial[Asked], posed: Posed, program: Program, *, rough: float = 0.0, no: Decision | None = None
+) -> LeastChange:
     """Return the least change of a number.
 
     Args:
@@ -54,13 +59,22 @@ def least_change(dial: Dial[Asked], posed: Posed, program: Program, *, rough: fl
         posed: what was asked, as a program of the start posture.
         program: that program, which has no plan.
         rough: share of the change within which a bisection may end.
+        no: what came of that program, where it is known.
     """
+    ray = None if no is None or not no.infeasible else no.certificate.y
     if dial.smooth:
         column = turning_column(dial, posed, program)
+        if column is not None and ray is not None and proven_without(program, ray, column != 0):
+            return LeastChange(dial, None, posed.strict)  # the proof does without the rows that it is about
         if column is not None:
             found = _by_one_program(dial, posed, program, column)
             if found is not None:
                 return found
+    if dial.nested and not dial.smooth:
+        no = solved("any plan", program) if no is None else no
+        few = by_few_instants(dial, posed, no, _tries(dial), _close(dial, rough)) if no.infeasible else None
+        if few is not None:
+            return LeastChange(dial, few.value, few.proven)
     return _by_bisection(dial, posed, rough)
 
 
@@ -79,18 +93,20 @@ def _change(dial: Dial[Asked], posed: Posed, program: Program, turn: float) -> A
     other = dial.turned(dial.ahead(turn)).posed(posed.analysis, posed.formulation.units)
     if other is None:
         return None
-    turned = other.program()
+    turned = other.constraints()
     if turned.A.shape != program.A.shape or len(turned.blocks) != len(program.blocks):
         return None
     ratios = row_ratios(program, turned)
     return None if ratios is None else turned.b / ratios - program.b
 
 
-def row_ratios(one: Program, other: Program) -> Array | None:
+def row_ratios(one: Program, other: Program | Constraints) -> Array | None:
     """Return (m,) by what the cones of another program are multiples of those of one; None where they are not.
 
     A cone whose rows see no unknown is in the unit of the same item at other knots.
     """
+    if _same(one.A, other.A):
+        return np.ones(len(one.b))
     sizes = [
         np.sqrt(np.asarray(sparse.csr_matrix(each.A).multiply(each.A).sum(axis=1)).ravel()) for each in (one, other)
     ]
@@ -108,6 +124,12 @@ def row_ratios(one: Program, other: Program) -> Array | None:
     apart = sparse.csr_matrix(sparse.diags_array(1 / ratios) @ other.A - one.A)
     worst = float(abs(apart).max()) if apart.nnz else 0.0
     return ratios if worst <= SAME_ROWS * max(float(sizes[0].max(initial=0.0)), 1.0) else None
+
+
+def _same(one: sparse.csc_matrix, other: sparse.csc_matrix) -> bool:
+    """Return whether two matrices of one shape are the same to the last digit."""
+    pairs = ((one.indptr, other.indptr), (one.indices, other.indices), (one.data, other.data))
+    return all(np.array_equal(mine, theirs) for mine, theirs in pairs)
 
 
 def _of_item(ratio: Array) -> Array:
@@ -165,12 +187,17 @@ def _by_bisection(dial: Dial[Asked], posed: Posed, rough: float) -> LeastChange:
     low, high = dial.value, None
     for value in _tries(dial):
         if has_plan(value):
-            high, low = narrowed(value, low, has_plan, lambda bad: max(CLOSE, rough * dial.size(bad)))
+            high, low = narrowed(value, low, has_plan, _close(dial, rough))
             break
         low = value
     last = decided.get(low)
     certain = low == dial.value or (last is not None and last.infeasible)
     return LeastChange(dial, high, certain and dial.nested and posed.strict)
+
+
+def _close(dial: Dial[Asked], rough: float) -> Callable[[float], float]:
+    """Return how near each other values are narrowed to, by the one without a plan."""
+    return lambda bad: max(CLOSE, rough * dial.size(bad))
 
 
 def _tries(dial: Dial[Asked]) -> Sequence[float]:

@@ -19,6 +19,7 @@ from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import farthest, variable_bounds
 from synergrip.linalg import Array, frozen
+from synergrip.values import Value
 
 
 def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: float = 1.0) -> Program:
@@ -26,23 +27,39 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
 
     Sums of squares are divided by `worth`.
     """
-    rows = _rows(formulation, limits, goal)
+    asked = constraints(formulation, limits, goal)
     cost = goal.objective(formulation)
     extra = 0 if cost.epigraph is None else 1
     T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
     worth = worth if extra else worth * formulation.divisor
     P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
     P.data, linear = P.data / worth, linear / worth
-    A = in_basis(_matrix(rows, T, n_v, extra), basis, extra)
-    np.negative(A.data, out=A.data)  # the value of a row is b - A x
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
-    b = np.concatenate([np.zeros(0), *(_constants(part) for part in rows)])
     bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
     bounds = np.concatenate([bounds, np.full(extra, farthest(formulation))])
-    blocks = tuple(_block(part, T) for part in rows)
-    return Program(P, frozen(q), A, frozen(b), blocks, T, n_v, frozen(bounds), basis, _constant(cost) / worth)
+    constant = _constant(cost) / worth
+    return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, frozen(bounds), basis, constant)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Constraints(Value):
+    """What a program asks of its unknowns: ``b - A x`` in the cones of blocks."""
+
+    A: sparse.csc_matrix  # (m, n)
+    b: Array  # (m,)
+    blocks: tuple[Block, ...]
+
+
+def constraints(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> Constraints:
+    """Return the rows of the program that looks for the best plan by `goal` among those that keep all `limits`."""
+    rows, T = _rows(formulation, limits, goal), formulation.knots
+    extra = 0 if goal.objective(formulation).epigraph is None else 1
+    A = in_basis(_matrix(rows, T, formulation.n_v, extra), formulation.free_basis, extra)
+    np.negative(A.data, out=A.data)  # the value of a row is b - A x
+    b = np.concatenate([np.zeros(0), *(_constants(part) for part in rows)])
+    return Constraints(A, frozen(b), tuple(_block(part, T) for part in rows))
 
 
 def _constant(cost: Objective) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from synergrip.conic.build import build
+from synergrip.conic.build import Constraints, build, constraints
 from synergrip.conic.certificate import TIGHT
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.goals.goal import Goal
@@ -28,3 +28,7 @@ class Question(Value):
     def program(self) -> Program:
         """Return the program of this question."""
         return build(self.formulation, self.limits, self.goal, self.worth)
+
+    def constraints(self) -> Constraints:
+        """Return the rows of that program alone."""
+        return constraints(self.formulation, self.limits, self.goal)

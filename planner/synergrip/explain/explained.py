@@ -57,14 +57,15 @@ def explained(
     if posed is None or (isinstance(no, Infeasible) and no.stage in STAGES):
         return refused(no, asked, short=short)
     program = posed.program()
-    if isinstance(no, Unknown) and not solved("any plan", program).infeasible:
+    decision = solved("any plan", program)
+    if isinstance(no, Unknown) and not decision.infeasible:
         if missed and short:  # each change takes as many samples as the plan
             return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=False)
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
     numbers = dials(asked, timed, posed.analysis)
     try:
         rough = ROUGH if short and no.grasp.held is not None else 0.0
-        found = [least_change(dial, posed, program, rough=rough) for dial in numbers]
+        found = [least_change(dial, posed, program, rough=rough, no=decision) for dial in numbers]
     except KeyboardInterrupt:  # what plan said is known all the same
         cause, known = _blamed(no, (), [], numbers)
         return Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True, posed=posed)

@@ -20,6 +20,7 @@ from synergrip.explain.synergies.missing_synergies import (
 )
 from synergrip.explain.when import NOT_KNOWN, When
 from synergrip.planning.outcome import Infeasible, Unknown
+from synergrip.planning.pace import SHORT, WHOLE, Effort
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import ControlError, most_controlled, written
 from synergrip.tasks.tracking import RIGID_TOLERANCE, out_of_reach, target_displacement, wish_size
@@ -40,7 +41,7 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
     known = Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short)
     try:
         if no.analysis is not None and no.stage in ("direction", "count") and not _of_control(no):
-            known = _out_of_reach(known, no, no.analysis, asked)
+            known = _out_of_reach(known, no, no.analysis, asked, SHORT if short else WHOLE)
         if no.analysis is not None and _of_control(no):
             known = replace(known, repairs=tuple(_less_control(no.analysis, asked, cause)))
         return replace(known, missing_synergies=_missing(no, short=short))
@@ -76,7 +77,9 @@ def _less_control(analysis: Analysis, asked: Asked, cause: Cause) -> Iterator[Re
         yield Repair.of(dial, *found)
 
 
-def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analysis, asked: Asked) -> Explanation:
+def _out_of_reach(
+    known: Explanation, no: Infeasible | Unknown, analysis: Analysis, asked: Asked, effort: Effort
+) -> Explanation:
     """Return also when the wish is outside the rigid motions of the hand, and the tolerance within which it is not."""
     task, size = no.task, wish_size(analysis, no.task)
     refusal = no.refusal if isinstance(no, Infeasible) else None
@@ -88,5 +91,5 @@ def _out_of_reach(known: Explanation, no: Infeasible | Unknown, analysis: Analys
     dial: Dial[Asked] = Dial(
         "tolerance", "task.tolerance", task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size or 1.0
     )
-    found = first_plan(dial, [dial.rounded(with_room(dial, least))])
+    found = first_plan(dial, [dial.rounded(with_room(dial, least))], effort)
     return replace(known, repairs=() if found is None else (Repair.of(dial, *found, proven=whole),))

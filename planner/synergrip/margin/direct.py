@@ -15,10 +15,12 @@ from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.normal_force import NormalForce, least_normal_force
 from synergrip.margin.direct_number import DirectNumber
+from synergrip.margin.weight_alone import as_weight, is_weight
 from synergrip.planning.outcome import Plan
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
+HEAVIEST, FACTOR = "heaviest_kg", "load_factor"
 WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.97)
 """Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
 where that has no plan the others, halved until the last one with a plan is known."""
@@ -26,8 +28,9 @@ FARTHER = (1.1, 1.5)
 """Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
-MORE = (1e-5, 1e-4, 2e-3, 1e-2, 3e-2, 1e-1)
-"""Shares by which a bound is wider than what the plan uses that is there; the least with a plan is found by halves."""
+MORE = (1e-5, 1e-4, 2e-3, 2e-2, 1e-1)
+"""Shares by which a bound is wider than what the plan uses that is there; the first mostly has one, and the least
+of the others with a plan is found by halves."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
 HALVES, NEAR = 1, 0.02
@@ -60,8 +63,8 @@ def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
     no_mass = "nothing in the task weighs the object" if grasp.held else "a grasp given as matrices has no object"
     return (
         Wanted("critical_friction_scale", "", friction, "no contact has friction", friction.value if friction else 1.0),
-        Wanted("heaviest_kg", "kg", mass, no_mass),
-        Wanted("load_factor", "", load, "there is no load", load.value if load else 1.0),
+        Wanted(HEAVIEST, "kg", mass, no_mass),
+        Wanted(FACTOR, "", load, "there is no load", load.value if load else 1.0),
         Wanted("least_peak_N", "N", _cap(asked, plan), ""),
         Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
         Wanted(
@@ -105,12 +108,16 @@ def direct(numbers: Iterable[Wanted], asked: Asked, plan: Plan) -> Iterator[Dire
         asked: what is asked, limits filled in.
         plan: of it.
     """
-    posed = asked.posed(plan.analysis)
+    posed, weight = asked.posed(plan.analysis), None
     for each in numbers:
         if each.dial is None or posed is None:
             yield DirectNumber.none(each.name, each.unit, each.absent)
             continue
-        yield number_of(each, each.dial, posed, plan)
+        if each.name == FACTOR and weight is not None and is_weight(asked, plan.task):
+            yield as_weight(each.name, each.dial, *weight)
+            continue
+        yield (found := number_of(each, each.dial, posed, plan))
+        weight = (each.dial, found) if each.name == HEAVIEST else weight
 
 
 def number_of(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
@@ -143,7 +150,8 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial = found.dial
     if dial.cause not in OF_PLAN:
         return _ends(of, found, dial.value, plan)
-    attained = least_with_plan(dial, [dial.rounded(dial.value * (1 + more)) for more in MORE], BRIEF)
+    first, *rest = (dial.rounded(dial.value * (1 + more)) for more in MORE)
+    attained = first_plan(dial, [first], BRIEF) or least_with_plan(dial, rest, BRIEF)
     if attained is None:
         more = f"up to {MORE[-1]:.0%} more than the plan uses"
         return DirectNumber.none(of.name, of.unit, f"no plan verified with {more}")

@@ -20,6 +20,8 @@ FEWEST, PER_KNOT = 10, 1 / 40
 """Into how many pieces the knots are split at least, and into how many more for each of them."""
 WORTH = 1 / 2
 """Share of the knots that the first passes may take at most: with more of them they are not worth it."""
+FEW_ANYWAY = 60
+"""Knots up to which a brief walk, which takes a pass or two, takes them over all of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +38,8 @@ class FewerKnots:
     def of(cls, walker: Walker) -> FewerKnots | None:
         """Return who walks first; None where too few knots could be left out."""
         count = len(walker.task.times)
+        if walker.effort.brief and count <= FEW_ANYWAY:
+            return None
         pieces = FEWEST + int(PER_KNOT * count)
         corners = _corners(walker)
         evenly = np.round(np.linspace(0, count - 1, pieces + 1)).astype(np.intp)

@@ -116,5 +116,5 @@ def worst_of_all(every: Sequence[tuple[Usage, ...]]) -> tuple[Usage, ...]:
 def walked_harder(walk: Walk, harder: Walker) -> tuple[Walk, Walker] | None:
     """Return the walk of one who asks for more, from another walk, and that walker; None where it does not arrive."""
     again = harder.on(replace(walk, gap=np.inf))
-    arrives = again.true and float(off(again, harder).max()) <= harder.allowed
+    arrives = harder.good(again) and float(off(again, harder).max()) <= harder.allowed
     return (again, harder) if arrives or again.interrupted else None

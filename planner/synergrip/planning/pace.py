@@ -46,13 +46,19 @@ class Effort:
 
     harder: int = 3
     """How often more is asked for at the knots than before, for what is missed between them."""
+    short: float = np.inf
+    """After how many passes in a row that find less than the margin that is asked it is given up."""
+    brief: bool = False
+    """Whether passes begin at the plan of least effort, whatever the goals, and end where another one or two would make
+    true what is promised, if all limits hold there; and no more is told of a walk in vain than that it is."""
 
     def until(self, passes: int) -> int:
         """Return the number of the last pass of a round that begins after some."""
         return passes + self.passes if self.rounds else self.passes
 
 
-WHOLE, BRIEF, SHORT = Effort(16, rounds=True), Effort(6, rounds=False), Effort(6, rounds=False, harder=1)
+WHOLE, BRIEF = Effort(16, rounds=True), Effort(6, rounds=False, short=2)
+SHORT = Effort(6, rounds=False, harder=1, short=2, brief=True)
 """What an answer is worth, what a change that is looked at beside others is, and one of those that go with a no."""
 
 

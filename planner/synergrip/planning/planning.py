@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from synergrip.conic.formulation import Formulation
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
@@ -69,7 +71,8 @@ def planned_with(
 ) -> Outcome:
     """Return the answer that an effort along the motion comes to; other arguments as of `plan`."""
     answers = answerer(solver, "solver")
-    return planned_along(plan_of_start_posture(grasp, task, answers), answers, effort)
+    begins = _begun_briefly if effort.brief else plan_of_start_posture
+    return planned_along(begins(grasp, task, answers), answers, effort)
 
 
 def planned_along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
@@ -96,6 +99,21 @@ def plan_of_start_posture(
     known, asked = _judged(grasp, task)
     analysis = known if isinstance(known, Analysis) else analyse(known, NO_LOAD)
     return _planned(analysis, asked, answers)
+
+
+def _begun_briefly(grasp: Grasp | Analysis, task: Task | TimedTask, answers: Answerer) -> Outcome:
+    """Return the plan of least effort of the start posture where the largest margin is wanted and passes go on from it.
+
+    Where they do not, and for other goals, it is the plan for the goals of the task.
+    """
+    known, asked = _judged(grasp, task)
+    whole = known.grasp if isinstance(known, Analysis) else known
+    if whole.held is None or asked.linearise == "once" or not isinstance(asked.goal, LargestMargin):
+        return plan_of_start_posture(known, asked, answers)
+    found = plan_of_start_posture(known, replace(asked, goals=(LeastEffort(),)), answers)
+    if isinstance(found, Plan):
+        return replace(found, task=asked, largest_margin=float(found.margins.min()))
+    return replace(found, task=asked)
 
 
 def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | Analysis, TimedTask]:

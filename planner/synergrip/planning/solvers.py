@@ -102,6 +102,11 @@ class Answered(Value):
         """(T, n_v) unknowns."""
         return self.decision.program.unknowns(self.decision.solution.x)
 
+    @property
+    def largest_margin(self) -> float:
+        """The largest margin [N], where that was the goal."""
+        return float(self.decision.solution.x[-1]) * self.question.formulation.force_unit
+
     @cached_property
     def value(self) -> float:
         """Value of the goal, in the program's units; small squares are added up, so that no terms cancel."""

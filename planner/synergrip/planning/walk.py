@@ -88,8 +88,15 @@ class Walker:
 
     def arrived(self, walk: Walk) -> bool:
         """Tell whether a walk, be it of the first knots only, does what it promises, and is where it is wanted."""
-        good = walk.close and not walk.left_out if self.leads else walk.true
-        return good and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+        return self.good(walk) and walk.way is not None and float(walk.way.behind.max(initial=0.0)) <= self.allowed
+
+    def good(self, walk: Walk) -> bool:
+        """Return whether promise and truth are as near each other as is wanted."""
+        return walk.close and not walk.left_out if self._ends_sooner else walk.true
+
+    @property
+    def _ends_sooner(self) -> bool:
+        return self.leads or self.effort.brief
 
     @property
     def allowed(self) -> float:
@@ -107,9 +114,9 @@ class Walker:
         for count in range(best.passes + 1, self.effort.until(best.passes) + 1):
             there = best.behind < FOLLOWED or pace.settled or (pace.stays and best.behind <= self.allowed)
             done = best.true and not best.left_out and there
-            done = done or best.interrupted or (self.leads and self.arrived(best))
+            done = done or best.interrupted or (self._ends_sooner and self.arrived(best))
             done = done or (roughly and (pace.tries > 0 or self.near(best)))
-            if best.way is None or done or pace.ends(best):
+            if best.way is None or done or pace.ends(best) or best.short >= self.effort.short:
                 break
             try:
                 answered, found = self._passed(best, pace)
@@ -122,7 +129,8 @@ class Walker:
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             now = found if good and found is not None else best
             pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
-            best = replace(now, passes=count, tried=tried, hindered=met, pace=pace)
+            short = best.short + 1 if self._falls_short(answered, best) else 0
+            best = replace(now, passes=count, tried=tried, hindered=met, pace=pace, short=short)
         return best
 
     def _passed(self, best: Walk, pace: Pace) -> tuple[Answered, Walk | None]:
@@ -143,6 +151,12 @@ class Walker:
         references, promised = (part.at(stage.v) for part in (stage.formulation.reference, stage.formulation.force))
         found = self.executed(references, promised, best.executed, fewer=True)
         return answered, replace(found, stage=stage, left_out=wait)
+
+    def _falls_short(self, answered: Answered, best: Walk) -> bool:
+        """Return whether the largest margin around a walk is less than is asked, by more than counts as kept."""
+        if not isinstance(answered.question.goal, LargestMargin) or not answered.decision.optimal:
+            return False
+        return answered.largest_margin < self.task.margin - best.kept_to
 
     def _wait(self, best: Walk) -> bool:
         """Return whether goals after the first wait until promises are near what happens."""
@@ -176,6 +190,13 @@ class Walker:
             return Walk(frozen(references), executed, gap, None)
         each = analyses_of(executed, self.start)
         return Walk(frozen(references), executed, gap, steps(each, self.start, self.task, executed.left(self.wanted)))
+
+    def to_all_digits(self, walk: Walk) -> Walk:
+        """Return a walk executed to all digits, where fewer did as long as promises did not hold."""
+        if walk.true:
+            return walk
+        again = self.executed(walk.references, None, walk.executed)
+        return replace(walk, executed=again.executed, way=again.way)
 
     def _limits(self, walk: Walk, pace: Pace) -> tuple[Limit, ...]:
         """Return the limits that a pass around a path keeps.

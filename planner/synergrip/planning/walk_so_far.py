@@ -61,6 +61,8 @@ class Walk(Value):
     """What led to where the passes over all knots begin."""
     pace: Pace = field(default_factory=Pace)
     """How far the next pass goes."""
+    short: int = 0
+    """How many passes in a row, up to the last one, found less than the margin that is asked."""
 
     @property
     def interrupted(self) -> bool:

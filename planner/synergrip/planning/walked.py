@@ -72,6 +72,8 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     return _with(plan, walk, walker, found, cases, samples, (worth, *plan.notes))
 
 
+SOON = "found as soon as limits hold along the motion: by its goals it may not be the best"
+"""What is told of a plan that goes with a no."""
 MORE_KNOTS = "more knots straighten it"
 """What is advised where limits are missed between the knots only."""
 ALONG = 'task.linearise = "along" plans for the hand that moves'
@@ -94,18 +96,29 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
             held = f"the hand that moves does not hold the object within its limits {when}"
             return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
         return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
-    if not walk.true:
+    if not walker.good(walk):
         why = f"after {walk.all_passes} passes what is promised and what the hand does still differ"
         why += f" by {walk.gap:.3g} N" if np.isfinite(walk.gap) else ", or an equilibrium is not found"
-        return _unknown(walker, linear, why, walk, figures(walk, walker, linear.formulation, linear.between))
+        found = None if walker.effort.brief else figures(walk, walker, linear.formulation, linear.between)
+        return _unknown(walker, linear, why, walk, found)
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
+    walk = walker.to_all_digits(walk)
     found = figures(walk, walker, linear.formulation, linear.between)
     if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
     if said := _missed(found):
-        return _unknown(walker, linear, said, walk, found)
+        return _truer(walk, walker, linear) or _unknown(walker, linear, said, walk, found)
     return _in_all_cases(walk, walker, linear, found)
+
+
+def _truer(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown | None:
+    """Return the answer of a walk gone on with until its promises are true; None where they are, or do not get so."""
+    if walk.true:
+        return None
+    strict = replace(walker, effort=replace(walker.effort, brief=False))
+    again = strict.on(walk)
+    return answer_of(again, strict, linear) if again.true else None
 
 
 def _in_all_cases(walk: Walk, walker: Walker, linear: Plan, found: Figures) -> Plan | Unknown:
@@ -121,8 +134,9 @@ def _in_all_cases(walk: Walk, walker: Walker, linear: Plan, found: Figures) -> P
     if samples.said:
         return _unknown(walker, linear, samples.said, walk, found)
     told = (
-        *accuracy_notes(walker.start.response), *undone_notes(walker.start, walker.task), *_goal_notes(walk),
-        *passed_over(found.between), *frame_notes(walker.start.grasp), *notes(walk, walker),
+        *((SOON,) if walker.effort.brief else ()), *accuracy_notes(walker.start.response),
+        *undone_notes(walker.start, walker.task), *_goal_notes(walk), *passed_over(found.between),
+        *frame_notes(walker.start.grasp), *notes(walk, walker),
     )  # fmt: skip
     return _with(_decided(linear, walk), walk, walker, found, cases, samples, told)
 
