@@ -63,7 +63,8 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Betwee
     elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
     checks = (Check("equilibrium", executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
     between, inside, there_missed = _between(walk, walker, formulation, linear)
-    missed = (*missed_in(usages, rooms), *there_missed)
+    missed = tuple(missed_in(usages, rooms))
+    missed = (*missed, *(told for told in there_missed if told.removeprefix(f"{BETWEEN}: ") not in missed))
     of_instants = [not limit.couples_knots for limit in task.all_limits]
     at_knots = Between(0, 0.0, 0.0, 0.0, tuple(compress(usages, of_instants)), (), tuple(compress(rooms, of_instants)))
     return Figures(replace(motion, du=executed.du), usages, elastic, at_knots, between, (*checks, *inside), missed)

@@ -62,7 +62,7 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     LOG.info("%r", outcome)
     doubts = (*grasp_doubts(outcome.grasp), *task_doubts(task, outcome.task, outcome.grasp))
     if not isinstance(outcome, Plan):
-        return replace(outcome, asked=task, notes=tuple(map(str, doubts)))
+        return replace(outcome, asked=task, notes=(*outcome.notes, *map(str, doubts)))
     return replace(outcome, notes=(*outcome.notes, *map(str, doubts))) if doubts else outcome
 
 

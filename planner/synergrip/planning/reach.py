@@ -24,6 +24,10 @@ from synergrip.tasks.tracking_along import joints_of
 
 AT_END = {"rad": 5e-3, "m": 2e-4}
 """How near the end of its range a joint is at its limit: as far as the shortest piece of a motion takes it."""
+FAR = {"rad": 0.05, "m": 2e-3}
+"""How far a joint moves at least from one knot to the next where that is told of as a jump."""
+SUDDEN, FEWEST = 4.0, 5
+"""How many times as far as before and after it, and how many pieces there are at least."""
 RANGES = "limits.joint_range"
 DEAR = 3.0
 """Near a straight posture some rigid motion takes joint motions larger than at the start by this factor."""
@@ -40,15 +44,30 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed
     pose, until = executed.du[-1] if walker.arrived(walk) else np.zeros(6), walk.until
-    astray, far = False, off(walk, walker)
+    astray, far, apart = False, off(walk, walker), ""
     if until is None:  # a walk of all knots that were reached, some of which are off
         k = len(executed.states) if walk.way is None else int(np.argmax(far > walker.allowed))
         pose, until = executed.du[k - 1] if k else np.zeros(6), float(times[max(k - 1, 0)])
+        apart = _apart(walk, walker, slice(max(k - 1, 0), max(k, 1)))
         astray = walk.way is not None and walk.way.behind[k] <= walker.allowed
     told = describe_displacement(pose, walker.start.response.scale.length)
     beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
-    return Reached(until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}, because {why}")
+    return Reached(
+        until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}{apart}, because {why}"
+    )
+
+
+def _apart(walk: Walk, walker: Walker, knots: slice) -> str:
+    """Return how far the object is from where it is wanted in all, if by more than counts as followed: in words."""
+    left = walk.executed.left(walker.wanted)[knots]
+    if (
+        not len(left)
+        or not np.abs(left @ np.diag([1.0] * 3 + [walker.start.response.scale.length] * 3)).max() > walker.allowed
+    ):
+        return ""
+    shifted, turned = (float(np.linalg.norm(part, axis=1).max()) for part in (left[:, :3], left[:, 3:]))
+    return f" ({1e3 * shifted:.3g} mm and {np.degrees(turned):.3g} deg off the wanted one, with what is elastic)"
 
 
 def hindrances(walk: Walk, walker: Walker) -> str:
@@ -123,5 +142,23 @@ def notes(walk: Walk, walker: Walker) -> Iterator[str]:
         where = "near a straight posture " if _dear(walk, walker) > DEAR else ""
         yield (
             f"{where}the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
-            f"within the {1e3 * walker.allowed:.2g} mm that count as followed"
+            f"within the {1e3 * walker.allowed:.2g} mm that count as followed{_apart(walk, walker, slice(None))}"
+        )
+    yield from _jumps(walk, walker)
+
+
+def _jumps(walk: Walk, walker: Walker) -> Iterator[str]:
+    """Yield where a joint moves much farther from one knot to the next than it does anywhere near."""
+    moved, held = np.abs(np.diff(walk.executed.joint, axis=0)), walker.start.grasp.held
+    if len(moved) < FEWEST or held is None:
+        return
+    beside = np.maximum(np.concatenate([moved[:1], moved[:-1]]), np.concatenate([moved[1:], moved[-1:]]))
+    least = np.array([FAR[SI_UNITS[joint.kind]] for joint in held.hand.joints])
+    wild = (moved > least) & (moved > SUDDEN * beside)
+    if wild.any():
+        k, i = np.unravel_index(int(np.argmax(np.where(wild, moved / least, 0.0))), wild.shape)
+        joint, times = held.hand.joints[int(i)], walker.task.times
+        yield (
+            f"joint '{joint.name}' jumps by {moved[k, i]:.3g} {SI_UNITS[joint.kind]} from t = {times[k]:.4g} s to "
+            f"{times[k + 1]:.4g} s; limits.synergy_rate bounds how fast references go"
         )

@@ -62,13 +62,13 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     cases = ExecutedCases() if said else executed_cases(walk, walker, plan.formulation)
     said = said or cases.said
     samples = Judged() if said else in_scenarios(walk, walker, plan.formulation, unseen())
-    if said := said or samples.said:
-        return _unknown(walker, plan, f"{said}; {ALONG}", walk, found)
     promised, kept = float(plan.margins.min()), float(found.usages[0].value.min())
     worth = (
         f"planned at the start posture, which promises a smallest slip margin of {promised:.4g} N; the hand that moves "
         f"keeps {kept:.4g} N"
     )
+    if said := said or samples.said:
+        return replace(_unknown(walker, plan, f"{said}; {ALONG}", walk, found), notes=(worth,))
     return _with(plan, walk, walker, found, cases, samples, (worth, *plan.notes))
 
 
