@@ -126,11 +126,13 @@ class Sliding:
 
 @dataclass(frozen=True)
 class Rolled:
-    """What a rolling contact remembers: the centre of its tip, its frame, and how the link is turned (B, ...)."""
+    """What a rolling contact remembers (B, ...): the centre of its tip, its frame, how the link is turned, and how far
+    it has turned about the axes of the frame, which went along."""
 
     centre_o: Array
     frame_o: Array
     turned_o: Array
+    spun: Array
 
 
 @dataclass(frozen=True)
@@ -145,7 +147,7 @@ class Rolling:
     link_0: Array
 
     def start(self) -> Any:
-        return Rolled(self.centre_o[None], self.frame_o[None], self.link_0[None])
+        return Rolled(self.centre_o[None], self.frame_o[None], self.link_0[None], np.zeros((1, 3)))
 
     def beyond(self, settled: Any) -> float:
         return float(self.face.beyond(settled.centre_o)[0])
@@ -153,18 +155,19 @@ class Rolling:
     def stretched(self, link: Array, p: Array, R: Array, settled: Any) -> Stretched:
         turned_o = _transposed(R) @ link[:, :3, :3]
         theta = rotation_vector(turned_o @ _transposed(settled.turned_o))
-        centre_o, carried = self._roll(np.broadcast_to(settled.centre_o, p.shape), theta)
+        centre_o, carried, mean = self._roll(np.broadcast_to(settled.centre_o, p.shape), theta)
         frame_o = carried @ settled.frame_o
         centre = _times(link[:, :3, :3], self.centre) + link[:, :3, 3]
         frame = R @ frame_o
         apart = _times(_transposed(frame), centre - p - _times(R, centre_o))
-        spin = _times(_transposed(frame_o), rotation_vector(turned_o @ self.link_0.T))
+        spun = settled.spun + _times(_transposed(mean @ settled.frame_o), theta)
         point = centre - self.height * _times(R, self.face.normal(centre_o))
-        return Stretched(np.hstack([apart, spin]), point, frame, Rolled(centre_o, frame_o, turned_o))
+        return Stretched(np.hstack([apart, spun]), point, frame, Rolled(centre_o, frame_o, turned_o, spun))
 
-    def _roll(self, centre: Array, theta: Array) -> tuple[Array, Array]:
+    def _roll(self, centre: Array, theta: Array) -> tuple[Array, Array, Array]:
         """Return where the tip is after it turned by theta (B, 3) at a constant rate, and what that did to the frame.
 
+        At the end, and in the mean over the way.
         The point of the tip that touches is at rest, so that its centre moves with theta x (height normal).
         """
 
@@ -172,7 +175,7 @@ class Rolling:
             return _cross(theta, self.height * self.face.normal(at))
 
         h, carried = 1 / ROLLING_STEPS, np.tile(np.eye(3), (len(theta), 1, 1))
-        before = self.face.normal(centre)
+        before, mean = self.face.normal(centre), np.zeros((len(theta), 3, 3))
         for _ in range(ROLLING_STEPS):
             k1 = rate(centre)
             k2 = rate(centre + h / 2 * k1)
@@ -181,9 +184,9 @@ class Rolling:
             centre = centre + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
             normal = self.face.normal(centre)
             centre = centre + (self.height - self.face.distance(centre))[:, None] * normal
-            carried = _turn_between(before, normal) @ carried
-            before = normal
-        return centre, carried
+            was, carried = carried, _turn_between(before, normal) @ carried
+            mean, before = mean + h * (was + carried) / 2, normal
+        return centre, carried, mean
 
 
 def touching(contact: dict[str, Any], document: dict[str, Any], link: Array, model: str) -> Touching:
