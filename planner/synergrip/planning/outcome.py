@@ -210,6 +210,9 @@ class Reached(Value):
     pose: Array
     """(6,) displacement of the object there: translation and rotation vector [m, rad]."""
     because: str
+    off_m: float | None = None
+    """By how much the object is off the wanted motion at most [m]; None where the motion is not gone through to its end,
+    or where a joint at the end of its range is why."""
 
 
 @made_by("plan(grasp, task)")
