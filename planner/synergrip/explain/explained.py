@@ -23,6 +23,7 @@ from synergrip.explain.repairs import Repair, by_size, ranked, repaired
 from synergrip.explain.synergies.candidates import INTERRUPTED
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
+from synergrip.log import LONG
 from synergrip.planning.outcome import Infeasible, Unknown
 from synergrip.planning.pace import BRIEF, SHORT, WHOLE, Effort
 from synergrip.planning.walked import MORE_KNOTS
@@ -75,6 +76,7 @@ def _explained(no: Infeasible | Unknown, *, short: bool, heard: Callable[[Repair
         if missed and short:  # each change takes as many samples as the plan
             return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=False)
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
+    LONG.debug("looking for what the start posture takes of each number")
     numbers = dials(asked, timed, posed.analysis)
     try:
         rough = ROUGH if short and no.grasp.held is not None else 0.0
@@ -94,7 +96,7 @@ def _explained(no: Infeasible | Unknown, *, short: bool, heard: Callable[[Repair
         others, interrupted = _tried(no, asked, posed, left, heard, short=short, effort=brief)
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping, numbers)
-    text, in_vain = _text(no, held, known), _in_vain(found)
+    text, in_vain = _text(no, held, known, interrupted=interrupted), _in_vain(found)
     text = f"{text}; {STATED}" if sampled and not missed and held else text
     known = _without_margins(known) if "margin" in in_vain else known
     in_vain = tuple(cause for cause in in_vain if not any(each.cause == cause for each in rest))
@@ -180,10 +182,10 @@ def _cause(
     return "friction" if chief is None else own
 
 
-def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...]) -> str:
+def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...], *, interrupted: bool) -> str:
     """Return what is to blame, where it shows, and since when; the reason of the answer where no change helps."""
     if isinstance(no, Unknown) or not held:
-        none = "" if isinstance(no, Unknown) else "no single change of a number helps; "
+        none = "" if isinstance(no, Unknown) or interrupted else "no single change of a number helps; "
         return f"{none}{no.why}"
     cones = next((each for each in known if each.friction), None)
     shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""

@@ -55,7 +55,7 @@ class Explanation(Value):
     """Keys of limits that cannot hold together and of which none can be left out; empty where physics alone leaves no
     plan, None where it is not known, as in the short form."""
     moves: bool = False
-    """Whether it is about a hand that is linearised anew along its motion, of which its start posture proves nothing."""
+    """Whether it is about a hand that is linearised anew along its motion: the start posture proves nothing of that."""
     others: tuple[Repair, ...] = ()
     """Changes with a verified plan that are not the least of their kind: of the friction of single contacts and of
     stiffness, in the long form; of every number, where only the hand that moves has no plan."""

@@ -45,7 +45,7 @@ class When(Value):
 
     @property
     def scope(self) -> str | None:
-        """ "start": it speaks of the linear model of the start posture; None when nothing is known."""
+        """Of what it speaks: "start", the linear model of the start posture; None when nothing is known."""
         return None if self.first_s is None else "start"
 
     @classmethod

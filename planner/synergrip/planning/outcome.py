@@ -211,8 +211,8 @@ class Reached(Value):
     """(6,) displacement of the object there: translation and rotation vector [m, rad]."""
     because: str
     off_m: float | None = None
-    """By how much the object is off the wanted motion at most [m]; None where the motion is not gone through to its end,
-    or where a joint at the end of its range is why."""
+    """By how much the object is off the wanted motion at most [m]; None where that is not gone through to its end, or
+    where a joint at the end of its range is why."""
 
 
 @made_by("plan(grasp, task)")

@@ -70,7 +70,8 @@ def _repairs(found: Explanation) -> Iterator[str]:
         alone = any(each.verified for each in found.repairs)
         yield from ("", "Pairs of changes that help" if alone else "No single change helps; pairs that do")
         yield _changes(found.pairs)
-    if found.whole and not found.pairs and not any(each.verified for each in (*found.repairs, *found.others)):
+    helped = found.pairs or any(each.verified for each in (*found.repairs, *found.others))
+    if found.whole and not helped and not found.interrupted:
         pair = "" if found.posed is None else ", nor any pair"
         yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
     if found.clashing is not None:
@@ -162,8 +163,7 @@ def _when(found: Explanation, times: Array) -> str:
         together = f"together they have none up to t = {late.first_s:.4g} s"
         return f"{model}every instant has a plan by itself; for the steps between them, {together}"
     ends = [_stretch(start, end, times) for start, end in late.intervals_s]
-    none = f"{', '.join(ends)}: {model}none of these instants has a plan even by itself"
-    return f"{none}; the hand that moves may have one" if found.moves else none
+    return f"{', '.join(ends)}: {model}none of these instants has a plan even by itself"
 
 
 def _stretch(start: float, end: float, times: Array) -> str:
