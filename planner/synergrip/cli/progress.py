@@ -16,6 +16,7 @@ LONG = 50_000
 """Rows of a program from which on it takes seconds."""
 PATIENCE = 2.0
 """[s] after which every program is told, however small."""
+_begun = 0.0
 
 
 def telling(answer: Answerer) -> Answerer:
@@ -46,11 +47,12 @@ def tell_what_takes_long() -> None:
 
     from synergrip.log import LONG
 
-    begun = time.monotonic()
+    global _begun
+    _begun = time.monotonic()
 
     class Teller(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
-            if record.levelno >= logging.INFO or time.monotonic() - begun > PATIENCE:
+            if record.levelno >= logging.INFO or time.monotonic() - _begun > PATIENCE:
                 print(f"{record.getMessage()} ...", file=sys.stderr, flush=True)
 
     if not LONG.handlers:

@@ -15,7 +15,7 @@ from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.let_go import ranges_left
-from synergrip.planning.outcome import Reached
+from synergrip.planning.reached import Reached
 from synergrip.planning.straying import strayed
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import FOLLOWED, Walk
