@@ -12,4 +12,4 @@ import logging
 LOG = logging.getLogger("synergrip")
 LOG.addHandler(logging.NullHandler())
 LONG = LOG.getChild("long")
-"""What takes seconds, as it begins: the command line tells it."""
+"""What takes seconds, as it begins: the command line tells it; at DEBUG where it does so only with what came before."""

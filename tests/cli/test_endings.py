@@ -224,6 +224,40 @@ def test_an_interrupt_along_the_motion_tells_how_far_it_had_come(form: Sequence[
     assert written() == set()
 
 
+TIGHT = ("plan", "tripod", "--set", 'limits.normal_force="1 N"')
+AT_CHANGES = """
+import synergrip.explain.explained, synergrip.explain.repairs as repairs
+own, count = repairs.outcome_at, 0
+def outcome_at(*arguments):
+    global count
+    count += 1
+    if count > {kept}:
+        signal.raise_signal(signal.SIGINT)
+    return own(*arguments)
+repairs.outcome_at = outcome_at
+if {kept} < 0:
+    synergrip.explain.explained.solved = synergrip.explain.explained.dials = outcome_at
+"""
+
+
+@pytest.mark.parametrize("kept", [-1, 0, 2])
+@pytest.mark.parametrize("form", [(), ("--format", "json")])
+def test_an_interrupt_while_changes_are_looked_for_keeps_the_answer_and_says_so(kept: int, form: Sequence[str]) -> None:
+    done = interrupted("none", "", (*TIGHT, *form), before=AT_CHANGES.format(kept=kept))
+    note = "interrupted: changes were not looked for to the end"
+    document = json.loads(Path("out/tripod/plan.json").read_text(encoding="utf-8"))
+    assert (done.returncode, done.stderr) == (130, "")
+    assert (document["exit_code"], document["interrupted"], document["notes"]) == (130, True, [note])
+    assert (document["verdict"], len(document["repairs"])) == ("infeasible", max(kept, 0))
+    if form:
+        assert json.loads(done.stdout) == document
+    else:
+        assert f"\nnote     {note}\n" in done.stdout
+        assert ("What would help" in done.stdout) == (kept > 0)
+        assert "no single change" not in done.stdout  # not all of them were looked at
+        assert done.stdout.endswith("wrote out/tripod/  plan.json      exit code 130\n")
+
+
 @pytest.mark.parametrize(("name", "signal_"), [("plan.json", signal.SIGINT), ("plan.npz", signal.SIGTERM)])
 def test_a_signal_while_files_are_written_waits_until_they_stand(name: str, signal_: signal.Signals) -> None:
     assert shell("SYNERGRIP plan pinch-soft").returncode == 0

@@ -156,9 +156,17 @@ def test_a_motion_that_only_the_moving_hand_cannot_do_is_told_what_would_help() 
     answer = sg.plan(problem.grasp, problem.task)
     assert isinstance(answer, sg.Unknown)
     found = answer.explanation
-    assert [(each.cause, each.verified) for each in found.others] == [("amplitude", True)]
-    problem = sg.load_problem("barrett-ball-roll", [far, found.others[0].set])
-    assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+    assert [(each.cause, each.verified) for each in found.others] == [("tolerance", True), ("amplitude", True)]
+    for each in found.others:
+        problem = sg.load_problem("barrett-ball-roll", [far, each.set])
+        assert sg.plan(problem.grasp, problem.task).verdict == "feasible"
+    known, tolerance = answer.reached, found.others[0]
+    assert known is not None
+    assert known.off_m is not None
+    assert tolerance.set == f'task.tolerance="{1e3 * tolerance.to:.2g} mm"'
+    assert known.off_m <= tolerance.to <= 1.1 * known.off_m
+    text = "\n".join(more_lines(found, answer.task.times, lambda key: ""))
+    assert text.startswith("\nWhat would help, tried and planned, and not the least there is\n")  # nothing is before it
 
 
 def test_where_the_hand_that_moves_needs_more_than_its_start_posture_a_second_number_is_told() -> None:
@@ -198,7 +206,8 @@ def test_the_document_has_all_keys_and_is_json(name: str) -> None:
     answer = refused(name, *(['limits.normal_force="1 N"'] if name == "tripod" else []))
     document: dict[str, Any] = no_document(answer.explanation, answer.task.times)
     keys = {"why", "conflicts", "repairs", "cannot_help", "when", "missing_synergies", "others", "pairs", "clashing"}
-    assert set(document) == keys
+    assert set(document) == keys | {"interrupted"}
+    assert document["when"]["scope"] == "start"
     json.dumps(document, allow_nan=False)
     assert set(document["why"]) == {"text", "cause"}
 

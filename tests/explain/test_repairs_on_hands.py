@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import synergrip as sg
+import synergrip.explain.explained as explaining
 import synergrip.explain.repairs as repairing
 from synergrip.changes.asked import Asked
 from synergrip.changes.least_change import least_change
@@ -117,6 +119,62 @@ def test_what_plan_says_of_a_hand_names_the_start_posture_and_where_more_is_look
     text = " ".join("\n".join(more_lines(no.explanation, no.task.times, lambda key: "")).split())
     assert "the linear model of the start posture takes friction 0.66" in text
     assert "synergrip explain tries values between" in text
+
+
+def told_of(no: sg.Infeasible | sg.Unknown) -> str:
+    return "\n".join(more_lines(no.explanation, no.task.times, lambda key: ""))
+
+
+def test_what_is_known_of_the_start_posture_alone_says_so_where_the_hand_moves() -> None:
+    """Two fingers draw a box in farther than they bend: with 0.8 of the way there is a plan, also after t = 1 s."""
+    far = 'task.move=[{axis="z",lift="-35 mm"}]'
+    problem = sg.load_problem("gripper-box-draw", [far, "task.knots=21"])
+    no = sg.plan(problem.grasp, problem.task)
+    assert isinstance(no, sg.Unknown)
+    assert no.reached is not None
+    assert no.reached.off_m is None  # ranges of joints are in the way, and no tolerance is tried
+    found, text = no.explanation, told_of(no)
+    assert "tolerance" not in {each.cause for each in (*found.repairs, *found.others)}
+    assert (found.when.alone, found.when.scope) == (True, "start")
+    where = next(line for line in text.splitlines() if line.startswith("Where"))
+    assert ": in the linear model of the start posture none of these instants has a plan" in where
+    head = next(line for line in text.splitlines() if line.startswith("No help"))
+    assert (
+        head
+        == "No help in the linear model of the start posture, whatever the value (proven; not of the hand that moves)"
+    )
+    assert "margin" in found.cannot_help
+    matrices = told_of(refused("tripod", 'limits.normal_force="1 N"'))
+    assert ": none of these instants has a plan even by itself" in matrices
+    assert "\nNo help  proven of the linear model" in matrices
+
+
+def test_what_a_plan_was_found_with_is_not_among_what_cannot_help(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Be it of the hand that moves, and proven not to help at its start posture."""
+    problem = sg.load_problem("gripper-box-draw", ['task.move=[{axis="z",lift="-35 mm"}]', "task.knots=5"])
+    no = sg.plan(problem.grasp, problem.task)
+    assert isinstance(no, sg.Unknown)
+    plain = no.explanation
+    assert "load" in plain.cannot_help
+    other = replace(plain.repairs[0], cause="load", key="object.mass", verified=True)
+    monkeypatch.setattr(explaining, "_tried", lambda *_, **__: ([other], False))
+    found = explaining.explained(no, short=True)
+    assert [each.cause for each in found.others] == ["load"]
+    assert found.cannot_help == tuple(cause for cause in plain.cannot_help if cause != "load")
+
+
+def test_a_tolerance_is_told_without_a_share_that_is_none() -> None:
+    far = sg.load_problem("barrett-ball-roll", "task.motion_factor=3")
+    no = sg.plan(far.grasp, far.task)
+    assert isinstance(no, sg.Unknown)
+    row = next(line for line in told_of(no).splitlines() if line.startswith("task.tolerance"))
+    assert re.split(r"  +", row) == [
+        "task.tolerance",
+        "0 mm",
+        "0.77 mm",
+        "a plan",
+        "--set 'task.tolerance=\"0.77 mm\"'",
+    ]
 
 
 def test_a_set_of_the_hand_is_told_where_no_columns_can_be_typed_in() -> None:

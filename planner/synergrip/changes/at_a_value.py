@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from logging import DEBUG, INFO
 
 import numpy as np
 
@@ -52,8 +53,7 @@ def outcome_at(dial: Dial[Asked], value: float, effort: Effort = WHOLE) -> Outco
     """Return what planning says with another value; None where it is refused as bad input."""
     try:
         asked = dial.turned(value)
-        if asked.executes_samples:
-            LONG.info("planning with %s", dial.set(value))
+        LONG.log(INFO if asked.executes_samples else DEBUG, "planning with %s", dial.set(value))
         return asked.outcome(effort)
     except SynergripError:
         return None

@@ -61,16 +61,22 @@ def _lifted(asked: Asked, limits: tuple[Limit, ...], index: int, dial: Dial[Limi
 def _of_task(asked: Asked, timed: TimedTask, analysis: Analysis) -> Iterator[Dial[Asked]]:
     moves = bool(np.any(timed.target.values))
     if timed.tracking == "compliant":
-        yield Dial(
-            "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
-            scale=wish_size(analysis, timed) or analysis.response.scale.length,
-        )  # fmt: skip
+        yield tolerance_dial(asked, timed, analysis)
     if timed.drift is not None:
         yield Dial("drift", "task.drift", timed.drift, "m", lambda v: asked.with_task(drift=v))
     if moves:
         yield amplitude_dial(asked, timed)
     if (duration := duration_dial(asked, timed)) is not None:
         yield duration
+
+
+def tolerance_dial(asked: Asked, timed: TimedTask, analysis: Analysis) -> Dial[Asked]:
+    """Return how far the object may be from where it is wanted."""
+    return Dial(
+        "tolerance", "task.tolerance", timed.tolerance, "m", lambda v: asked.with_task(tolerance=v),
+        scale=wish_size(analysis, timed) or analysis.response.scale.length,
+        written=lambda value: quantity(1e3 * value, "mm"),
+    )  # fmt: skip
 
 
 def duration_dial(asked: Asked, timed: TimedTask) -> Dial[Asked] | None:

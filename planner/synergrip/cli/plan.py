@@ -108,7 +108,7 @@ def plan(
             if picture and _drawn(outcome, loaded.title, picture):
                 document["picture"], drawn = str(picture), f"\nwrote {picture}"
         show(form, text, lambda: document)
-    raise typer.Exit(outcome.exit_code)
+    raise typer.Exit(document["exit_code"])
 
 
 def _explained(outcome: Outcome) -> None:

@@ -16,6 +16,7 @@ LONG = 50_000
 """Rows of a program from which on it takes seconds."""
 PATIENCE = 2.0
 """[s] after which every program is told, however small."""
+_begun = 0.0
 
 
 def telling(answer: Answerer) -> Answerer:
@@ -41,18 +42,22 @@ def telling(answer: Answerer) -> Answerer:
 
 
 def tell_what_takes_long() -> None:
-    """Tell on standard error what else takes seconds, as it begins."""
+    """Tell on standard error what else takes seconds, as it begins; what is short by itself when it is late."""
     import logging
 
     from synergrip.log import LONG
 
+    global _begun
+    _begun = time.monotonic()
+
     class Teller(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
-            print(f"{record.getMessage()} ...", file=sys.stderr, flush=True)
+            if record.levelno >= logging.INFO or time.monotonic() - _begun > PATIENCE:
+                print(f"{record.getMessage()} ...", file=sys.stderr, flush=True)
 
     if not LONG.handlers:
         LONG.addHandler(Teller())
-        LONG.setLevel(logging.INFO)
+        LONG.setLevel(logging.DEBUG)
 
 
 def counted(done: int, of: int, what: str) -> None:

@@ -5,13 +5,15 @@ Nothing here is the least of its kind, and of what is not found nothing is claim
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import between, first_plan
-from synergrip.changes.turning import dials, knots_dial
+from synergrip.changes.turning import dials, knots_dial, tolerance_dial
 from synergrip.conic.limits.dial import Dial
 from synergrip.explain.repairs import Repair, beyond
+from synergrip.planning.outcome import Unknown
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
 
 FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
@@ -24,6 +26,8 @@ HALVES = 3
 """How often what lies between the last factor without and the first with a plan is halved."""
 FEW = 3
 """How many numbers the short form tells, and single changes to each of which a second one is looked for."""
+NEARLY = (1.0, 1.25, 2.0)
+"""How many times as far as the object is off is tried as its tolerance; the first two in the short form."""
 ROOMY = 0.05
 """How much farther than the start posture needs a number goes to which a second one is looked for."""
 
@@ -52,6 +56,27 @@ def more_knots(asked: Asked, heard: Callable[[Repair], None], effort: Effort = W
     if found is not None:
         heard(found)
         yield found
+
+
+def near_enough(
+    no: Unknown, asked: Asked, posed: Posed, heard: Callable[[Repair], None], *, short: bool
+) -> Iterator[Repair]:
+    """Yield the tolerance within which a motion is followed that is off by a known distance, where there is a plan."""
+    off = None if no.reached is None else no.reached.off_m
+    if off is None:
+        return
+    dial = tolerance_dial(asked, no.task, posed.analysis)
+    values = [_two_digits(factor * off) for factor in (NEARLY[:2] if short else NEARLY)]
+    found = first_repair(dial, values, BRIEF if short else WHOLE)
+    if found is not None:
+        heard(found)
+        yield found
+
+
+def _two_digits(value: float) -> float:
+    """Return a value above 0 rounded up to two digits."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{math.ceil(value / digit) * digit:.2g}")
 
 
 def _nearer(dial: Dial[Asked], found: Repair) -> Repair:

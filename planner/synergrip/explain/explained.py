@@ -15,15 +15,17 @@ from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.friction_cone import FRICTION
 from synergrip.conic.limits.slip_margin import KEY
-from synergrip.explain.along import FIRST, more_knots, tried, tried_briefly
+from synergrip.explain.along import FIRST, more_knots, near_enough, tried, tried_briefly
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
 from synergrip.explain.repairs import Repair, by_size, ranked, repaired
+from synergrip.explain.synergies.candidates import INTERRUPTED
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
+from synergrip.log import LONG
 from synergrip.planning.outcome import Infeasible, Unknown
-from synergrip.planning.pace import BRIEF, SHORT, WHOLE
+from synergrip.planning.pace import BRIEF, SHORT, WHOLE, Effort
 from synergrip.planning.walked import MORE_KNOTS
 
 BEST = 3
@@ -49,6 +51,18 @@ def explained(
         short: whether the three smallest changes are enough, and what is short of them is not looked at.
         heard: is told of each repair as it is found.
     """
+    try:
+        found = _explained(no, short=short, heard=heard)
+    except KeyboardInterrupt:  # what plan said is known all the same
+        cause, known = _blamed(no, (), [], ())
+        found = Explanation(cause, no.why, known, (), (), NOT_KNOWN, whole=False, interrupted=True)
+    missing = () if found.missing_synergies is None else found.missing_synergies.notes
+    moves = no.grasp.held is not None and no.task.linearise == "along"
+    return replace(found, moves=moves, interrupted=found.interrupted or INTERRUPTED in missing)
+
+
+def _explained(no: Infeasible | Unknown, *, short: bool, heard: Callable[[Repair], None]) -> Explanation:
+    """Return why there is no plan; arguments as of `explained`."""
     timed = no.task
     sampled = timed.allowed is not None and timed.allowed.scenarios is not None and no.grasp.held is not None
     missed = sampled and isinstance(no, Unknown)  # maybe by scenarios alone: changes are to keep them, too
@@ -62,6 +76,7 @@ def explained(
         if missed and short:  # each change takes as many samples as the plan
             return Explanation(_cause(no, (), []), no.why, (), (), (), NOT_KNOWN, whole=False)
         return _of_the_motion(no, asked, posed, short=short, heard=heard)
+    LONG.debug("looking for what the start posture takes of each number")
     numbers = dials(asked, timed, posed.analysis)
     try:
         rough = ROUGH if short and no.grasp.held is not None else 0.0
@@ -78,12 +93,13 @@ def explained(
         known_to_help = short and any(each.verified for each in planned)
         turned = [each.dial for each in helping] if known_to_help else numbers
         left, brief = _with_room(turned, planned), WHOLE if known_to_help else BRIEF
-        others, interrupted = _as_found(tried_briefly(left, heard, brief) if short else tried(left, heard))
+        others, interrupted = _tried(no, asked, posed, left, heard, short=short, effort=brief)
     held, rest = _smaller(planned, others)
     cause, known = _blamed(no, held, helping, numbers)
-    text, in_vain = _text(no, held, known), _in_vain(found)
+    text, in_vain = _text(no, held, known, interrupted=interrupted), _in_vain(found)
     text = f"{text}; {STATED}" if sampled and not missed and held else text
     known = _without_margins(known) if "margin" in in_vain else known
+    in_vain = tuple(cause for cause in in_vain if not any(each.cause == cause for each in rest))
     first = Explanation(cause, text, known, held, in_vain, NOT_KNOWN, not short, interrupted, posed=posed, others=rest)
     try:
         strict = posed if posed.strict else asked.posed(no.analysis, every=True)
@@ -118,9 +134,26 @@ def _of_the_motion(
     cause = _cause(no, (), [])
     numbers = sorted(dials(asked, no.task, posed.analysis), key=lambda dial: not dial.key.startswith(SAMPLED))
     knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.why.endswith(MORE_KNOTS) else ()
-    found, interrupted = _as_found(chain(knots, (tried_briefly if short else tried)(numbers, heard)))
+    found, interrupted = _as_found(knots)
+    if not interrupted:
+        more, interrupted = _tried(no, asked, posed, numbers, heard, short=short)
+        found += more
     others = tuple(sorted(found, key=lambda each: each.size))
     return Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short, interrupted, others=others)
+
+
+def _tried(
+    no: Unknown, asked: Asked, posed: Posed, numbers: Sequence[Dial[Asked]], heard: Callable[[Repair], None], *,
+    short: bool, effort: Effort = BRIEF,
+) -> tuple[list[Repair], bool]:  # fmt: skip
+    """Return changes that are tried along the motion, and whether somebody interrupted.
+
+    A tolerance comes first where it is known by how much the motion is not reached, and is not tried twice.
+    """
+    near = no.reached is not None and no.reached.off_m is not None
+    left = [dial for dial in numbers if not (near and dial.cause == "tolerance")]
+    more = tried_briefly(left, heard, effort) if short else tried(left, heard)
+    return _as_found(chain(near_enough(no, asked, posed, heard, short=short), more))
 
 
 def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:
@@ -149,10 +182,10 @@ def _cause(
     return "friction" if chief is None else own
 
 
-def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...]) -> str:
+def _text(no: Infeasible | Unknown, held: tuple[Repair, ...], known: tuple[Conflict, ...], *, interrupted: bool) -> str:
     """Return what is to blame, where it shows, and since when; the reason of the answer where no change helps."""
     if isinstance(no, Unknown) or not held:
-        none = "" if isinstance(no, Unknown) else "no single change of a number helps; "
+        none = "" if isinstance(no, Unknown) or interrupted else "no single change of a number helps; "
         return f"{none}{no.why}"
     cones = next((each for each in known if each.friction), None)
     shows = f"; it shows in the friction cones of {', '.join(cones.items)}" if cones else ""

@@ -36,7 +36,8 @@ class Explanation(Value):
     """Changes that give the linear model of the start posture a plan, the smallest first; each says whether there is a
     verified plan with it."""
     cannot_help: tuple[Cause, ...]
-    """Causes of which it is proven that no value of theirs leaves a plan, in the linear model of the start posture."""
+    """Causes of which it is proven that no value of theirs leaves a plan, in the linear model of the start posture; but
+    for those of which a plan of the hand that moves was found."""
     when: When
     whole: bool
     """Whether all changes were planned again; the short form does so with the smallest."""
@@ -53,6 +54,8 @@ class Explanation(Value):
     clashing: tuple[str, ...] | None = None
     """Keys of limits that cannot hold together and of which none can be left out; empty where physics alone leaves no
     plan, None where it is not known, as in the short form."""
+    moves: bool = False
+    """Whether it is about a hand that is linearised anew along its motion: the start posture proves nothing of that."""
     others: tuple[Repair, ...] = ()
     """Changes with a verified plan that are not the least of their kind: of the friction of single contacts and of
     stiffness, in the long form; of every number, where only the hand that moves has no plan."""

@@ -43,6 +43,11 @@ class When(Value):
     """True: these knots have none each by itself; False: every knot has one, and steps between them clash; None when
     neither is known."""
 
+    @property
+    def scope(self) -> str | None:
+        """Of what it speaks: "start", the linear model of the start posture; None when nothing is known."""
+        return None if self.first_s is None else "start"
+
     @classmethod
     def of(cls, times: Array, late: NDArray[np.bool_]) -> When:
         """Return the knots (T,) that have none each by itself, at times [s]; not known where there are none."""

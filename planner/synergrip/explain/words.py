@@ -24,6 +24,7 @@ FACTORS = {
     "limits.joint_range": "times the ranges",
 }  # fmt: skip
 """Key -> what its number is a multiple of."""
+INTERRUPTED = "interrupted: changes were not looked for to the end"
 SAME = 1e-3
 """Relative difference of values that are told as one."""
 

@@ -25,11 +25,12 @@ from synergrip.planning.between import Between
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase
 from synergrip.planning.pace import FirstPasses
+from synergrip.planning.reached import Reached
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
-from synergrip.values import Kept, Value
+from synergrip.values import Kept
 
 
 @dataclass(frozen=True)
@@ -200,16 +201,6 @@ class Infeasible(Reasoned):
     def __repr__(self) -> str:
         """Return stage and reason."""
         return f"Infeasible({self.stage}: {shortened(self.why, LONG)})"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Reached(Value):
-    """How far a motion got that was not followed to its end."""
-
-    until_s: float
-    pose: Array
-    """(6,) displacement of the object there: translation and rotation vector [m, rad]."""
-    because: str
 
 
 @made_by("plan(grasp, task)")

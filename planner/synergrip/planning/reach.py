@@ -15,7 +15,7 @@ from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
 from synergrip.planning.hindrances import Hindrance
 from synergrip.planning.let_go import ranges_left
-from synergrip.planning.outcome import Reached
+from synergrip.planning.reached import Reached
 from synergrip.planning.straying import strayed
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import FOLLOWED, Walk
@@ -53,9 +53,10 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
     told = describe_displacement(pose, walker.start.response.scale.length)
     beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
-    return Reached(
-        until, frozen(pose), f"not reached from t = {until:.3g} s: nearest pose {told}{apart}, because {why}"
-    )
+    most = float(far.max())
+    known = np.isfinite(most) and (astray or not _at_ends(walk, dict(_ends(walk, walker)), straight=False))
+    because = f"not reached from t = {until:.3g} s: nearest pose {told}{apart}, because {why}"
+    return Reached(until, frozen(pose), because, most if known else None)
 
 
 def _apart(walk: Walk, walker: Walker, knots: slice) -> str:
@@ -78,13 +79,9 @@ def hindrances(walk: Walk, walker: Walker) -> str:
 def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield what keeps a walk from going on where it ends: what its last pass met, or how its joints are."""
     met, ends = walk.hindered or Hindrance(), dict(_ends(walk, walker))
-    near = [told for told, (joint, off) in ends.items() if off < AT_END[SI_UNITS[joint.kind]]]
     straight = _dear(walk, walker) > DEAR
+    near = _at_ends(walk, ends, straight=straight)
     others = [limit for limit in met.limits if limit.key != RANGES]
-    if not near and not straight:
-        known = {joint.name for joint, _ in ends.values()}
-        names = [name for limit in met.limits if limit.key == RANGES for name in limit.items if name in known]
-        near = [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in names]
     if others:
         yield _binding(others)
     if met.execution or walk.executed.why:
@@ -96,6 +93,16 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     elif not others:
         apart = f": what it promises and what the hand does differ by {walk.gap:.3g} N"
         yield f"no step however short comes nearer{'' if walk.true or np.isinf(walk.gap) else apart}"
+
+
+def _at_ends(walk: Walk, ends: dict[str, tuple[Joint, float]], *, straight: bool) -> list[str]:
+    """Return which joints are at the end of their ranges; where none is, those whose ranges the last pass met."""
+    near = [told for told, (joint, off) in ends.items() if off < AT_END[SI_UNITS[joint.kind]]]
+    if near or straight or walk.hindered is None:
+        return near
+    known = {joint.name for joint, _ in ends.values()}
+    names = [name for limit in walk.hindered.limits if limit.key == RANGES for name in limit.items if name in known]
+    return [min((off, told) for told, (joint, off) in ends.items() if joint.name == name)[1] for name in names]
 
 
 def _binding(limits: Sequence[Conflict]) -> str:

@@ -35,8 +35,9 @@ def no_document(found: Explanation, times: Array) -> dict[str, Any]:
         "cannot_help": list(found.cannot_help),
         "when": {
             "first_s": found.when.first_s, "intervals_s": [list(each) for each in found.when.intervals_s],
-            "alone": found.when.alone,
+            "alone": found.when.alone, "scope": found.when.scope,
         },
+        "interrupted": found.interrupted,
     }  # fmt: skip
 
 

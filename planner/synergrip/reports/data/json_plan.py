@@ -11,6 +11,7 @@ from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
 from synergrip.explain.explanation import Explanation
+from synergrip.explain.words import INTERRUPTED
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, names_of
 from synergrip.planning.digest import with_digest
@@ -62,14 +63,18 @@ def outcome_document(
     }
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
+    known = known or outcome.explanation
+    if known.interrupted:
+        document |= {"exit_code": 130, "notes": [*document["notes"], INTERRUPTED]}
     if isinstance(outcome, Infeasible):
-        return document | _infeasible(outcome) | no_document(known or outcome.explanation, outcome.task.times)
+        return document | _infeasible(outcome) | no_document(known, outcome.task.times)
     certificate, reached = {"kind": "none", "verified": False}, outcome.reached
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
+        "off_m": reached.off_m,
     }  # fmt: skip
     document |= {"stage": outcome.stage, "certificate": certificate, "reached": told}
-    document |= no_document(known or outcome.explanation, outcome.task.times)
+    document |= no_document(known, outcome.task.times)
     if outcome.executed is not None and outcome.usages:
         document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
         document["limits"] = [usage_document(usage) for usage in outcome.usages]

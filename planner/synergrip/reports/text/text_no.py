@@ -8,7 +8,7 @@ from shlex import quote
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
-from synergrip.explain.words import changed, nearer, values
+from synergrip.explain.words import INTERRUPTED, changed, nearer, values
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
@@ -21,6 +21,9 @@ HEADS = {
 """Stage -> what it means."""
 FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 """How far a number was turned of which no value helps, where it is not as far as it goes."""
+AT_START = "in the linear model of the start posture"
+LITTLE = 0.005
+"""Share of a motion up to which it is not told that it is left undone."""
 BEST = 3
 """Items of a limit that are named."""
 
@@ -50,6 +53,8 @@ def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) ->
             rows.append((each.key, share, ", ".join(each.items[:BEST]) + more, place(each.key)))
         yield table(("limit", "share of the proof", "at", "in the file"), rows, right=(1,))
     yield from _repairs(found)
+    if found.interrupted:
+        yield from wrapped("note     ", INTERRUPTED)
 
 
 def _repairs(found: Explanation) -> Iterator[str]:
@@ -58,22 +63,31 @@ def _repairs(found: Explanation) -> Iterator[str]:
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
     if found.others:
-        yield from ("", "What would help, too, tried and planned, and not the least there is")
+        too = ", too" if found.repairs or found.missing_synergies is not None else ""
+        yield from ("", f"What would help{too}, tried and planned, and not the least there is")
         yield _changes([(each,) for each in found.others])
     if found.pairs:
         alone = any(each.verified for each in found.repairs)
         yield from ("", "Pairs of changes that help" if alone else "No single change helps; pairs that do")
         yield _changes(found.pairs)
-    if found.whole and not found.pairs and not any(each.verified for each in (*found.repairs, *found.others)):
+    helped = found.pairs or any(each.verified for each in (*found.repairs, *found.others))
+    if found.whole and not helped and not found.interrupted:
         pair = "" if found.posed is None else ", nor any pair"
         yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
     if found.clashing is not None:
         yield from wrapped("Clash    ", _clash(found.clashing))
     if found.cannot_help:
         words = ", ".join(cause.replace("_", " ") + FAR.get(cause, "") for cause in found.cannot_help)
-        yield from wrapped("No help  ", f"proven of the linear model of the start posture, whatever the value: {words}")
-        if _moves(found):
-            yield from wrapped("         ", "on the hand as it moves they may help all the same")
+        yield from _no_help(words, moves=found.moves)
+
+
+def _no_help(words: str, *, moves: bool) -> Iterator[str]:
+    """Yield of which numbers no value helps, with the model that this is proven of."""
+    if moves:
+        head = f"No help {AT_START}, whatever the value (proven; not of the hand that moves)"
+        yield from ("", head, *wrapped("", words))
+    else:
+        yield from wrapped("No help  ", f"proven of {AT_START.removeprefix('in ')}, whatever the value: {words}")
 
 
 def _helping(found: Explanation) -> Iterator[str]:
@@ -95,12 +109,6 @@ def _nearer(repairs: Sequence[Repair], *, whole: bool) -> Iterator[str]:
         yield from wrapped("         ", f"the linear model of the start posture takes {', '.join(told)}{between}")
 
 
-def _moves(found: Explanation) -> bool:
-    """Return whether the answer is about a hand that is linearised anew along its motion."""
-    posed = found.posed
-    return posed is not None and posed.analysis.grasp.held is not None and posed.timed.linearise == "along"
-
-
 def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
     """Return a table of changes, each of one number or of several."""
     cells = [
@@ -119,7 +127,8 @@ def _again(repair: Repair) -> str:
         return "no plan found"
     plan = repair.outcome
     left = undone(plan.analysis, plan.task) if repair.cause == "tolerance" else 0.0
-    return f"{left / wish_size(plan.analysis, plan.task):.0%} of the motion undone" if left else "a plan"
+    share = left / wish_size(plan.analysis, plan.task) if left else 0.0
+    return f"{share:.0%} of the motion undone" if share >= LITTLE else "a plan"
 
 
 def _missing(missing: MissingSynergies) -> Iterator[str]:
@@ -146,15 +155,15 @@ def _clash(keys: Sequence[str]) -> str:
 
 
 def _when(found: Explanation, times: Array) -> str:
-    """Return which instants have no plan."""
-    late = found.when
+    """Return which instants have no plan; on a hand that moves, in which model."""
+    late, model = found.when, f"{AT_START} " if found.moves else ""
     if late.first_s is None or len(times) < 2:
         return ""
     if late.alone is False:
         together = f"together they have none up to t = {late.first_s:.4g} s"
-        return f"every instant has a plan by itself; for the steps between them, {together}"
+        return f"{model}every instant has a plan by itself; for the steps between them, {together}"
     ends = [_stretch(start, end, times) for start, end in late.intervals_s]
-    return f"{', '.join(ends)}: none of these instants has a plan even by itself"
+    return f"{', '.join(ends)}: {model}none of these instants has a plan even by itself"
 
 
 def _stretch(start: float, end: float, times: Array) -> str:

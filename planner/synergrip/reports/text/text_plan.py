@@ -42,7 +42,9 @@ def outcome_text(
     """Return the answer: what was read, asked, solved, checked; the verdict; what was written, None if that failed."""
     if written is None:
         return "\n".join(verdict_lines(problem, outcome, color))
-    code = f"      exit code {outcome.exit_code}" if outcome.exit_code else ""
+    stopped = not isinstance(outcome, Plan) and outcome.explanation.interrupted
+    number = 130 if stopped else outcome.exit_code
+    code = f"      exit code {number}" if number else ""
     wrote = (f"wrote {folder}/  " + "  ".join(written) if written else "wrote nothing") + code
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
 
