@@ -13,6 +13,7 @@ from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.simulation.model import Model, make_model
 from synergrip.simulation.observing import Touch, touches
+from synergrip.simulation.pad_springs import PadSprings
 from synergrip.simulation.played_plan import PlayedPlan
 from synergrip.simulation.timeline import Timeline, timeline, to_the_first_knot
 from synergrip.values import Value
@@ -98,6 +99,8 @@ class _Run:
         self.damping = model.lag * model.springs.K
         self.q_r = plan.q_0
         mujoco.mj_forward(model.mujoco, self.data)
+        self.pads = PadSprings(model)
+        self.pads.follow(self.data)
         self.wrench_0 = -sum((self._wrench(pad.frame_o, pad.pad.contact.point, force)
                               for pad, force in zip(model.pads, plan.forces_0, strict=True)), np.zeros(6))  # fmt: skip
 
@@ -165,7 +168,9 @@ class _Run:
             data.xfrc_applied[model.body, 3:] += np.cross(plan.load.at @ turned.T - plan.load.at, now.forces).sum(
                 axis=0
             )
+        self.pads.apply(data)
         mujoco.mj_step(model.mujoco, data)
+        self.pads.follow(data)
         if springs.count:
             data.qpos[model.places] += springs.prescribed @ (q_r - data.qpos[model.places])
             data.qvel[model.dofs] += springs.prescribed @ (rate - data.qvel[model.dofs])
@@ -182,7 +187,7 @@ class _Run:
             raise InputError.at(
                 "step", f"the simulation ran away with steps of {self.model.step:g} s; try smaller ones"
             )
-        found = touches(self.model, data)
+        found = touches(self.model, data, self.pads.frames)
         for number, touch in enumerate(found):
             if touch is not None:
                 self.slipped[number] += span * touch.sliding
@@ -214,7 +219,7 @@ class _Run:
 
     def look(self, at: float) -> None:
         """Keep what is seen now."""
-        found = touches(self.model, self.data)
+        found = touches(self.model, self.data, self.pads.frames)
         margins, touching = self.judged(found)
         forces = [np.zeros(pad.contact.n_rows) if t is None else t.force
                   for pad, t in zip(self.plan.pads, found, strict=True)]  # fmt: skip
