@@ -98,10 +98,10 @@ class PadSprings:
         number = self._number[contacts.geom].max(axis=1)
         sign = np.where(self._number[contacts.geom[:, 0]] >= 0, 1.0, -1.0)[:, None]
         normals = (sign * contacts.frame[:, :3]) @ palm
+        follows = (self.frames[number, :, 0] * normals).sum(axis=1) > FLIPPED
+        number, normals = number[follows], normals[follows]
         before = self.frames[number]
-        turned = carried_along(before[..., 0], normals) @ before
-        kept = (before[..., 0] * normals).sum(axis=1) < FLIPPED
-        self.frames[number] = np.where(kept[:, None, None], before, turned)
+        self.frames[number] = carried_along(before[..., 0], normals) @ before
 
 
 def _law(pad: PadModel, hinged: bool) -> tuple[Array, Array]:

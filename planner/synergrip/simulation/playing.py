@@ -215,6 +215,7 @@ class _Run:
 
     def look(self, at: float) -> None:
         """Keep what is seen now."""
+        self.pads.follow(self.data)
         found = touches(self.model, self.data, self.pads.frames)
         margins, touching = self.judged(found)
         forces = [np.zeros(pad.contact.n_rows) if t is None else t.force

@@ -9,6 +9,8 @@ from synergrip.linalg import Array
 
 LOST = 5e-3
 """[s] without touch from which on a contact is lost; a jerk may part what touches for a step."""
+GAP = 0.02
+"""[s] between two times on the cone that are one: friction in the engine may let go for a moment."""
 ROUNDING = 1e-9
 """Margins [N] are 0 within this, and this share of the largest force of the contact: it is on its friction cone."""
 
@@ -29,7 +31,8 @@ class Watch:
         """For how long it was on its cone."""
         self.cone_at = np.full((contacts, 2), np.nan)
         """From when to when that was, the longest time on end."""
-        self._longest, self._stay, self._began = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
+        self._longest, self._stay, self._began = np.zeros((3, contacts))
+        self._off = np.full(contacts, np.inf)
 
     def smallest(self, margins: Array, counted: NDArray[np.bool_], at: float) -> None:
         """Look which margins are smaller than any before, of contacts that count."""
@@ -42,9 +45,11 @@ class Watch:
         self.apart = np.maximum(self.apart, self.since)
         self.smallest(margins, touching | (self.since > LOST), at)
         cone = touching & (margins <= 0)
-        self._began[cone & (self._stay == 0)] = at
-        self._stay = np.where(cone, self._stay + span, 0.0)
+        new = cone & (self._off > GAP)
+        self._off = np.where(cone, 0.0, self._off + span)
+        self._began[new], self._stay[new] = at, 0.0
+        self._stay[cone] += span
         self.on_cone[cone] += span
-        longer = self._stay > self._longest
+        longer = cone & (self._stay > self._longest)
         self._longest[longer] = self._stay[longer]
         self.cone_at[longer] = np.column_stack([self._began, np.full(len(margins), at)])[longer]
