@@ -20,24 +20,6 @@ from synergrip.simulation.played_plan import read_played_plan
 from synergrip.simulation.timeline import timeline
 from synergrip.simulation.told_values import Told
 
-HELD = ("task.move=[]", "task.knots=21")
-
-
-@pytest.fixture(scope="module")
-def held(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of a plan of a gripper that holds a box still."""
-    folder = tmp_path_factory.mktemp("held")
-    problem = synergrip.load_problem("gripper-box", overrides=list(HELD))
-    answer = synergrip.plan(problem.grasp, problem.task)
-    assert isinstance(answer, synergrip.Plan)
-    answer.save(folder)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def played(held: Path) -> synergrip.Simulation:
-    return synergrip.simulate(held)
-
 
 def test_forces_of_a_box_that_is_held_are_those_of_the_plan(held: Path, played: synergrip.Simulation) -> None:
     plan = json.loads((held / "plan.json").read_text())
@@ -59,11 +41,19 @@ def test_half_the_step_gives_the_same(played: synergrip.Simulation) -> None:
 
 
 def test_too_little_friction_slips_and_says_so(held: Path, tmp_path: Path) -> None:
-    """A force of half the friction needed cannot hold the box, whose weight the tips carry by friction alone."""
-    found = document("simulate", str(held), "--friction", "0.5", "--once", "-o", str(tmp_path / "out"), code=3)
+    """With somewhat less friction than is needed the box cannot be held, whose weight the tips carry by it alone."""
+    found = document("simulate", str(held), "--friction", "0.68", "--once", "-o", str(tmp_path / "out"), code=3)
     assert found["verdict"] in ("slipped", "lost contact")
     assert found["slipped"] == found["contacts"]
-    assert found["margin"]["worst_N"] < 0.05
+    assert found["margin"]["worst_N"] == 0, "what slides is on its cone, to rounding"
+    assert np.min(found["margin"]["per_contact_N"]) == 0
+    assert found["at_cone"] == found["contacts"]
+    assert min(found["on_cone_s"]) > 0.02
+    assert all(start < end for start, end in found["cone_at_s"])
+    assert min(found["crept_m"]) > 5e-5
+    differs = found["differs"]
+    assert {each["contact"] for each in differs["contacts"]} == set(found["contacts"])
+    assert "friction was multiplied by 0.68" in differs["likely_cause"]
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"model.xml", "simulation.json", "simulation.csv"}
     assert json.loads((tmp_path / "out" / "simulation.json").read_text()) == found
 

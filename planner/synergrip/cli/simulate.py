@@ -49,7 +49,7 @@ def simulate(
     friction: Annotated[float, typer.Option(metavar="FACTOR", help="What all friction is multiplied by.")] = 1.0,
     once: Annotated[bool, typer.Option("--once", help="Do not play it again at half the step.")] = False,
 ) -> None:
-    """Play a saved plan in MuJoCo: exit code 0 when every contact held, 3 when one slipped or was lost."""
+    """Play a saved plan in MuJoCo: exit code 0 when every contact held, 3 when one slipped, crept or was lost."""
     with answering(form):
         from synergrip.reports.data.simulation_files import (
             refuse_simulation_place,

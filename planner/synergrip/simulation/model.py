@@ -51,6 +51,7 @@ class PadModel(Value):
     geom: int
     dofs: Array
     frame_o: Array  # (3, 3) columns n, t, o at the start
+    preload: Array  # (rows,) what it carries at the start
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -112,7 +113,7 @@ def make_model(plan: PlayedPlan, step: float) -> Model:
         PadModel(
             pad, radius, frozen(stiffness), number, int(compiled.geom(f"pad:{number}").id),
             np.array([int(compiled.joint(f"pad:{number}:{i}").dofadr[0]) for i in range(len(stiffness))]),
-            pad.contact.frame,
+            pad.contact.frame, plan.forces_0[number],
         )
         for number, (pad, (radius, stiffness)) in enumerate(zip(plan.pads, made, strict=True))
     )  # fmt: skip
@@ -208,7 +209,8 @@ def _add_pad(
     if len(forces) == 4 and pad.compliance[3, 3] > 0:
         k = 1 / float(pad.compliance[3, 3])
         joint = body.add_joint(name=f"pad:{number}:3", type=mujoco.mjtJoint.mjJNT_HINGE)
-        joint.axis, joint.armature = (link.T @ normal).tolist(), k * (step / SWING) ** 2
+        joint.axis, most = (link.T @ normal).tolist(), k + radius**2 * max(stiffness)  # it rolls as it turns
+        joint.armature = most * (step / SWING) ** 2
         _spring(joint, k, lag, float(forces[3]))
         stiffness.append(k)
     body.add_geom(

@@ -75,6 +75,8 @@ class PlayedPlan(Value):
     du: Array  # (T, 6) promised motion of the object
     margins: Array  # (T, n_c) promised [N]
     true_margins: Array | None  # (T, n_c) at the true equilibrium, when the plan tells them
+    contact_model: str | None
+    """How contacts move at the true equilibrium, when the plan tells it: "rolling" or "fixed"."""
     load: Load
 
     @property
@@ -137,6 +139,7 @@ def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
         times, plan.array("dz_r", (n_t, n_z)), plan.array("lambda", (n_t, len(lambda_0))), plan.array("du", (n_t, 6)),
         plan.inside("margin").array("per_contact_N", (n_t, len(pads))),
         None if shown is None else shown.array("per_contact_N", (n_t, len(pads))),
+        None if true is None or true.get("contact_model") is None else true.text("contact_model"),
         _load(told.inside("load")),
     )  # fmt: skip
 

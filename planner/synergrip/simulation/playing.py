@@ -13,8 +13,10 @@ from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.simulation.model import Model, make_model
 from synergrip.simulation.observing import Touch, touches
+from synergrip.simulation.pad_springs import PadSprings
 from synergrip.simulation.played_plan import PlayedPlan
 from synergrip.simulation.timeline import Timeline, timeline, to_the_first_knot
+from synergrip.simulation.watching import Watch, without_rounding
 from synergrip.values import Value
 
 GLUE = 10.0
@@ -30,8 +32,6 @@ EVERY = 10
 SAMPLES = 400
 """Instants of the play that are kept."""
 
-LOST = 5e-3
-"""[s] without touch from which on a contact is lost; a jerk may part what touches for a step."""
 FLOWN = 0.05
 """How far from where it was to be [m] an object is that has left the hand."""
 
@@ -53,6 +53,8 @@ class Played(Value):
     least: Array  # (n_c,) [N] smallest margins, looked for more often than what is kept
     least_at: Array  # (n_c,) [s] of the plan when that was
     apart: Array  # (n_c,) [s] of the simulation: the longest time without touch
+    on_cone: Array  # (n_c,) [s] of the simulation: how long contacts that touch had no margin
+    cone_at: Array  # (n_c, 2) [s] of the plan: from when to when the longest of that was; NaN where there was none
     duration: float  # [s] of the play on the clock of the simulation
     flown: bool
     """Whether the object went so far from where it was to be that the play was ended."""
@@ -91,13 +93,13 @@ class _Run:
         self.data.qpos[model.places] = plan.q_0
         self.slipped, self.turned = np.zeros((len(plan.pads), 3)), np.zeros(len(plan.pads))
         self.rows: list[tuple[Any, ...]] = []
-        contacts = len(plan.pads)
-        self.least, self.least_at = np.full(contacts, np.inf), np.zeros(contacts)  # inf until it touches or is lost
-        self.apart, self.since, self.flown = np.zeros(contacts), np.zeros(contacts), False
+        self.watch, self.flown = Watch(len(plan.pads)), False
         self.keep, self.count, self.total = 0, 0, 1.0
         self.damping = model.lag * model.springs.K
         self.q_r = plan.q_0
         mujoco.mj_forward(model.mujoco, self.data)
+        self.pads = PadSprings(model)
+        self.pads.follow(self.data)
         self.wrench_0 = -sum((self._wrench(pad.frame_o, pad.pad.contact.point, force)
                               for pad, force in zip(model.pads, plan.forces_0, strict=True)), np.zeros(6))  # fmt: skip
 
@@ -165,6 +167,7 @@ class _Run:
             data.xfrc_applied[model.body, 3:] += np.cross(plan.load.at @ turned.T - plan.load.at, now.forces).sum(
                 axis=0
             )
+        self.pads.apply(data)
         mujoco.mj_step(model.mujoco, data)
         if springs.count:
             data.qpos[model.places] += springs.prescribed @ (q_r - data.qpos[model.places])
@@ -182,17 +185,14 @@ class _Run:
             raise InputError.at(
                 "step", f"the simulation ran away with steps of {self.model.step:g} s; try smaller ones"
             )
-        found = touches(self.model, data)
+        self.pads.follow(data)
+        found = touches(self.model, data, self.pads.frames)
         for number, touch in enumerate(found):
             if touch is not None:
                 self.slipped[number] += span * touch.sliding
                 self.turned[number] += span * touch.spinning
         if self.keep:
-            margins, touching = self.judged(found)
-            self.since = np.where(touching, 0.0, self.since + span)
-            lower = (margins < self.least) & (touching | (self.since > LOST))
-            self.least[lower], self.least_at[lower] = margins[lower], at
-            self.apart = np.maximum(self.apart, self.since)
+            self.watch.see(*self.judged(found), at, span)
             wanted = np.array([np.interp(at, self.plan.times, column) for column in self.plan.du[:, :3].T])
             self.flown = bool(np.linalg.norm(self.moved()[:3] - wanted) > FLOWN)
         if self.progress and self.count % (100 * EVERY) == 0:
@@ -201,7 +201,8 @@ class _Run:
     def judged(self, found: list[Touch | None]) -> tuple[Array, NDArray[np.bool_]]:
         """Return slip margins (n_c,) and which contacts touch."""
         pairs = list(zip(self.plan.pads, found, strict=True))
-        margins = [0.0 if t is None else float(pad.contact.slip_margin(t.force)) for pad, t in pairs]
+        margins = [0.0 if t is None else without_rounding(float(pad.contact.slip_margin(t.force)), t.force)
+                   for pad, t in pairs]  # fmt: skip
         return np.array(margins), np.array([t is not None and t.force[0] > 0 for _, t in pairs])
 
     def moved(self) -> Array:
@@ -214,12 +215,12 @@ class _Run:
 
     def look(self, at: float) -> None:
         """Keep what is seen now."""
-        found = touches(self.model, self.data)
+        self.pads.follow(self.data)
+        found = touches(self.model, self.data, self.pads.frames)
         margins, touching = self.judged(found)
         forces = [np.zeros(pad.contact.n_rows) if t is None else t.force
                   for pad, t in zip(self.plan.pads, found, strict=True)]  # fmt: skip
-        lower = (margins < self.least) & touching
-        self.least[lower], self.least_at[lower] = margins[lower], at
+        self.watch.smallest(margins, touching, at)
         self.rows.append((at, np.concatenate(forces), margins, np.linalg.norm(self.slipped, axis=1),
                           self.turned.copy(), touching, self.moved(),
                           self.data.qpos[self.model.places].copy()))  # fmt: skip
@@ -229,10 +230,8 @@ class _Run:
         time, forces, margins, slips, spins, touching, du, q = (
             frozen(np.array(column)) for column in zip(*self.rows, strict=True)
         )
-        least, least_at, apart = (
-            frozen(np.where(np.isfinite(self.least), self.least, 0.0)),
-            frozen(self.least_at),
-            frozen(self.apart),
-        )
-        return Played(time, forces, margins, slips, spins, touching, du, q, least, least_at, apart, duration,
-                      self.flown, self.model)  # fmt: skip
+        watch = self.watch
+        least = frozen(np.where(np.isfinite(watch.least), watch.least, 0.0))
+        return Played(time, forces, margins, slips, spins, touching, du, q, least, frozen(watch.least_at),
+                      frozen(watch.apart), frozen(watch.on_cone), frozen(watch.cone_at), duration, self.flown,
+                      self.model)  # fmt: skip

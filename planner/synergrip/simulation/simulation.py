@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -15,8 +15,16 @@ from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.errors import InputError, kind_of, one_of
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.outcome import Plan
+from synergrip.simulation.differences import (
+    Circumstances,
+    Difference,
+    allowed_difference,
+    differences,
+    likely_cause,
+)
 from synergrip.simulation.played_plan import PlayedPlan, read_played_plan
-from synergrip.simulation.playing import LOST, Played, play
+from synergrip.simulation.playing import Played, play
+from synergrip.simulation.watching import LOST
 from synergrip.values import Value
 
 SPEEDS = ("slow", "real")
@@ -26,6 +34,8 @@ SLIPPED = 5e-5
 """[m] from which on a contact has slipped; friction in the engine creeps by some 1e-6 m."""
 SPUN = 0.01
 """[rad] about its normal from which on a contact has slipped."""
+ON_CONE = 0.02
+"""[s] of the simulation on its friction cone from which on a contact has not held, however little it crept."""
 
 
 @made_by("simulate(plan)")
@@ -44,6 +54,8 @@ class Simulation(Value):
     speed: str
     """"slow" or "real"."""
     step: float  # [s]
+    friction: float
+    """What all friction was multiplied by."""
     time: Array  # (N,) [s]
     forces: Array = field(repr=False)  # (N, n_l) in the contact frames, as lambda of the plan
     margin: Array  # (N, n_c) [N]
@@ -58,10 +70,18 @@ class Simulation(Value):
     least: Array  # (n_c,) [N] smallest margin of each contact
     least_at: Array  # (n_c,) [s]
     apart: Array  # (n_c,) [s] longest time without touch
+    on_cone: Array  # (n_c,) [s] of the simulation in which contacts that touch had no margin
+    cone_at: Array  # (n_c, 2) [s] from when to when, the longest of that; NaN where there was none
+    promised_least: Array  # (n_c,) [N] smallest promised margin of each contact at the knots
     promised_worst: float  # [N] at the knots
     true_worst: float | None  # [N]
     half_step: tuple[float, float] | None
     """By how much margins [N] and the motion [m] differ at most when the step is half as long; None when not asked."""
+    within: float  # [N] what a smallest margin may differ by from the promised one
+    differences: tuple[Difference, ...]
+    """Contacts whose smallest margins differ by more than that."""
+    likely_cause: str | None
+    """Why they are likely to; None when none does."""
     notes: tuple[str, ...]
     model: str = field(repr=False)
     """The model, as MJCF."""
@@ -80,10 +100,19 @@ class Simulation(Value):
     @property
     def slipped(self) -> tuple[str, ...]:
         """Contacts that slipped."""
-        most = self.slip.max(axis=0) > SLIPPED
-        turned = np.abs(self.spin).max(axis=0) > SPUN
-        pairs = zip(self.contacts, most | turned, strict=True)
+        slid, spun = self.crept
+        pairs = zip(self.contacts, (slid > SLIPPED) | (spun > SPUN), strict=True)
         return tuple(name for name, moved in pairs if moved)
+
+    @property
+    def at_cone(self) -> tuple[str, ...]:
+        """Contacts that were on their friction cones, where they creep, for more than `ON_CONE`."""
+        return tuple(name for name, time in zip(self.contacts, self.on_cone, strict=True) if time > ON_CONE)
+
+    @property
+    def crept(self) -> tuple[Array, Array]:
+        """How far contacts slid [m] and spun [rad] at most, (n_c,) each."""
+        return self.slip.max(axis=0), np.abs(self.spin).max(axis=0)
 
     @property
     def motion_error(self) -> tuple[float, float]:
@@ -93,8 +122,10 @@ class Simulation(Value):
 
     @property
     def verdict(self) -> str:
-        """What became of the grasp: "held", "slipped" or "lost contact"."""
-        return "lost contact" if self.lost else "slipped" if self.slipped else "held"
+        """What became of the grasp: "held", "at its cone", "slipped" or "lost contact"."""
+        if self.lost:
+            return "lost contact"
+        return "slipped" if self.slipped else "at its cone" if self.at_cone else "held"
 
     @property
     def exit_code(self) -> int:
@@ -143,7 +174,7 @@ def simulate(
     finer = None
     if half_step:
         finer = play(played, step / 2, speed, lambda done, of: told(f"again at {step / 2:g} s", done / of))
-    return _simulation(played, found, finer, speed, step)
+    return _simulation(played, found, finer, speed, friction, step)
 
 
 def _read(plan: str | Path | Plan) -> PlayedPlan:
@@ -157,18 +188,24 @@ def _read(plan: str | Path | Plan) -> PlayedPlan:
     return read_played_plan(Path(plan))
 
 
-def _simulation(plan: PlayedPlan, found: Played, finer: Played | None, speed: str, step: float) -> Simulation:
+def _simulation(
+    plan: PlayedPlan, found: Played, finer: Played | None, speed: str, friction: float, step: float
+) -> Simulation:
     def there(values: Array) -> Array:
         return frozen(interpolated(found.time, plan.times, values))
 
-    true = plan.true_margins
-    return Simulation(
-        plan.title, plan.names, plan.kinematics.joints, speed, step, found.time, found.forces, found.margins,
+    true, half = plan.true_margins, None if finer is None else _difference(found, finer)
+    made = Simulation(
+        plan.title, plan.names, plan.kinematics.joints, speed, step, friction, found.time, found.forces, found.margins,
         there(plan.margins), None if true is None else there(true), found.slips, found.spins, found.touching,
-        found.du, there(plan.du), found.q, found.least, found.least_at, found.apart, float(plan.margins.min()),
-        None if true is None else float(true.min()), None if finer is None else _difference(found, finer),
-        tuple(_notes(plan, found, speed)), found.model.text,
+        found.du, there(plan.du), found.q, found.least, found.least_at, found.apart, found.on_cone, found.cone_at,
+        frozen(plan.margins.min(axis=0)), float(plan.margins.min()), None if true is None else float(true.min()), half,
+        allowed_difference(plan), differences(plan, found.least), None, tuple(_notes(plan, found, speed)),
+        found.model.text,
     )  # fmt: skip
+    sliding = dict.fromkeys([*made.lost, *made.slipped, *made.at_cone])
+    circumstances = Circumstances(friction, speed, None if half is None else half[0], tuple(sliding))
+    return replace(made, likely_cause=likely_cause(plan, made.differences, circumstances))
 
 
 def _difference(found: Played, finer: Played) -> tuple[float, float]:

@@ -27,15 +27,25 @@ def simulation_document(simulation: Simulation) -> dict[str, Any]:
     return {
         "title": simulation.title, "verdict": simulation.verdict, "exit_code": simulation.exit_code,
         "engine": "mujoco", "speed": simulation.speed, "step_s": simulation.step,
+        "friction_factor": simulation.friction,
         "contacts": list(simulation.contacts), "joints": list(simulation.joints),
-        "lost": list(simulation.lost), "slipped": list(simulation.slipped),
+        "lost": list(simulation.lost), "slipped": list(simulation.slipped), "at_cone": list(simulation.at_cone),
+        "on_cone_s": simulation.on_cone.tolist(),
+        "cone_at_s": [None if np.isnan(each).any() else each.tolist() for each in simulation.cone_at],
+        "crept_m": simulation.crept[0].tolist(), "crept_rad": simulation.crept[1].tolist(),
         "margin": {
             "worst_N": worst, "contact": contact, "time_s": time, "least_N": simulation.least.tolist(),
             "least_at_s": simulation.least_at.tolist(), "per_contact_N": simulation.margin.tolist(),
         },
-        "promised": {"worst_N": simulation.promised_worst, "per_contact_N": simulation.promised.tolist(),
+        "promised": {"worst_N": simulation.promised_worst, "least_N": simulation.promised_least.tolist(),
+                     "per_contact_N": simulation.promised.tolist(),
                      "du": simulation.promised_du.tolist()},
         "true": None if true is None else {"worst_N": simulation.true_worst, "per_contact_N": true.tolist()},
+        "differs": {
+            "more_than_N": simulation.within, "likely_cause": simulation.likely_cause,
+            "contacts": [{"contact": each.contact, "played_N": each.played, "promised_N": each.promised}
+                         for each in simulation.differences],
+        },
         "motion_error": {"shift_m": shift, "turn_rad": turn},
         "half_step": None if half is None else {"margin_N": finite(half[0]), "shift_m": finite(half[1])},
         "notes": list(simulation.notes), "time_s": simulation.time.tolist(), "lambda": simulation.forces.tolist(),

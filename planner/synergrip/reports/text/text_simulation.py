@@ -6,10 +6,7 @@ import numpy as np
 
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
-from synergrip.simulation.simulation import Simulation
-
-SHORT = 0.05
-"""[N] by how much a margin must be below the promised one to be told of."""
+from synergrip.simulation.simulation import SLIPPED, SPUN, Simulation
 
 
 def simulation_text(simulation: Simulation, color: bool = False) -> str:
@@ -32,6 +29,8 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
         margins, motion = simulation.half_step
         said = f"with half the step margins differ by {margins:.2g} N and the motion by {1e3 * motion:.2g} mm at most"
         lines += wrapped("step     ", said)
+    if simulation.differences:
+        lines += wrapped("differs  ", _differs(simulation))
     for note in simulation.notes:
         lines += wrapped("note     ", note)
     word = verdict_word("feasible" if simulation.verdict == "held" else "unknown", color)
@@ -44,22 +43,46 @@ def _said(simulation: Simulation) -> str:
         return f"no touch at {', '.join(simulation.lost)}"
     if simulation.slipped:
         return f"the object slipped at {', '.join(simulation.slipped)}"
-    short = simulation.promised_worst - simulation.worst[0]
-    less = f"; the smallest margin is {short:.2g} N below the promised one" if short > SHORT else ""
-    return f"every contact touched and none slipped{less}"
+    if simulation.at_cone:
+        parts = "; ".join(_creeping(simulation, name) for name in simulation.at_cone)
+        return f"{parts}; slipped is from {1e3 * SLIPPED:g} mm or {np.degrees(SPUN):.2g} deg on"
+    moments = ", ".join(
+        f"{name} for {1e3 * time:.2g} ms"
+        for name, time in zip(simulation.contacts, simulation.on_cone, strict=True)
+        if time
+    )
+    return "every contact touched and none slipped" + (f"; at the cone for a moment: {moments}" if moments else "")
+
+
+def _creeping(simulation: Simulation, name: str) -> str:
+    i = simulation.contacts.index(name)
+    start, end = simulation.cone_at[i]
+    slid, spun = (float(each[i]) for each in simulation.crept)
+    promised = simulation.promised_least[i]
+    return (
+        f"{name} had no margin from {start:.3g} s to {end:.3g} s ({promised:.4g} N promised) and "
+        f"crept {1e3 * slid:.2g} mm and {np.degrees(spun):.2g} deg"
+    )
+
+
+def _differs(simulation: Simulation) -> str:
+    parts = ", ".join(
+        f"{each.contact} has {each.played:.4g} N of {each.promised:.4g} N promised" for each in simulation.differences
+    )
+    return f"{parts}: more than {simulation.within:.2g} N apart; likely cause: {simulation.likely_cause}"
 
 
 def _contacts(simulation: Simulation) -> str:
     header: tuple[str, ...] = ("contact", "margin", "promised", "true", "at", "slip", "spin", "")
-    rows = list[tuple[str, ...]]()
+    rows, (slid, spun) = list[tuple[str, ...]](), simulation.crept
     for i, name in enumerate(simulation.contacts):
         true = "" if simulation.true is None else f"{simulation.true[:, i].min():.4g} N"
-        word = "lost" if name in simulation.lost else "slipped" if name in simulation.slipped else "held"
+        words = {"lost": simulation.lost, "slipped": simulation.slipped, "at its cone": simulation.at_cone}
+        word = next((word for word, names in words.items() if name in names), "held")
         rows.append(
             (
-                name, f"{simulation.least[i]:.4g} N", f"{simulation.promised[:, i].min():.4g} N", true,
-                f"{simulation.least_at[i]:.4g} s", f"{1e3 * simulation.slip[:, i].max():.2g} mm",
-                f"{np.degrees(np.abs(simulation.spin[:, i]).max()):.2g} deg", word,
+                name, f"{simulation.least[i]:.4g} N", f"{simulation.promised_least[i]:.4g} N", true,
+                f"{simulation.least_at[i]:.4g} s", f"{1e3 * slid[i]:.2g} mm", f"{np.degrees(spun[i]):.2g} deg", word,
             )
         )  # fmt: skip
     if simulation.true is None:
