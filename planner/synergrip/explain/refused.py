@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from synergrip.changes.asked import Asked
 from synergrip.changes.at_a_value import first_plan, with_room
+from synergrip.changes.turning import tolerance_dial
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.object_error import AXES
 from synergrip.errors import MotionDirectionError
@@ -88,8 +89,6 @@ def _out_of_reach(
         outside = out_of_reach(analysis, target_displacement(analysis, task, task.target.values))
         late = outside > max(task.tolerance, RIGID_TOLERANCE * size)
         known, least = replace(known, when=When.of(task.times, late)), max(least, float(outside.max()))
-    dial: Dial[Asked] = Dial(
-        "tolerance", "task.tolerance", task.tolerance, "m", lambda v: asked.with_task(tolerance=v), scale=size or 1.0
-    )
+    dial = tolerance_dial(asked, task, analysis)
     found = first_plan(dial, [dial.rounded(with_room(dial, least))], effort)
     return replace(known, repairs=() if found is None else (Repair.of(dial, *found, proven=whole),))
