@@ -50,6 +50,7 @@ def turned(heavy: Path, tmp_path: Path) -> tuple[PlayedPlan, Model, mujoco.MjDat
     data = json.loads((heavy / "plan.json").read_text())
     for contact in data["execution"]["contacts"]:
         contact["compliance"] = COMPLIANCE.tolist()
+    data["execution"]["lambda_0"] = [3.0, 0.7, -1.2, 0.01, 2.0, -0.4, 1.1, -0.02]
     (tmp_path / "plan.json").write_text(json.dumps(data))
     plan = read_played_plan(tmp_path)
     model = make_model(plan, 2e-4)
