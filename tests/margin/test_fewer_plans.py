@@ -77,7 +77,11 @@ def test_guesses_end_where_halving_ends(monkeypatch: pytest.MonkeyPatch, name: s
     assert guessed.past is not None
 
 
-@pytest.mark.parametrize("missing", [lambda v: None, lambda v: -1.0, lambda v: 1.0, lambda v: 3.0 - v], ids=["none", "below", "above", "line"])
+@pytest.mark.parametrize(
+    "missing",
+    [lambda v: None, lambda v: -1.0, lambda v: 1.0, lambda v: 3.0 - v],
+    ids=["none", "below", "above", "line"],
+)
 def test_wrong_guesses_leave_what_is_looked_for_between(missing: object) -> None:
     good, bad = looking._guessed(2.0, 0.5, missing, partial(lambda end, v: v >= end, 1.3))  # type: ignore[arg-type]
     assert bad < 1.3 <= good
