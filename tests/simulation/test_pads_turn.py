@@ -17,7 +17,7 @@ from synergrip.simulation.pad_springs import PadSprings
 from synergrip.simulation.played_plan import PlayedPlan, read_played_plan
 
 HEAVY = ("task.move[0].lift=-8 mm", "task.knots=11", "object.mass=400 g", "limits.margin=0.3 N")
-"""The weight is a preload of 2 N from the start, and the pads turn by 17 degrees."""
+"""The weight is a preload of 2 N from the start, and the pads turn by 15 degrees."""
 
 COMPLIANCE = np.diag([1e-4, 3e-4, 7e-4, 0.5])
 
