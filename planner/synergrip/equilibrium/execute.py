@@ -14,7 +14,7 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.newton import AT_REST, ROUGH, at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
-from synergrip.equilibrium.way import SQUEEZE, Way, parts_needed, parts_of, squeezes
+from synergrip.equilibrium.way import SQUEEZE, Way, parts_of, squeezes, steps_between
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Response
@@ -69,26 +69,18 @@ def equilibria(
         wrong: says of forces (T, n_l) that are known to `ROUGH` whether they are not those that are looked for, so that
             more digits of them are of no use.
     """
-    found = None if guess is None else _together(own, times, references, loads, guess, wrong)
-    found = found or _followed(own, times, references, loads)
-    parts = parts_needed(own, found.path, found.kept)
-    if len(found.states) < len(times) or not np.any(parts > parts_of(found.kept)):
-        return found
-    finer = _at_steps(own, times, references, loads, parts, found.states, wrong)
-    return finer or _followed(own, times, references, loads, parts)
+    parts, found = steps_between(own, references), None
+    if guess is not None:
+        found = _at_steps(own, times, references, loads, parts, _near(own, guess, parts), wrong)
+    return found or _followed(own, times, references, loads, parts)
 
 
-def _together(
-    own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution,
-    wrong: Callable[[Array], bool] | None,
-) -> Execution | None:  # fmt: skip
-    """Return the equilibria of all instants, found at once from what is near them; None where that does not do."""
-    if isinstance(guess, Execution):
-        if guess.setting is own and len(guess.kept) == len(times) and guess.kept[0] == squeezes(own):
-            return _at_steps(own, times, references, loads, parts_of(guess.kept), guess.path, wrong)
-        guess = guess.states
-    parts = np.ones(len(times), dtype=np.intp)
-    return _at_steps(own, times, references, loads, parts, guess, wrong)
+def _near(own: Setting, guess: States | Execution, parts: Places) -> States | Balance:
+    """Return the equations at other equilibria of the same steps, where these are known, or else states."""
+    if isinstance(guess, States):
+        return guess
+    whole = guess.setting is own and len(guess.kept) == len(parts) and guess.kept[0] == squeezes(own)
+    return guess.path if whole and np.array_equal(parts_of(guess.kept), parts) else guess.states
 
 
 def _at_steps(
@@ -144,12 +136,12 @@ def _judged(
     return np.asarray(instants), references
 
 
-def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts: Places | None = None) -> Execution:
+def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts: Places) -> Execution:
     """Follow the equilibria from the start, in steps as short as it takes; `parts` (T,) from each instant, at least."""
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
     path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
     for k in range(len(times)):
-        first = SQUEEZE if k == 0 else 1 if parts is None else int(parts[k - 1])
+        first = SQUEEZE if k == 0 else int(parts[k - 1])
         gone, step = Fraction(0), Fraction(1, first)
         from_z, from_w, to_w = z, w, loads.taken([k])
         while gone < 1 and not why:

@@ -88,6 +88,14 @@ class Setting(Value):
         return scale_of(self.grasp).length
 
     @cached_property
+    def turning(self) -> Array:
+        """(n_c, n_q) 1 where a joint that turns carries the link of a contact."""
+        held, start = self.held, self.start.q
+        turns = np.array([joint.kind == "hinge" for joint in held.hand.joints])
+        jacobian = held.hand.kinematics.along(start, self.points).jacobian[0, :, 1]
+        return np.asarray(np.any(jacobian != 0, axis=1) & turns, dtype=float)
+
+    @cached_property
     def above(self) -> Array:
         """(n_q, n_q) 1 where joint i carries joint j, or is joint j."""
         hand = self.held.hand

@@ -10,17 +10,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
-from synergrip.vectors import lengths_of, rotation_vectors
+from synergrip.vectors import rotation_vectors
 
 SQUEEZE = 10
 """Steps in which the references of the first instant are reached."""
 FARTHEST = 0.1
-"""[rad] How far a contact may turn against the object in a step from one instant to the next."""
+"""[rad] How far the joints that carry a contact may turn, all together, in a step from one instant to the next."""
 MOST = 64
 """Steps from one instant to the next, at most."""
 
@@ -79,13 +78,15 @@ class Way(Value):
         return States.joined([*before, States(q, position, rotation, forces)])
 
 
-def parts_needed(own: Setting, path: Balance, kept: Places) -> Places:
-    """Return (T,) into how many steps what follows each instant is split, by how far contacts turn there."""
-    parts = np.ones(len(kept), dtype=np.intp)
-    if own.contact_model == "rolling" and len(kept) > 1:
-        relative = path.placed.relative[kept]
-        turned = lengths_of(rotation_vectors(relative[1:] @ relative[:-1].mT)).max(axis=1, initial=0.0)
-        parts[:-1] = np.clip(np.ceil(turned / FARTHEST), 1, MOST)
+def steps_between(own: Setting, references: Array) -> Places:
+    """Return (T,) into how many steps what follows each instant is split, from what references (T, n_z) ask for there.
+
+    A link turns by no more than the joints that carry it do; what they ask for tells it whatever way a state is found.
+    """
+    parts = np.ones(len(references), dtype=np.intp)
+    if own.contact_model == "rolling" and len(references) > 1:
+        turned = np.abs(np.diff(references, axis=0) @ own.grasp.S.T) @ own.turning.T
+        parts[:-1] = np.clip(np.ceil(turned.max(axis=1, initial=0.0) / FARTHEST), 1, MOST)
     return parts
 
 

@@ -196,7 +196,7 @@ class Walker:
         if walk.true:
             return walk
         again = self.executed(walk.references, None, walk.executed)
-        return replace(walk, executed=again.executed, way=again.way)
+        return walk if again.way is None else replace(walk, executed=again.executed, way=again.way)
 
     def _limits(self, walk: Walk, pace: Pace) -> tuple[Limit, ...]:
         """Return the limits that a pass around a path keeps.
