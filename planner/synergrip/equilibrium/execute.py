@@ -56,7 +56,7 @@ def execute(
 
 def equilibria(
     own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution | None,
-    wrong: Callable[[Array], bool] | None = None,
+    wrong: Callable[[Array], bool] | None = None, *, finely: bool = True,
 ) -> Execution:  # fmt: skip
     """Return the equilibria that references lead through, as `execute` does.
 
@@ -68,8 +68,9 @@ def equilibria(
         guess: (T) states near the equilibria, or an execution of references near these.
         wrong: says of forces (T, n_l) that are known to `ROUGH` whether they are not those that are looked for, so that
             more digits of them are of no use.
+        finely: whether there are as many steps between instants as it takes; else one.
     """
-    parts, found = steps_between(own, references), None
+    parts, found = steps_between(own, references) if finely else np.ones(len(times), dtype=np.intp), None
     if guess is not None:
         found = _at_steps(own, times, references, loads, parts, _near(own, guess, parts), wrong)
     return found or _followed(own, times, references, loads, parts)

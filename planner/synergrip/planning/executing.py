@@ -28,6 +28,8 @@ class Executor:
     setting: Setting
     task: TimedTask
     response: Response
+    finely: bool = True
+    """Whether contacts roll from knot to knot in as many steps as it takes to be exact; in one where it is not."""
 
     @classmethod
     def of(cls, analysis: Analysis, task: TimedTask) -> Executor:
@@ -63,7 +65,8 @@ class Executor:
             wrong: whether forces (T, n_l) known to a few digits are not those that are looked for: no more are found.
         """
         guess = _states(self.setting, near) if isinstance(near, Motion) else near
-        return equilibria(self.setting, times, references, loads(self.task, times, wrench), guess, wrong)
+        load = loads(self.task, times, wrench)
+        return equilibria(self.setting, times, references, load, guess, wrong, finely=self.finely)
 
 
 def analyses_of(execution: Execution, start: Analysis) -> Each:

@@ -50,9 +50,10 @@ class FewerKnots:
 
     @cached_property
     def walker(self) -> Walker:
-        """Who walks at these knots, without a look between them."""
+        """Who walks at these knots, without a look between them, and in one step from each to the next."""
         task = replace(self.whole.task.at(self.knots), between="report")
-        return replace(self.whole, task=task, aim=frozen(self.whole.wanted[self.knots]), leads=True)
+        executor = replace(self.whole.executor, finely=False)
+        return replace(self.whole, task=task, executor=executor, aim=frozen(self.whole.wanted[self.knots]), leads=True)
 
     def at_all_knots(self, found: Walk, smooth: Array) -> Walk | None:
         """Return a walk at all knots, of which none has been asked for yet; None where some are not reached.
