@@ -182,6 +182,14 @@ def _from_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     return np.sqrt(np.maximum(squares, 0.0)), np.array(clear)
 
 
+def inverse_of(matrices: Array) -> Array:
+    """Return the inverses of matrices (..., n, n); the pseudo-inverses of all where one has none."""
+    try:
+        return np.asarray(np.linalg.inv(matrices))
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.pinv(matrices))
+
+
 def gram(matrices: Array) -> Array:
     """Return ``A' A`` for matrices A (..., m, n)."""
     return np.asarray(matrices.mT @ matrices.copy())  # seeing a small A itself twice, NumPy takes longer

@@ -11,6 +11,7 @@ from synergrip.planning.outcome import Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.planning.reach import notes
 from synergrip.problems.problem import load_problem
+from synergrip.reports.data.json_plan import outcome_document
 
 
 def test_a_plan_of_the_start_posture_that_fails_tells_what_it_promised_and_each_miss_once() -> None:
@@ -18,6 +19,8 @@ def test_a_plan_of_the_start_posture_that_fails_tells_what_it_promised_and_each_
     no = plan(problem.grasp, problem.task)
     assert isinstance(no, Unknown)
     assert any("promises a smallest slip margin of 0.5" in note and "keeps -" in note for note in no.notes)
+    document = outcome_document(problem.title, problem.grasp, no, problem.notes)
+    assert any("promises a smallest slip margin of 0.5" in note for note in document["notes"])
     missed = [part.removeprefix("between the knots: ") for part in no.why.split("; ")]
     assert len(missed) == len(set(missed))
 

@@ -90,7 +90,7 @@ def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Arra
 
 def stated_each(
     like: Analysis, each: Each, stack: GraspStack, task: TimedTask, wrench: Array, friction: Array | None
-) -> Stated:  # fmt: skip
+) -> Stated:
     """Return the tasks with loads (N, 6) and friction factors (N,) on N grasps, each on its own.
 
     Args:

@@ -80,7 +80,7 @@ def explain(
             if picture and _drawn(known, loaded.title, picture):
                 wrote.append(str(picture))
         show(form, text, lambda: document)
-    raise typer.Exit(130 if known is not None and known.interrupted else outcome.exit_code)
+    raise typer.Exit(document["exit_code"])
 
 
 def _explained(no: Infeasible | Unknown) -> Explanation:

@@ -24,7 +24,7 @@ from synergrip.equilibrium.sliding_pads import of_sliding
 from synergrip.equilibrium.states import Loads, States
 from synergrip.grasps.contact_maps import grasp_matrices, hand_jacobians, moved_points
 from synergrip.grasps.contacts.kind import is_moment
-from synergrip.linalg import Array, Places
+from synergrip.linalg import Array, Places, inverse_of
 from synergrip.statics.response import Maps
 from synergrip.values import Value
 from synergrip.vectors import skews
@@ -157,11 +157,7 @@ class Balance(Value):
         rows = np.abs(scaled).max(axis=2, initial=0.0)
         rows = np.where(rows > 0, rows, 1.0)
         scaled /= rows[:, :, None]
-        try:
-            found = np.linalg.inv(scaled)
-        except np.linalg.LinAlgError:
-            found = np.linalg.pinv(scaled)
-        return np.asarray(scale[:, None] * found / rows[:, None])
+        return np.asarray(scale[:, None] * inverse_of(scaled) / rows[:, None])
 
     @property
     def _sizes(self) -> Array:

@@ -14,7 +14,7 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.newton import AT_REST, ROUGH, at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
-from synergrip.equilibrium.way import SQUEEZE, Way, parts_of, squeezes, steps_between
+from synergrip.equilibrium.way import SQUEEZE, Way, led_states, parts_of, squeezes, steps_between
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Response
@@ -97,7 +97,7 @@ def _at_steps(
     if isinstance(near, Balance):
         near = near.states
     elif len(near) != len(way.references):
-        near = way.states(own, near, parts)
+        near = led_states(own, near, parts)
     enough = None if wrong is None else lambda forces: wrong(forces[way.kept])
     balance, count = settled(own, near, way.loads, way.references, known, enough)
     if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(near):

@@ -195,12 +195,16 @@ class Sliding(Model):
     def slid(self, placed: Placed, meeting: Meeting) -> Slid:
         """Return it by differences, a small share of the way from B apart."""
         seen = placed.seen
-        step = BENT * np.abs(seen).max(initial=0.0)
-        ways = step * np.eye(3)[:, None, None]
-        sides = [self.shape.surface(seen + sign * ways)[1] for sign in (1, -1)]
-        bent = np.moveaxis(sides[0] - sides[1], 0, -1) / (2 * step)
+        bent = bending(self.shape, seen, np.full(seen.shape[1], BENT * np.abs(seen).max(initial=0.0)))
         whole = placed.rotation[:, None] @ bent @ placed.rotation.mT[:, None]
         return Slid(np.ones(seen.shape[1], dtype=bool), whole)
+
+
+def bending(shape: Shape, points: Array, steps: Array) -> Array:
+    """Return how outward normals change with points (T, n, 3): (T, n, 3, 3) [1/m], by differences over steps (n,)."""
+    ways = steps[:, None] * np.eye(3)[:, None, None]
+    sides = [shape.surface(points + sign * ways)[1] for sign in (1, -1)]
+    return np.moveaxis(sides[0] - sides[1], 0, -1) / (2 * steps[:, None, None])
 
 
 def on_face(shape: Shape, points: Array, distances: Array, outward: Array) -> Places:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from synergrip.equilibrium.meeting import Meeting, Model, Placed, on_face
+from synergrip.equilibrium.meeting import Meeting, Model, Placed, bending, on_face
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array
 from synergrip.vectors import crossed, rotation_vectors, skews, times
@@ -56,9 +56,7 @@ class Rolling(Model):
     def rolled(self, placed: Placed, meeting: Meeting) -> tuple[Array, Array]:
         """Return how frames turn as tips roll on to where the surface has another normal, and arms with them."""
         outward = skews(-(placed.rotation.mT[:, None] @ meeting.frame)[..., 0])
-        steps = BENT * self.radius[:, None] * np.eye(3)[:, None]  # (3, n, 3)
-        sides = [self.shape.surface(meeting.centre + sign * steps[:, None])[1] for sign in (1, -1)]
-        bent = np.moveaxis(sides[0] - sides[1], 0, -1) / (2 * BENT)  # of normals, for one radius of motion
+        bent = self.radius[:, None, None] * bending(self.shape, meeting.centre, BENT * self.radius)
         frames = placed.rotation[:, None] @ -(outward @ bent @ outward) @ placed.rotation.mT[:, None]
         return frames, frames - np.eye(3)
 

@@ -12,6 +12,7 @@ from synergrip.documents.judging import Arguments, places_of
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.values import Value
+from synergrip.vectors import rotation_vectors
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,6 +36,16 @@ class States(Value):
         """
         places = places_of("places", places, len(self))
         return States(*(getattr(self, field.name)[places] for field in fields(self)))
+
+    def between(self, other: States, share: Array) -> States:
+        """Return states about on the way to others, at shares (T,) of it: for Newton's method to begin at."""
+        from scipy.spatial.transform import Rotation
+
+        turns = share[:, None] * rotation_vectors(other.rotation @ self.rotation.mT)
+        q, position, forces = (
+            straight(getattr(self, name), getattr(other, name), share) for name in ("q", "position", "forces")
+        )
+        return States(q, position, Rotation.from_rotvec(turns).as_matrix() @ self.rotation, forces)
 
     @classmethod
     def joined(cls, parts: Sequence[States]) -> States:
@@ -137,10 +148,13 @@ class Loads(Value):
         outer = np.einsum("tmi,tmj->tij", moved, self.at_points)
         return np.asarray(outer - f_r[:, None, None] * np.eye(3))  # (theta x r) x f = r (theta . f) - theta (r . f)
 
-    def between(self, other: Loads, share: float) -> Loads:
-        """Return loads on the straight way to others, of the same points."""
-        wrench, at_points = (
-            (1 - share) * one + share * two
-            for one, two in ((self.wrench, other.wrench), (self.at_points, other.at_points))
-        )
-        return Loads(wrench, other.points, at_points)
+    def between(self, other: Loads, share: float | Array) -> Loads:
+        """Return loads on the straight way to others, of the same points: at one share of it, or one for each (T,)."""
+        wrench = straight(self.wrench, other.wrench, share)
+        return Loads(wrench, other.points, straight(self.at_points, other.at_points, share))
+
+
+def straight(one: Array, other: Array, share: float | Array) -> Array:
+    """Return values (T, ...) on the straight way from some to others: at one share of it, or one for each (T,)."""
+    own = np.reshape(share, (-1, *[1] * (one.ndim - 1)))
+    return np.asarray((1 - own) * one + own * other)

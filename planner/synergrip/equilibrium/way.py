@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.equilibrium.setting import Setting
-from synergrip.equilibrium.states import Loads, States
+from synergrip.equilibrium.states import Loads, States, straight
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
-from synergrip.vectors import rotation_vectors
 
 SQUEEZE = 10
 """Steps in which the references of the first instant are reached."""
@@ -48,34 +47,20 @@ class Way(Value):
             loads: (T) at the instants.
             parts: (T,) steps from each instant to the next; the last counts for nothing.
         """
-        lead = squeezes(own)
-        shares, first = _shares(parts)
-        last = np.minimum(first + 1, len(references) - 1)
-        wrench, at_points = (
-            _between(part, shares, first, last) for part in (loads.wrench, loads.at_points)
-        )  # fmt: skip
-        between = Loads(wrench, loads.points, at_points)
-        squeeze = np.arange(1, lead + 1)[:, None] / (lead + 1)
-        unloaded = own.unloaded(loads)
-        before = Loads((1 - squeeze) * unloaded.wrench + squeeze * loads.wrench[:1], loads.points,
-                       squeeze[:, :, None] * loads.at_points[:1])  # fmt: skip
-        whole = np.concatenate([squeeze * references[:1], _between(references, shares, first, last)])
-        return cls(whole, Loads.joined([before, between]), lead + np.flatnonzero(shares == 0.0))
+        shares, first, last = _shares(parts)
+        squeeze = _squeeze(own)
+        before = own.unloaded(loads).between(loads.taken([0]), squeeze)
+        steps = loads.taken(first).between(loads.taken(last), shares)
+        whole = [squeeze[:, None] * references[:1], straight(references[first], references[last], shares)]
+        kept = len(squeeze) + np.flatnonzero(shares == 0.0)
+        return cls(np.concatenate(whole), Loads.joined([before, steps]), kept)
 
-    def states(self, own: Setting, states: States, parts: Places) -> States:
-        """Return states of all steps, from those (T) of the instants: good enough for Newton's method to begin at."""
-        from scipy.spatial.transform import Rotation
 
-        shares, first = _shares(parts)
-        last = np.minimum(first + 1, len(states) - 1)
-        q, position, forces = (
-            _between(part, shares, first, last) for part in (states.q, states.position, states.forces)
-        )
-        turns = rotation_vectors(states.rotation[last] @ states.rotation[first].mT)
-        rotation = Rotation.from_rotvec(shares[:, None] * turns).as_matrix() @ states.rotation[first]
-        squeeze = np.arange(1, squeezes(own) + 1) / (squeezes(own) + 1)
-        before = [own.start if share < 0.5 else states.taken([0]) for share in squeeze]
-        return States.joined([*before, States(q, position, rotation, forces)])
+def led_states(own: Setting, states: States, parts: Places) -> States:
+    """Return states of all steps, from those (T) of the instants: good enough for Newton's method to begin at."""
+    shares, first, last = _shares(parts)
+    before = [own.start if share < 0.5 else states.taken([0]) for share in _squeeze(own)]
+    return States.joined([*before, states.taken(first).between(states.taken(last), shares)])
 
 
 def steps_between(own: Setting, references: Array) -> Places:
@@ -95,14 +80,15 @@ def parts_of(kept: Places) -> Places:
     return np.append(np.diff(kept), 1)
 
 
-def _shares(parts: Places) -> tuple[Array, Places]:
-    """Return how far each step begins between an instant and the next, from 0 to 1, and the number of that instant."""
-    first = np.repeat(np.arange(len(parts)), np.append(parts[:-1], 1))
-    step = np.concatenate([np.arange(count) / count for count in (*parts[:-1], 1)])
-    return step, first
+def _squeeze(own: Setting) -> Array:
+    """Return which shares of the first references the steps before the first instant take."""
+    lead = squeezes(own)
+    return np.arange(1, lead + 1) / (lead + 1)
 
 
-def _between(values: Array, shares: Array, first: Places, last: Places) -> Array:
-    """Return values on the straight ways from some of them to others."""
-    own = shares.reshape(-1, *[1] * (values.ndim - 1))
-    return np.asarray((1 - own) * values[first] + own * values[last])
+def _shares(parts: Places) -> tuple[Array, Places, Places]:
+    """Return how far each step begins between an instant and the next, from 0 to 1, and the numbers of the two."""
+    counts = np.append(parts[:-1], 1)
+    first = np.repeat(np.arange(len(parts)), counts)
+    shares = np.concatenate([np.arange(count) / count for count in counts])
+    return shares, first, np.minimum(first + 1, len(parts) - 1)

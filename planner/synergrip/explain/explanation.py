@@ -8,6 +8,7 @@ from synergrip.changes.asked import Posed
 from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause
 from synergrip.documents.naming import made_by
+from synergrip.errors import InterruptError
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
 from synergrip.explain.when import When
@@ -59,3 +60,7 @@ class Explanation(Value):
     others: tuple[Repair, ...] = ()
     """Changes with a verified plan that are not the least of their kind: of the friction of single contacts and of
     stiffness, in the long form; of every number, where only the hand that moves has no plan."""
+
+    def exit_code(self, answer: int) -> int:
+        """Return the exit code of the answer that it explains, or that of an interrupt of the search for changes."""
+        return InterruptError.exit_code if self.interrupted else answer

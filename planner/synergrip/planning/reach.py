@@ -50,10 +50,9 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
         pose, until = executed.du[k - 1] if k else np.zeros(6), float(times[max(k - 1, 0)])
         apart = _apart(walk, walker, slice(max(k - 1, 0), max(k, 1)))
         astray = walk.way is not None and walk.way.behind[k] <= walker.allowed
-    told = describe_displacement(pose, walker.start.response.scale.length)
-    beyond = f"the motion goes on, by {1e3 * float(far.max()):.3g} mm at most, where no rigid motion does"
+    told, most = describe_displacement(pose, walker.start.response.scale.length), float(far.max())
+    beyond = f"the motion goes on, by {1e3 * most:.3g} mm at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
-    most = float(far.max())
     known = np.isfinite(most) and (astray or not _at_ends(walk, dict(_ends(walk, walker)), straight=False))
     because = f"not reached from t = {until:.3g} s: nearest pose {told}{apart}, because {why}"
     return Reached(until, frozen(pose), because, most if known else None)
@@ -61,11 +60,8 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
 
 def _apart(walk: Walk, walker: Walker, knots: slice) -> str:
     """Return how far the object is from where it is wanted in all, if by more than counts as followed: in words."""
-    left = walk.executed.left(walker.wanted)[knots]
-    if (
-        not len(left)
-        or not np.abs(left @ np.diag([1.0] * 3 + [walker.start.response.scale.length] * 3)).max() > walker.allowed
-    ):
+    left, length = walk.executed.left(walker.wanted)[knots], walker.start.response.scale.length
+    if np.abs(left * ([1.0] * 3 + [length] * 3)).max(initial=0.0) <= walker.allowed:
         return ""
     shifted, turned = (float(np.linalg.norm(part, axis=1).max()) for part in (left[:, :3], left[:, 3:]))
     return f" ({1e3 * shifted:.3g} mm and {np.degrees(turned):.3g} deg off the wanted one, with what is elastic)"

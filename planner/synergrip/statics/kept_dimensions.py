@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from synergrip.grasps.scale import Metric, metric_of
-from synergrip.linalg import Array, canonical, frozen, gram
+from synergrip.linalg import Array, canonical, frozen, gram, inverse_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each, EachGrasp, EachResponse
 from synergrip.statics.response import Maps
@@ -78,6 +78,6 @@ def _bases(maps: EachResponse, metric: Metric, dimensions: tuple[int, int, int])
     return Bases(
         E_s=canonical(internal) / metric.force[..., None],
         Gamma_ucs=np.asarray(np.linalg.solve(metric.motion, basis), dtype=np.float64),
-        Gamma_zcs=synergies @ np.linalg.inv(basis.mT @ moved),
+        Gamma_zcs=synergies @ inverse_of(basis.mT @ moved),
         Gamma_zr=canonical(free[..., motions:]),
     )

@@ -14,7 +14,7 @@ from synergrip.documents.judging import as_numbers, described, expected
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.grasps.scale import Metric
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, inverse_of
 from synergrip.statics.response import Maps, Response
 from synergrip.statics.subspaces import Bases, Subspaces
 from synergrip.values import Value
@@ -101,12 +101,8 @@ def coordinates_of(maps: Maps, bases: Bases, metric: Metric) -> Coordinates:
     motions = (motion @ bases.Gamma_ucs).mT @ (motion @ maps.du_dzr)
     M = np.concatenate([forces, motions, bases.Gamma_zr.mT], axis=-2)
     rows = np.linalg.norm(M, axis=-1, keepdims=True)  # N, m and 1 in one matrix: equilibrate before inverting
-    scaled = M / np.where(rows > 0, rows, 1.0)
-    try:
-        inverse = np.linalg.inv(scaled)
-    except np.linalg.LinAlgError:  # where an equilibrium is about to be lost
-        inverse = np.linalg.pinv(scaled)
-    return Coordinates(frozen(M), frozen(inverse / np.where(rows > 0, rows, 1.0).mT), bases.dimensions)
+    sizes = np.where(rows > 0, rows, 1.0)  # 0, and M without inverse, where an equilibrium is about to be lost
+    return Coordinates(frozen(M), frozen(inverse_of(M / sizes) / sizes.mT), bases.dimensions)
 
 
 def motion_coordinates(response: Response, spaces: Subspaces, motion: Array) -> tuple[Array, Array]:

@@ -59,13 +59,14 @@ def outcome_document(
         "time_s": outcome.task.times.tolist(),
         PROVENANCE: provenance_document(outcome, source),
         "programs": [_program(decision) for decision in outcome.decisions],
-        "notes": notes_together(outcome.notes if isinstance(outcome, Plan) else (), notes),
+        "notes": notes_together(outcome.notes, notes),
     }
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
     known = known or outcome.explanation
+    document["exit_code"] = known.exit_code(outcome.exit_code)
     if known.interrupted:
-        document |= {"exit_code": 130, "notes": [*document["notes"], INTERRUPTED]}
+        document["notes"] = [*document["notes"], INTERRUPTED]
     if isinstance(outcome, Infeasible):
         return document | _infeasible(outcome) | no_document(known, outcome.task.times)
     certificate, reached = {"kind": "none", "verified": False}, outcome.reached

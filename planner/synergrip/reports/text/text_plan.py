@@ -42,8 +42,7 @@ def outcome_text(
     """Return the answer: what was read, asked, solved, checked; the verdict; what was written, None if that failed."""
     if written is None:
         return "\n".join(verdict_lines(problem, outcome, color))
-    stopped = not isinstance(outcome, Plan) and outcome.explanation.interrupted
-    number = 130 if stopped else outcome.exit_code
+    number = outcome.exit_code if isinstance(outcome, Plan) else outcome.explanation.exit_code(outcome.exit_code)
     code = f"      exit code {number}" if number else ""
     wrote = (f"wrote {folder}/  " + "  ".join(written) if written else "wrote nothing") + code
     return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
@@ -71,7 +70,7 @@ def verdict_lines(
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
         lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
-    notes = notes_together(outcome.notes if isinstance(outcome, Plan) else (), problem.notes)
+    notes = notes_together(outcome.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
