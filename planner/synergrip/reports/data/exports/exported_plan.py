@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.documents.documents import read_document
-from synergrip.errors import InputError, kind_of
+from synergrip.errors import InputError, kind_of, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.planning.arrays import one_line
 from synergrip.planning.digest import KEY as DIGEST
@@ -108,7 +108,7 @@ def folder_of(plan: Path) -> Path:
 def _read(data: Mapping[str, Any], source: str, folder: Path) -> ExportedPlan:
     if "dz_r" not in data or "time_s" not in data:
         verdict = data.get("verdict")
-        said = f"its verdict is '{verdict}'" if isinstance(verdict, str) else "dz_r and time_s are missing"
+        said = f"its verdict is '{shortened(verdict)}'" if isinstance(verdict, str) else "dz_r and time_s are missing"
         raise InputError.at("", f"holds no plan: {one_line(said)}; make one with `synergrip plan PROBLEM`")
     told = Told(data, "")
     if told.get("units") is None or told.get("components") is None:
