@@ -133,6 +133,7 @@ PLACES = [
     ),
     ("synergies", "set.toml", SHOW_SET, {}),
     ("plan-json", "plan.json", ("check", "@/plan.json", "barrett-ball-hold"), {}),
+    ("export-json", "plan.json", ("export", "@/plan.json", "--to", "csv"), {}),
     ("plan-npz", "plan.npz", ("check", "@/plan.npz", "barrett-ball-hold"), {}),
     ("plan-csv", "plan.csv", ("check", "@/plan.csv", "barrett-ball-hold"), {}),
     ("include", "part.xml", SHOW, {"hand_xml": '<mujoco><include file="part.xml"/></mujoco>'}),

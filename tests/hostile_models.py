@@ -341,6 +341,18 @@ _plan_json("texts", lambda: '{"dz_r": [' + '"x",' * 1_900_000 + '0], "time_s": [
 _plan_json("keys", lambda: "{" + ",".join(f'"k{i}":0' for i in range(60_000)) + "}", "50,000 keys")
 _plan_json("verdict", lambda: '{"verdict": "' + "x" * 20_000_000 + '"}', "holds no plan")
 
+
+def _exported(name: str, content: Callable[[], str], fragment: str) -> None:
+    add(f"export-{name}", text("plan.json", content), ("export", "@/plan.json", "--to", "csv"), fragment, "plan.json")
+
+
+_exported("nested", lambda: '{"dz_r": ' + "[" * 60 + "]" * 60 + ', "time_s": [0]}', "plan.json")
+_exported(
+    "numbers", lambda: '{"time_s": [' + "0," * 1_900_000 + '0], "dz_r": 0, "units": 0, "components": 0}', "plan.json"
+)
+_exported("names", lambda: '{"contacts": ["' + "x" * 20_000_000 + '"], "dz_r": 0, "time_s": [0]}', "plan.json")
+_exported("verdict", lambda: '{"verdict": "' + "x" * 20_000_000 + '"}', "holds no plan")
+
 # Hands and synergy sets
 _SET = 'schema = 1\njoints = ["a"]\nsynergies = ["s"]\nS = [[1]]\n'
 

@@ -42,12 +42,16 @@ ONLY_IN = {
             "analyse",
             "check",
             "simulate",
+            "export",
             "synergies",
             "margins",
         )
     },
     "numba": {"batch/lanes.py", "batch/lanes_algebra.py"},
     "llvmlite": {"batch/lanes.py"},
+    "pyarrow": {"reports/data/exports/tables.py"},
+    "rosbags": {"reports/data/exports/joint_trajectories.py"},
+    "yaml": {"reports/data/exports/yaml_text.py"},
     "tree_sitter": {"documents/documents.py", "documents/positions.py"},
 }
 COMPILED = {
@@ -131,6 +135,7 @@ def test_the_certificate_imports_no_solver(name: str) -> None:
 @pytest.mark.parametrize("name", FILES)
 def test_heavy_libraries_are_imported_where_they_are_used(name: str) -> None:
     heavy = {"cvxpy", "matplotlib", "viser", "dask", "numba", "mujoco", "clarabel", "pandas", "qpsolvers", "osqp"}
+    heavy |= {"pyarrow", "rosbags", "yaml"}
     at_top = set(imports(PACKAGE / name, top_level_only=True))
     tops = {imported.split(".")[0] for imported in at_top}
     if name in COMPILED:

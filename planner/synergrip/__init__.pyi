@@ -131,5 +131,6 @@ from synergrip.margin.timing.fastest_timing import fastest_timing as fastest_tim
 from synergrip.margin.timing.fastest_timing import FastestTiming as FastestTiming
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
+from synergrip.reports.data.exports.exporting import export as export
 
 __version__: str

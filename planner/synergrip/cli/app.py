@@ -8,6 +8,7 @@ from synergrip import __version__
 from synergrip.cli.analyse import analyse
 from synergrip.cli.check import check
 from synergrip.cli.explain import explain
+from synergrip.cli.export import export
 from synergrip.cli.front import front
 from synergrip.cli.lists import hands, problems, schema
 from synergrip.cli.margins import margins
@@ -26,7 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (plan, explain, margins, simulate, front, analyse, check, validate, problems, hands, schema):
+for verb in (plan, explain, margins, simulate, export, front, analyse, check, validate, problems, hands, schema):
     app.command()(verb)
 app.add_typer(synergies, name="synergies")
 

@@ -113,6 +113,30 @@ class Tabled(Answer):
 
         return draw(cast("Plan", self), path, title)
 
+    @naming_arguments
+    def export(self, folder: str | Path, *, to: str | Sequence[str]) -> tuple[Path, ...]:
+        """Write the plan in formats of other programs, all or none; see `synergrip.export`.
+
+        Args:
+            folder: made when it is not there.
+            to: some of "csv", "npz", "parquet", "ros2-yaml", "mcap", "isaac_grasp", "moveit_grasp" and "mjcf"; a
+                single text is one of them.
+
+        Returns:
+            The files written.
+
+        Raises:
+            InputError: a format that this plan does not have, or a path that can be no folder's.
+            OutputError: it cannot be written; the folder is as it was.
+
+        Example:
+            >>> answer.export("out/ball/export", to="csv")  # doctest: +SKIP
+            (PosixPath('out/ball/export/trajectory.csv'),)
+        """
+        from synergrip.reports.data.exports.exporting import export
+
+        return export(cast("Plan", self), folder, to=to)
+
 
 class Reasoned(Answer):
     """An answer that gives a reason instead of a plan."""

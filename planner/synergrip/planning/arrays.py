@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -133,7 +133,7 @@ def arrays_of(moved: Moved) -> dict[str, Array]:
 
 def columns_of(grasp: Grasp) -> dict[str, tuple[str, ...]]:
     """Return the names of the columns of plan.csv by the keys of their arrays."""
-    return {each.key: tuple(map(_one_line, each.columns.names(grasp))) for each in ARRAYS if each.columns is not None}
+    return {each.key: tuple(map(one_line, each.columns.names(grasp))) for each in ARRAYS if each.columns is not None}
 
 
 def table_of(moved: Moved) -> Array:
@@ -147,6 +147,20 @@ def names_of(grasp: Grasp) -> dict[str, list[str]]:
     return {"contacts": contacts, "joints": list(grasp.joints), "synergies": list(grasp.synergies)}
 
 
+def measures_of(grasp: Grasp) -> dict[str, Any]:
+    """Return the force components of each contact, and what joints and synergies are measured in; None if unknown."""
+    held = grasp.held
+    joints = joint_kinds(held.hand.joints) if held is not None else dict.fromkeys(grasp.joints, "hinge")
+    synergies = synergy_kinds(held.synergies, joints.values()) if held is not None else {}
+    return {
+        "components": [list(contact.kind.components) for contact in grasp.contacts],
+        "units": {
+            "joints": [SI_UNITS[joints[name]] for name in grasp.joints],
+            "synergies": [SI_UNITS[synergies[name]] if name in synergies else None for name in grasp.synergies],
+        },
+    }  # fmt: skip
+
+
 def documentation() -> str:
     """Return the table for people, in Markdown."""
     lines = ["| key | shape | unit | in plan.csv | meaning |", "| --- | --- | --- | --- | --- |"]
@@ -156,6 +170,6 @@ def documentation() -> str:
     return "\n".join(lines)
 
 
-def _one_line(name: str) -> str:
-    """Return the name of a column without control characters, which a model file may hold."""
+def one_line(name: str) -> str:
+    """Return a name without control characters, which a model file may hold."""
     return "".join(letter if letter.isprintable() else "?" for letter in name)

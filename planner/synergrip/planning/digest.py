@@ -49,7 +49,7 @@ def _parts(value: Any) -> Iterator[bytes]:
     if isinstance(value, Mapping):
         for key in sorted(value):
             if key not in UNCERTAIN:
-                yield f"{key}:".encode()
+                yield f"{key}:".encode("utf-8", "surrogatepass")
                 yield from _parts(value[key])
     elif isinstance(value, np.ndarray) and value.dtype.kind == "f":
         yield f"{value.shape}".encode() + value.astype("<f8").tobytes()
@@ -58,7 +58,7 @@ def _parts(value: Any) -> Iterator[bytes]:
     elif isinstance(value, int | float) and not isinstance(value, bool):
         yield np.array(value, dtype="<f8").tobytes()
     else:
-        yield f"{value};".encode()
+        yield f"{value};".encode("utf-8", "surrogatepass")
 
 
 def _parts_of_list(values: list[Any]) -> Iterator[bytes]:

@@ -13,7 +13,7 @@ from synergrip.documents.source import Source
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.words import INTERRUPTED
 from synergrip.grasps.grasp import Grasp
-from synergrip.planning.arrays import ARRAYS, names_of
+from synergrip.planning.arrays import ARRAYS, measures_of, names_of
 from synergrip.planning.digest import with_digest
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.provenance import KEY as PROVENANCE
@@ -84,7 +84,7 @@ def outcome_document(
 
 def _plan(plan: Plan) -> dict[str, Any]:
     last = plan.decisions[-1]
-    document: dict[str, Any] = {"margin": margin_document(plan.usages[0])}
+    document: dict[str, Any] = {"margin": margin_document(plan.usages[0]), **measures_of(plan.grasp)}
     for each in ARRAYS:
         place = document.setdefault(each.key, {}) if each.inside else document
         place[each.inside or each.key] = each.of(plan.moved)

@@ -21,10 +21,10 @@ T = TypeVar("T")
 
 def save(outcome: Outcome, folder: str | Path, formats: Sequence[str], problem: Asked | None) -> tuple[Path, ...]:
     """Write an answer; see `Answer.save`."""
-    place, chosen = _path(folder, "folder"), _formats(formats)
+    place, chosen = path_of(folder, "folder"), _formats(formats)
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
-    written = _written("folder", place, lambda: write_outcome(place, document, outcome, chosen))
+    written = written_at("folder", place, lambda: write_outcome(place, document, outcome, chosen))
     return tuple(place / name for name in written)
 
 
@@ -35,9 +35,9 @@ def draw(plan: Plan, path: str | Path, title: str) -> Path:
 
     if not isinstance(title, str):
         raise InputError.at("title", f"expected a text, got {kind_of(title)}")
-    place = _path(path, "path")
+    place = path_of(path, "path")
     picture_suffix(place, "path")
-    _written("path", place, lambda: draw_plan(plan, title or plan.grasp.title, place))
+    written_at("path", place, lambda: draw_plan(plan, title or plan.grasp.title, place))
     return place
 
 
@@ -47,7 +47,8 @@ def _told(problem: Asked) -> tuple[str, Sequence[str], Source | None]:
     return problem.title, problem.notes, problem.source
 
 
-def _path(value: object, argument: str) -> Path:
+def path_of(value: object, argument: str) -> Path:
+    """Return the path that an argument, "folder" or "path", names."""
     if not isinstance(value, str | PathLike) or not fspath(value) or "\0" in str(value):
         raise InputError.at(argument, f"expected the path of a {'folder' if argument == 'folder' else 'file'}, such as "
                             f"'out/ball{'' if argument == 'folder' else '.svg'}', got {value!r}")  # fmt: skip
@@ -64,7 +65,7 @@ def _formats(formats: object) -> tuple[str, ...]:
     return tuple(words)
 
 
-def _written(argument: str, path: Path, write: Callable[[], T]) -> T:
+def written_at(argument: str, path: Path, write: Callable[[], T]) -> T:
     """Return what `write` does; what the file system refuses becomes an error at an argument."""
     try:
         return write()
