@@ -118,7 +118,7 @@ def read_played_plan(path: Path) -> PlayedPlan:
 def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
     joints = told.texts("joints")
     n_q, times = len(joints), plan.array("time_s", (None,))
-    tree = _tree(told, folder)
+    tree = links_told(told, folder)
     q_0, S = told.array("q_0", (n_q,)), told.array("S", (n_q, None))
     n_t, n_z = len(times), S.shape[1]
     C_q, C_z = told.array("C_q", (n_q, n_q)), told.array("C_z", (n_z, n_z))
@@ -144,7 +144,16 @@ def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
     )  # fmt: skip
 
 
-def _tree(told: Told, folder: Path) -> LinkTree:
+def links_told(told: Told, folder: Path) -> LinkTree:
+    """Return the links of the hand that the `execution` of a plan tells of, from its file.
+
+    Args:
+        told: the `execution`.
+        folder: where the file is looked for when it is not a bundled one.
+
+    Raises:
+        InputError: a hand without a file, one that is missing, or that has changed since.
+    """
     name = told.get("hand_file")
     if not isinstance(name, str):
         raise told.refused("hand_file", "the hand comes from no file, so that its links are not known")
