@@ -13,6 +13,7 @@ from synergrip.cli.front import front
 from synergrip.cli.lists import hands, problems, schema
 from synergrip.cli.margins import margins
 from synergrip.cli.plan import plan
+from synergrip.cli.report import report
 from synergrip.cli.simulate import simulate
 from synergrip.cli.synergies import synergies
 from synergrip.cli.validate import validate
@@ -27,7 +28,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (plan, explain, margins, simulate, export, front, analyse, check, validate, problems, hands, schema):
+for verb in (
+    plan,
+    report,
+    explain,
+    margins,
+    simulate,
+    export,
+    front,
+    analyse,
+    check,
+    validate,
+    problems,
+    hands,
+    schema,
+):
     app.command()(verb)
 app.add_typer(synergies, name="synergies")
 

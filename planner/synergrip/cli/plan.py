@@ -55,6 +55,9 @@ def plan(
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw the plan over time: .svg, .png or .pdf.")
     ] = None,
+    report: Annotated[
+        bool, typer.Option("--report", help="Also write report.html: playback, charts, tables; it opens offline.")
+    ] = False,
     pyramids: Annotated[
         int | None,
         typer.Option(metavar="FACETS", help="Also say what inscribed friction pyramids cost; never for the verdict."),
@@ -77,10 +80,13 @@ def plan(
         from synergrip.planning.solvers import answerer
         from synergrip.reports.data.json_plan import outcome_document
         from synergrip.reports.data.plan_files import refuse_place, write_outcome
+        from synergrip.reports.html import page
         from synergrip.reports.text.text_plan import outcome_text
         from synergrip.signals import held_back
 
         picture_place(picture)
+        if report:
+            page.refuse_without_libraries()
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
         tell_what_takes_long()
         folder, drawn = output or Path("out") / loaded.name, ""
@@ -100,7 +106,8 @@ def plan(
                 cost = compared(outcome, request, document)
                 told, proof = proven(outcome, document) if exact else ("", None)
                 with writing("--output", folder):
-                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof)
+                    seen = page.report_text(document, _csv(outcome), folder) if report else None
+                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof, seen)
                 ending.keep(*(folder / name for name in written))
             if save_program:
                 with writing("--save-program", save_program):
@@ -124,6 +131,14 @@ def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) 
     """Plan; an interrupt keeps what the goals so far have led to."""
     with placed(problem), heard():
         return make(problem.grasp, problem.task, answers)
+
+
+def _csv(outcome: Outcome) -> str:
+    """Return the text of plan.csv; of an answer without a plan, nothing."""
+    from synergrip.planning.outcome import Plan
+    from synergrip.reports.data.plan_files import plan_csv
+
+    return plan_csv(outcome) if isinstance(outcome, Plan) else ""
 
 
 def _save(outcome: Outcome, path: Path) -> None:

@@ -201,7 +201,7 @@ class Balance(Value):
         moment on the object does not change with q. Left out: how moments turn with the joints that carry them.
         """
         T, n_q = self.states.q.shape
-        forces, moments = skews(self._acting[:, :, 0]), skews(self._acting[:, :, 1])
+        forces, moments = skews(self.acting[:, :, 0]), skews(self.acting[:, :, 1])
         moving, turning = (self.jacobians[:, :, part].reshape(T, -1, n_q) for part in (0, 1))  # contacts as rows
         turned = (forces @ self.jacobians[:, :, 1]).reshape(T, -1, n_q)
         below = self.setting.above * (turned.mT @ moving)  # f . (w_a x v_b)
@@ -226,7 +226,7 @@ class Balance(Value):
         frames, arms = self.setting.model.rolled(self.placed, self.meeting)
         turning, contacts = self.jacobians[:, :, 1], len(self.setting.points)
         against = np.concatenate([turning, np.broadcast_to(-np.eye(3), (*turning.shape[:3], 3))], axis=3)
-        forces, moments = skews(self._acting[:, :, 0]), skews(self._acting[:, :, 1])
+        forces, moments = skews(self.acting[:, :, 0]), skews(self.acting[:, :, 1])
         turned = -forces @ frames
         moment = forces @ skews(self.meeting.place - self.placed.point) @ arms - moments @ frames
         acting = np.stack([turned, moment], axis=2).reshape(T, contacts, 6, 3) @ against  # force and moment of each
@@ -241,11 +241,11 @@ class Balance(Value):
     @cached_property
     def slid(self) -> Array | None:
         """(T, n_q + 6, n_q + 6) what sliding pads add to torques and, less, wrenches; None where none slide."""
-        slid, forces = self.setting.model.slid(self.placed, self.meeting), self._acting[:, :, 0]
+        slid, forces = self.setting.model.slid(self.placed, self.meeting), self.acting[:, :, 0]
         return None if slid is None else of_sliding(self.placed, self.meeting, self.jacobians, forces, slid)
 
     @cached_property
-    def _acting(self) -> Array:
+    def acting(self) -> Array:
         """(T, n_c, 2, 3) forces and moments of the contacts, palm axes."""
         T, n_c = self.arms.shape[:2]
         whole = np.zeros((T, 6 * n_c))

@@ -63,6 +63,26 @@ class Answer(Value):
 
         return save(cast("Outcome", self), folder, formats, problem)
 
+    @naming_arguments
+    def report(self, path: str | Path, *, problem: Asked | None = None) -> Path:
+        """Write the report, the page of ``synergrip plan --report``, and return the file: it opens offline.
+
+        Args:
+            path: the file, replaced whole or not at all.
+            problem: what was asked, as `load_problem` returns it, for title, notes and inputs.
+
+        Raises:
+            InputError: viser or Jinja is not installed, or a path that can be no file's.
+            OutputError: it cannot be written.
+
+        Example:
+            >>> answer.report("ball.html")  # doctest: +SKIP
+            PosixPath('ball.html')
+        """
+        from synergrip.reports.data.saving import report
+
+        return report(cast("Outcome", self), path, problem)
+
     if not TYPE_CHECKING:  # or every misspelt attribute would pass
 
         def __getattr__(self, name: str) -> Any:

@@ -126,12 +126,14 @@ def true_document(execution: Execution, margins: Usage, fixed: Execution | None 
         fixed: the execution of the same with contacts that stay where they are, where they roll in the first.
     """
     radii = [touch.pad.radius or 0.0 for touch in execution.setting.held.touches]
+    balance = execution.balance
     other = None if fixed is None else finite(float(fixed.margins.min()) if fixed.whole else math.inf)
     return {
         "pad_radius_m": radii, "worst_N_if_fixed": other,
         "contact_model": execution.setting.contact_model,
         "margin": margin_document(margins) | {"per_contact_N": execution.margins},
         "lambda": execution.states.forces, "du": execution.du, "q": execution.states.q,
+        "place_m": balance.meeting.place, "normal": balance.frames[..., 0], "force_N": balance.acting[:, :, 0],
         "smallest_stiffness_N_m": execution.stiffness,
     }  # fmt: skip
 

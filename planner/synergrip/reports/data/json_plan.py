@@ -68,7 +68,7 @@ def outcome_document(
     if known.interrupted:
         document["notes"] = [*document["notes"], INTERRUPTED]
     if isinstance(outcome, Infeasible):
-        return document | _infeasible(outcome) | no_document(known, outcome.task.times)
+        return with_digest(plain(document | _infeasible(outcome) | no_document(known, outcome.task.times)))
     certificate, reached = {"kind": "none", "verified": False}, outcome.reached
     told = None if reached is None else {
         "until_s": reached.until_s, "nearest_pose": reached.pose.tolist(), "because": reached.because,
@@ -79,7 +79,7 @@ def outcome_document(
     if outcome.executed is not None and outcome.usages:
         document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
         document["limits"] = [usage_document(usage) for usage in outcome.usages]
-    return document
+    return with_digest(plain(document))
 
 
 def _plan(plan: Plan) -> dict[str, Any]:

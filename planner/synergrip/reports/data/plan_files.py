@@ -19,8 +19,8 @@ from synergrip.planning.digest import digest
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.together import refuse_others, replace_together
 
-PROOF = "proof.json"
-NAMES = (*(f"plan.{suffix}" for suffix in FORMATS), PROOF)
+PROOF, REPORT = "proof.json", "report.html"
+NAMES = (*(f"plan.{suffix}" for suffix in FORMATS), PROOF, REPORT)
 
 
 def write_outcome(
@@ -29,11 +29,13 @@ def write_outcome(
     outcome: Outcome,
     formats: tuple[str, ...],
     proof: dict[str, Any] | None = None,
+    report: str | None = None,
 ) -> list[str]:
     """Write an outcome into `folder` and return the names of the files written.
 
-    An outcome without a plan has only a document, and perhaps an exact proof. Files of an earlier run that are not
-    written anew are removed, so that the folder never holds the answer to another question, nor files of two answers.
+    An outcome without a plan has only a document, and perhaps an exact proof; either may have its report. Files of
+    an earlier run that are not written anew are removed, so that the folder never holds the answer to another question,
+    nor files of two answers.
 
     Raises:
         OSError: it cannot be done; the folder is as it was.
@@ -51,9 +53,11 @@ def write_outcome(
             writers[suffix](new / f"plan.{suffix}")
         if proof is not None:
             (new / PROOF).write_text(to_json(proof) + "\n", encoding="utf-8")
+        if report is not None:
+            (new / REPORT).write_text(report, encoding="utf-8")
 
     replace_together(folder, NAMES, write)
-    return [f"plan.{suffix}" for suffix in chosen] + [PROOF] * (proof is not None)
+    return [*(f"plan.{suffix}" for suffix in chosen), *[PROOF] * (proof is not None), *[REPORT] * (report is not None)]
 
 
 def refuse_place(folder: Path) -> None:

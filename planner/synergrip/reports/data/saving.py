@@ -14,7 +14,7 @@ from synergrip.planning.answer import FORMATS
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.provenance import Asked
 from synergrip.reports.data.json_plan import outcome_document
-from synergrip.reports.data.plan_files import write_outcome
+from synergrip.reports.data.plan_files import plan_csv, write_outcome
 
 T = TypeVar("T")
 
@@ -26,6 +26,18 @@ def save(outcome: Outcome, folder: str | Path, formats: Sequence[str], problem: 
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
     written = written_at("folder", place, lambda: write_outcome(place, document, outcome, chosen))
     return tuple(place / name for name in written)
+
+
+def report(outcome: Outcome, path: str | Path, problem: Asked | None) -> Path:
+    """Write the report of an answer; see `Answer.report`."""
+    from synergrip.reports.html.page import write_report
+
+    place = _path(path, "path")
+    title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
+    document = outcome_document(title, outcome.grasp, outcome, notes, source)
+    csv = plan_csv(outcome) if isinstance(outcome, Plan) else ""
+    _written("path", place, lambda: write_report(place, document, csv))
+    return place
 
 
 def draw(plan: Plan, path: str | Path, title: str) -> Path:

@@ -5,9 +5,11 @@ The same values give the same bytes: no date, no random names, no settings of th
 
 from __future__ import annotations
 
+import io
 import unicodedata
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -121,15 +123,30 @@ def write_picture(path: Path, width: float, height: float, draw: Callable[[Sheet
         InputError: a suffix that says no format.
         OSError: the file cannot be written.
     """
+    suffix = picture_suffix(path)
+    with _drawn(width, height, draw) as figure, atomic_path(path) as temporary:
+        figure.savefig(temporary, format=suffix[1:], dpi=DOTS_PER_INCH, metadata=NO_DATE[suffix])
+
+
+def svg_text(width: float, height: float, draw: Callable[[Sheet], None]) -> str:
+    """Return a picture of `width` x `height` inches as the text of an SVG element, to stand inside a page."""
+    stream = io.StringIO()
+    with _drawn(width, height, draw) as figure:
+        figure.savefig(stream, format="svg", metadata=NO_DATE[".svg"])
+    text = stream.getvalue()
+    return text[text.index("<svg") :]
+
+
+@contextmanager
+def _drawn(width: float, height: float, draw: Callable[[Sheet], None]) -> Iterator[Any]:
+    """Draw a figure, whatever the settings of the user are, and hold these off until it is saved."""
     import matplotlib
     from matplotlib.figure import Figure
 
-    suffix = picture_suffix(path)
-    with matplotlib.rc_context():
+    with matplotlib.rc_context(), warnings.catch_warnings():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
         figure = Figure(figsize=(width, height), facecolor="white")
         draw(Sheet(width, height, figure))
-        with atomic_path(path) as temporary, warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Glyph .* missing")  # a title in letters that the font does not have
-            figure.savefig(temporary, format=suffix[1:], dpi=DOTS_PER_INCH, metadata=NO_DATE[suffix])
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # a title in letters that the font does not have
+        yield figure

@@ -1,0 +1,1 @@
+"""The report: one file that opens in a browser, without a network."""

@@ -1,0 +1,137 @@
+"""The report of an answer: one file (HTML) that opens in a browser without a network.
+
+It is made from the document of the answer (plan.json) and nothing else but the hand file that this names, so that the
+report of a saved answer is that of a new one. What comes from the user is escaped by the template.
+"""
+
+from __future__ import annotations
+
+import gzip
+from base64 import b64encode
+from collections.abc import Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.files import atomic_path
+from synergrip.reports.data.plan_files import to_json
+from synergrip.reports.html.charts import charts_of
+from synergrip.reports.html.lines import lines_of
+from synergrip.reports.html.tables import missing_of, shown, tables_of, why_of
+
+LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
+"""What it takes beside synergrip itself: how it is imported, and how it is called."""
+
+
+def write_report(path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path()) -> None:
+    """Write the report of an answer, whole or not at all.
+
+    Args:
+        path: of the file.
+        document: of the answer, as in plan.json.
+        csv: of the plan, as in plan.csv, to be downloaded.
+        folder: where the hand file is looked for when it is not a bundled one.
+
+    Raises:
+        InputError: Jinja or viser is not installed, or the hand file has changed.
+        OSError: it cannot be written.
+    """
+    text = report_text(document, csv, folder)
+    with atomic_path(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def refuse_without_libraries() -> None:
+    """Raise an `InputError` where a library that the report needs is not installed, before anything is planned."""
+    missing = [name for name in LIBRARIES if find_spec(name) is None]
+    if missing:
+        what = " and ".join(LIBRARIES[name] for name in missing)
+        have = "are" if len(missing) > 1 else "is"
+        message = f"the report needs {what}, which {have} not installed: pip install 'synergrip[view]'"
+        raise InputError.at("report", message)
+
+
+def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path()) -> str:
+    """Return the report of an answer as `write_report` writes it."""
+    refuse_without_libraries()
+    scene, note = _scene(document, folder)
+    charts = charts_of(np.array(document["time_s"]), lines_of(document), missing_of(document))
+    tables, no, proven = tables_of(document), why_of(document), document.get("provenance") or {}
+    problem = proven.get("problem") or {}
+    contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts)
+    contents += [(table.anchor, table.title) for table in tables] + [("inputs", "Inputs"), ("downloads", "Downloads")]
+    files = {"plan.json": to_json(dict(document)), "plan.csv": csv}
+    return str(
+        _template().render(
+            title=document["title"], under=_under(document), verdict=document["verdict"],
+            headline=_headline(document), contents=contents, no=no, scene=scene, scene_note=note, charts=charts,
+            tables=tables, overrides=proven.get("overrides") or (), inputs=_inputs(problem),
+            files=[{"name": name, "packed": _packed(text)} for name, text in files.items() if text],
+        )
+    )  # fmt: skip
+
+
+def _scene(document: Mapping[str, Any], folder: Path) -> tuple[str, str]:
+    """Return the page of the 3-D view, and what is to be said of it; none where there is no hand to be seen."""
+    if "execution" not in document or "true" not in document:
+        return "", ""
+    from synergrip.reports.view.drawn import page
+    from synergrip.reports.view.scene import scene_of
+
+    scene = scene_of(document, folder)
+    told = "palm frame; arrows: forces of the hand on the object; cones: friction; squares of 10 mm"
+    if scene.left_out:
+        told += f"; {len(scene.times)} of {len(document['time_s'])} knots are shown"
+    return page(scene), told
+
+
+def _template() -> Any:
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    rooms = Environment(
+        loader=PackageLoader("synergrip.reports.html", ""), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    return rooms.get_template("report.html.jinja")
+
+
+def _under(document: Mapping[str, Any]) -> str:
+    """Return from what, by what and how finely the answer was made."""
+    proven, times = document.get("provenance") or {}, document["time_s"]
+    problem = proven.get("problem") or {}
+    parts = [str(problem.get("name") or "made in code")]
+    if problem.get("sha256"):
+        parts.append(f"sha256 {problem['sha256'][:12]}…")
+    parts += [f"synergrip {proven.get('version', '')}", str(proven.get("solver") or "")]
+    parts.append(f"{len(times)} knot{'s' * (len(times) != 1)}, {times[-1] - times[0]:.4g} s")
+    return " · ".join(part for part in parts if part.strip())
+
+
+def _headline(document: Mapping[str, Any]) -> list[str]:
+    """Return what stands beside the verdict."""
+    if document["verdict"] != "feasible":
+        return [f"stage: {document.get('stage', '')}"]
+    margin, told = document["margin"], []
+    asked = next((each["lower"] for each in document["limits"] if each["name"] == "slip margin"), None)
+    wanted = f" (asked: {shown(asked, 'N')} or more)" if asked is not None else ""
+    told.append(
+        f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s{wanted}"
+    )
+    for name in ("largest normal force", "joint torque"):
+        for each in document["limits"]:
+            if each["name"] == name:
+                told.append(f"{name} {shown(abs(each['value']), each['unit'])} at {each['item']}")
+    return told
+
+
+def _inputs(problem: Mapping[str, Any]) -> str:
+    if problem.get("text"):
+        return str(problem["text"])
+    return to_json(problem["dict"]) if problem.get("dict") else "made in code: there is no problem file"
+
+
+def _packed(text: str) -> str:
+    return b64encode(gzip.compress(text.encode("utf-8"), mtime=0)).decode("ascii")

@@ -1,0 +1,33 @@
+"""An answer that was written before, as its report needs it: whole, and as it was written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from synergrip.documents.documents import read_document
+from synergrip.errors import InputError
+from synergrip.planning.digest import unchanged
+
+KEY = "PLAN"
+
+
+def read_answer(file: Path) -> tuple[Mapping[str, Any], str]:
+    """Return the document in a plan.json, and the text of the plan.csv beside it, empty when there is none.
+
+    Raises:
+        InputError: no such file, no answer, or one that is no longer as it was written.
+    """
+    data = read_document(file, "plan", KEY, numbers=True).data
+    if "verdict" not in data or "time_s" not in data:
+        message = f"'{file}' holds no answer: verdict and time_s are missing; make one with `synergrip plan PROBLEM`"
+        raise InputError.at(KEY, message)
+    same = unchanged(data)
+    if same is None:
+        raise InputError.at(KEY, f"'{file}' has no digest, so nobody knows whether it is whole; plan again")
+    if not same:
+        message = f"'{file}' is not as it was written, and a report shows what was found; plan again, or"
+        raise InputError.at(KEY, f"{message} judge what is in it with `synergrip check`")
+    table = file.with_suffix(".csv")
+    return data, table.read_text(encoding="utf-8") if table.is_file() else ""

@@ -1,0 +1,179 @@
+"""What a document of an answer tells beside its lines over time: tables with the words of a grasping engineer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from synergrip.documents.quantities import SHOWN_IN
+from synergrip.reports.pictures.contact_colors import contact_colors
+
+Document = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell of a table."""
+
+    text: str
+    number: bool = False
+    color: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table under a title, with sentences before and after it."""
+
+    anchor: str
+    title: str
+    head: tuple[str, ...] = ()
+    rows: tuple[tuple[Cell, ...], ...] = ()
+    before: tuple[str, ...] = field(default=())
+    after: tuple[str, ...] = field(default=())
+
+
+def tables_of(document: Document) -> tuple[Table, ...]:
+    """Return limits, contacts, what the synergies control, promise against truth, and the independent check."""
+    return tuple([*_limits(document), *_contacts(document), *_synergies(document), *_truth(document),
+                  *_checks(document), *_notes(document)])  # fmt: skip
+
+
+def shown(value: float | None, unit: str, digits: int = 4) -> str:
+    """Return a value in the unit in which people read it; a dash for none."""
+    if value is None:
+        return "–"
+    factor, name = SHOWN_IN.get(unit, (1.0, unit))
+    return f"{factor * value:.{digits}g} {name}".rstrip()
+
+
+def _limits(document: Document) -> Iterator[Table]:
+    """Yield the worst value of every limit, at the knots and between them."""
+    limits = document.get("limits") or ()
+    between = {each["name"]: each for each in (document.get("between") or {}).get("limits", ())}
+    rows = []
+    for each in limits:
+        bounds = [shown(each[side], each["unit"]) for side in ("lower", "upper") if each[side] is not None]
+        other = between.get(each["name"])
+        rows.append((
+            Cell(each["name"]), _number(shown(each["value"], each["unit"])), Cell(str(each["item"])),
+            _number(f"{each['time_s']:.3g} s"), Cell(" to ".join(bounds)),
+            _number(shown(other["value"], each["unit"]) if other else "–"),
+        ))  # fmt: skip
+    if rows:
+        head = ("limit", "worst", "where", "when", "bound", "between the knots")
+        yield Table("limits", "Limits", head, tuple(rows))
+
+
+def _contacts(document: Document) -> Iterator[Table]:
+    """Yield where the contacts are, what they are, and the worst that happens to them."""
+    told = (document.get("execution") or {}).get("contacts")
+    margins = _margins(document)
+    if told is None or margins is None:
+        return
+    names, colors = [each["name"] for each in told], contact_colors(document["contacts"])
+    forces = np.linalg.norm(np.array(document["true"]["force_N"]), axis=2)
+    times, rows = document["time_s"], []
+    for i, each in enumerate(told):
+        k, friction = int(np.argmin(margins[:, i])), each["parameters"].get("friction")
+        rows.append((
+            Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
+            _number("–" if friction is None else f"{friction:.3g}"), _number(shown(each["pad_radius_m"], "m")),
+            _number(", ".join(f"{1e3 * x:.1f}" for x in each["point_m"])), _number(f"{margins[k, i]:.4g} N"),
+            _number(f"{times[k]:.3g} s"), _number(f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),
+        ))  # fmt: skip
+    head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", "least margin",
+            "when", "force")  # fmt: skip
+    yield Table("contacts", "Contacts", head, tuple(rows))
+
+
+def _synergies(document: Document) -> Iterator[Table]:
+    """Yield what the synergies control (Theorem 1)."""
+    counts = document.get("structure") or {}
+    if counts.get("dim_E_s") is None:
+        return
+    names = (
+        ("dim_E_s", "contact forces that they control (E_s)"),
+        ("dim_Gamma_ucs", "rigid motions of the object that they can produce (Γ_ucs)"),
+        ("dim_Gamma_zr", "what is left over: hand motions without effect on object and forces (Γ_zr)"),
+    )
+    rows = tuple((Cell(text), _number(str(counts[key]))) for key, text in names)
+    total = " + ".join(str(counts[key]) for key, _ in names)
+    after = f"Theorem 1 of the paper: {total} = {counts['n_z']} synergies; the hand has {counts['n_q']} joints."
+    yield Table("synergies", "What the synergies control", ("", "dimensions"), rows, after=(after,))
+
+
+def _truth(document: Document) -> Iterator[Table]:
+    """Yield in which model the figures hold, and what it costs to be wrong about it."""
+    true = document.get("true")
+    if not true:
+        text = "The figures are those of the linear model at the start posture: the grasp has no kinematics."
+        yield Table("model", "Model", before=(text,) if "margin" in document else ())
+        return
+    lines = [f"The figures are those of the equilibria of the hand that moves; contacts: {true['contact_model']}."]
+    if true.get("passes"):
+        lines.append(f"The grasp was linearised anew {true['passes']} times at all knots.")
+    if true.get("worst_N_if_fixed") is not None:
+        least = f"{true['worst_N_if_fixed']:.4g} N"
+        lines.append(f"If pads stayed where they are instead of rolling, the least margin would be {least}.")
+    stiffness = [each for each in true.get("smallest_stiffness_N_m", ()) if each is not None]
+    if stiffness:
+        lines.append(f"The object is held with {min(stiffness) / 1e3:.3g} N/mm at least.")
+    yield Table("model", "Promise and truth", before=tuple(lines))
+
+
+def _checks(document: Document) -> Iterator[Table]:
+    """Yield what was recomputed from the grasp's matrices, whatever the solver said."""
+    checks = document.get("checks") or ()
+    rows = tuple(
+        (Cell(each["name"]), _number("–" if each["error"] is None else f"{each['error']:.1e}"),
+         _number(f"{each['tolerance']:.0e}"), Cell("passed" if each["passed"] else "FAILED"))
+        for each in checks
+    )  # fmt: skip
+    proof = document.get("certificate") or {}
+    after = f"certificate: {proof.get('kind')}, {'verified' if proof.get('verified') else 'not verified'}" + (
+        f", by {proof['solver']}" if proof.get("solver") else "")  # fmt: skip
+    yield Table("check", "Independent check", ("what", "error", "allowed", ""), rows, after=(after,))
+
+
+def _notes(document: Document) -> Iterator[Table]:
+    if document.get("notes"):
+        yield Table("notes", "Notes", before=tuple(str(note) for note in document["notes"]))
+
+
+def _margins(document: Document) -> Any:
+    told = (document.get("true") or {}).get("margin") or document.get("margin") or {}
+    return np.array(told["per_contact_N"]) if "per_contact_N" in told else None
+
+
+def _number(text: str) -> Cell:
+    return Cell(text, number=True)
+
+
+def why_of(document: Document) -> dict[str, Any] | None:
+    """Return why there is no plan, and the changes that would repair it; None for a plan."""
+    if document["verdict"] == "feasible":
+        return None
+    when, repairs = document.get("when") or {}, document.get("repairs") or ()
+    told = [f"first at t = {when['first_s']:.3g} s"] if when.get("first_s") is not None else []
+    if document.get("cannot_help"):
+        told.append(f"proven not to help: {', '.join(document['cannot_help'])}")
+    rows = [
+        {"cause": each["cause"], "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
+         "set": f"--set {each['set']}"}
+        for each in repairs
+    ]  # fmt: skip
+    return {"text": (document.get("why") or {}).get("text", ""), "told": told, "repairs": rows}
+
+
+def missing_of(document: Document) -> Sequence[tuple[float, float]]:
+    """Return the stretches of time without a plan [s]."""
+    spans = (document.get("when") or {}).get("intervals_s") or ()
+    return tuple((float(begin), float(end)) for begin, end in spans)
+
+
+def _of(value: Any, unit: Any) -> str:
+    text = f"{value:.4g}" if isinstance(value, int | float) else "–" if value is None else str(value)
+    return f"{text} {unit or ''}".rstrip()

@@ -1,0 +1,1 @@
+"""What is seen of a hand that holds an object, in three dimensions."""

@@ -1,0 +1,215 @@
+"""A scene drawn with viser: on a page that plays it without a network. The only module that imports viser."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from synergrip.linalg import Array
+from synergrip.reports.pictures.contact_colors import contact_colors
+from synergrip.reports.view.scene import Scene
+from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
+
+HAND, OBJECT, WEIGHT = (122, 134, 152), (214, 196, 160), (90, 90, 90)
+"""Colours of the hand, of what it holds, and of gravity."""
+LONGEST = 0.9
+"""Length of the longest force, of the size of the scene."""
+CONE = 0.3
+"""Height of the friction cones, of the size of the scene."""
+CELL = 0.01
+"""[m] The side of a square of the ground."""
+STILL = 1.0
+"""[s] How long a single frame is shown."""
+
+
+def page(scene: Scene) -> str:
+    """Return a page (HTML) that plays a scene and opens without a network."""
+    with _server() as server:
+        drawn = Drawn(server.scene, scene)
+        server.initial_camera.position, server.initial_camera.look_at = drawn.camera
+        server.initial_camera.up = tuple(scene.up[0])
+        drawn.show(0)
+        recorder = server.get_scene_serializer()
+        for k, wait in enumerate(np.diff(scene.times)):
+            drawn.show(k)
+            recorder.insert_sleep(float(wait))
+        drawn.show(len(scene.times) - 1)
+        recorder.insert_sleep(STILL if len(scene.times) == 1 else float(np.diff(scene.times)[-1]))
+        return str(recorder.as_html())
+
+
+@contextlib.contextmanager
+def _server() -> Iterator[Any]:
+    """Serve on a free port of this machine alone, without a word, for as long as the block runs."""
+    import viser
+
+    with contextlib.redirect_stdout(io.StringIO()):
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        yield server
+    finally:
+        with contextlib.redirect_stdout(io.StringIO()):
+            server.stop()
+
+
+class Drawn:
+    """The nodes of a scene, which `show` moves to one of its frames."""
+
+    def __init__(self, nodes: Any, scene: Scene) -> None:
+        """Draw the first frame.
+
+        Args:
+            nodes: `viser.SceneApi`.
+            scene: what is drawn.
+        """
+        self.scene, size = scene, scene.size
+        largest = float(np.linalg.norm(scene.forces, axis=2).max(initial=0.0))
+        self._force = LONGEST * size / largest if largest > 0 else 0.0
+        colors = [_rgb(color) for color in contact_colors(scene.contacts).values()]
+        nodes.set_up_direction(tuple(scene.up[0]))
+        nodes.configure_default_lights(cast_shadow=False)
+        nodes.add_frame("/palm", axes_length=0.35 * size, axes_radius=0.012 * size)
+        self._ground(nodes)
+        self._gravity = nodes.add_arrows(
+            "/gravity", self._weight(0), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
+            head_length=0.1 * size,
+        )  # fmt: skip
+        bones, joints = len(scene.bones[0]), 2 * len(scene.bones[0])
+        self._bones = _several(nodes, "/palm/bones", rod(), bones, HAND)
+        self._joints = _several(nodes, "/palm/joints", ball(), joints, HAND)
+        self._pads = _several(nodes, "/palm/pads", ball(), len(scene.contacts), HAND)
+        self._object = _body(nodes, scene)
+        self._cones = _several(nodes, "/palm/cones", cone(), len(scene.contacts), np.array(colors), opacity=0.3)
+        self._arrows = nodes.add_arrows(
+            "/palm/forces", np.zeros((len(colors), 2, 3)), np.array(colors, dtype=np.uint8),
+            shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
+        )  # fmt: skip
+        self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
+        self._time = nodes.add_label("/time", "")
+        self._time.position = tuple(self._middle + 1.9 * size * scene.up[0])
+        self.show(0)
+
+    @property
+    def camera(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Where one looks from, and at."""
+        up = self.scene.up[0]
+        side = np.cross(up, [0.0, 0.0, 1.0] if abs(up[2]) < 0.9 else [1.0, 0.0, 0.0])
+        side /= np.linalg.norm(side)
+        from_there = 1.2 * np.cross(side, up) + 0.8 * side + 0.7 * up
+        far = 4.0 * max(self.scene.size, 0.6 * self._reach)
+        return tuple(self._middle + far * from_there / np.linalg.norm(from_there)), tuple(self._middle)
+
+    @property
+    def _middle(self) -> Array:
+        return np.asarray(self.scene.position[0])
+
+    @property
+    def _reach(self) -> float:
+        """[m] How far the hand is from the middle."""
+        ends = self.scene.bones[0].reshape(-1, 3)
+        return float(np.linalg.norm(ends - self._middle, axis=1).max(initial=0.0))
+
+    def show(self, k: int) -> None:
+        """Move everything to frame `k`."""
+        scene = self.scene
+        self._gravity.points = self._weight(k)
+        _lay(self._bones, scene.bones[k], scene.thickness)
+        _put(self._joints, scene.bones[k].reshape(-1, 3), np.full(2 * len(scene.bones[k]), scene.thickness))
+        _put(self._pads, scene.pads[k], np.maximum(scene.radii, 0.5 * scene.thickness))
+        if self._object is not None:
+            self._object.position, self._object.wxyz = tuple(scene.position[k]), _quaternion(scene.rotation[k])
+        high = CONE * scene.size
+        ends = np.stack([scene.places[k], scene.places[k] + high * scene.normals[k]], axis=1)
+        _lay(self._cones, ends, high * scene.friction)
+        forces = np.stack([scene.places[k], scene.places[k] + self._force * scene.forces[k]], axis=1)
+        self._arrows.points = forces.astype(np.float32)
+        sizes = np.linalg.norm(scene.forces[k], axis=1)
+        for label, name, size, ends_at in zip(self._labels, scene.contacts, sizes, forces, strict=True):
+            label.text, away = f"{name} {size:.3g} N", ends_at[0] - ends_at[1]
+            label.position = tuple(ends_at[0] + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
+        i = int(np.argmin(scene.margins[k]))
+        least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
+        self._time.text = f"t = {scene.times[k]:.2f} s, {least}"
+
+    def _ground(self, nodes: Any) -> None:
+        """Draw squares of 10 mm below everything, across gravity at the start."""
+        scene, up = self.scene, self.scene.up[0]
+        points = np.vstack([scene.bones[0].reshape(-1, 3), scene.places[0], [self._middle - scene.size * up]])
+        low = self._middle + up * ((points - self._middle) @ up).min()
+        wide = float(np.ceil(2.5 * max(self._reach, scene.size) / CELL) * CELL)
+        nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
+                       position=tuple(low), wxyz=_quaternion(_upright(up)))  # fmt: skip
+        nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
+
+    def _weight(self, k: int) -> Array:
+        """Return the arrow (1, 2, 3) of gravity in a frame, above what is held."""
+        up, size = self.scene.up[k], self.scene.size
+        return np.array([[self._middle + 1.8 * size * up, self._middle + 1.3 * size * up]], dtype=np.float32)
+
+
+def _body(nodes: Any, scene: Scene) -> Any:
+    """Draw the object; None for a bare mass."""
+    if scene.shape is None:
+        return None
+    solid = of_shape(scene.shape)
+    round_all_over = len(solid.points) > 300
+    return nodes.add_mesh_simple(
+        "/palm/object", solid.points.astype(np.float32), solid.triangles.astype(np.uint32), color=OBJECT, opacity=0.5,
+        flat_shading=not round_all_over, side="double",
+    )  # fmt: skip
+
+
+def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacity: float = 1.0) -> Any:
+    """Draw `count` copies of a solid, which are placed later."""
+    return nodes.add_batched_meshes_simple(
+        name, solid.points.astype(np.float32), solid.triangles.astype(np.uint32), np.tile([1.0, 0, 0, 0], (count, 1)),
+        np.zeros((count, 3)), batched_scales=np.ones((count, 3)), batched_colors=np.asarray(color, dtype=np.uint8),
+        batched_opacities=np.full(count, opacity), side="double", lod="off",
+    )  # fmt: skip
+
+
+def _put(node: Any, places: Array, radii: Array) -> None:
+    """Place copies of a ball."""
+    node.batched_positions = places.astype(np.float32)
+    node.batched_scales = np.repeat(radii[:, None], 3, axis=1).astype(np.float32)
+
+
+def _lay(node: Any, ends: Array, radii: Array | float) -> None:
+    """Place copies of what reaches from z = 0 to z = 1 from each end (n, 0, 3) to the other (n, 1, 3)."""
+    along = ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(along, axis=1)
+    node.batched_positions = ends[:, 0].astype(np.float32)
+    node.batched_wxyzs = np.array([_quaternion(_upright(each)) for each in along], dtype=np.float32)
+    wide = np.broadcast_to(radii, lengths.shape)
+    node.batched_scales = np.column_stack([wide, wide, lengths]).astype(np.float32)
+
+
+def _upright(direction: Array) -> Array:
+    """Return a rotation (3, 3) that takes z to a direction."""
+    from scipy.spatial.transform import Rotation
+
+    size = float(np.linalg.norm(direction))
+    if size == 0:
+        return np.eye(3)
+    z = direction / size
+    if z[2] < -1 + 1e-12:
+        return np.diag([1.0, -1.0, -1.0])
+    across = np.cross([0.0, 0.0, 1.0], z)
+    sine = float(np.linalg.norm(across))
+    turn = across * (np.arctan2(sine, z[2]) / sine) if sine > 0 else across
+    return np.asarray(Rotation.from_rotvec(turn).as_matrix())
+
+
+def _quaternion(rotation: Array) -> tuple[float, ...]:
+    """Return (w, x, y, z) of a rotation (3, 3)."""
+    from scipy.spatial.transform import Rotation
+
+    return tuple(Rotation.from_matrix(rotation).as_quat(scalar_first=True).tolist())
+
+
+def _rgb(color: str) -> tuple[int, ...]:
+    return tuple(int(color[i : i + 2], 16) for i in (1, 3, 5))

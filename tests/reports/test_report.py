@@ -1,0 +1,176 @@
+"""The report: one page that opens offline, tells what plan.json tells, and that nobody's title can break out of."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import Page, browser_path, browsing
+from command_line import run
+
+from synergrip.errors import InputError
+from synergrip.planning.outcome import Plan
+from synergrip.planning.planning import plan
+from synergrip.problems.problem import load_problem
+from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.html import page
+from synergrip.reports.html.lines import lines_of
+from synergrip.reports.html.page import report_text
+from synergrip.reports.html.saved_answer import read_answer
+
+HOSTILE = (
+    "<script>boom()</script>",
+    '"><img src=x onerror=boom()>',
+    "\u202eright to left",
+    "{{ 7 * 7 }}",
+    "n" * 10_000,
+)
+MOST_BYTES = 1.5e6
+ASKED = {
+    "gripper-box": (),
+    "robonaut-handle": ("limits.margin=20 N",),
+    "human-ball": ("task.move[0].lift=120 mm",),
+}
+
+
+@cache
+def document_of(name: str, *overrides: str) -> dict[str, Any]:
+    problem = load_problem(name, list(overrides))
+    answer = plan(problem.grasp, problem.task)
+    found = outcome_document(problem.title, problem.grasp, answer, problem.notes, problem.source)
+    return dict(json.loads(json.dumps(found)))
+
+
+class Tags(HTMLParser):
+    """The elements of a page outside the scene, and what they refer to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.names, self.links = list[str](), list[str]()
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.names.append(tag)
+        self.links += [value or "" for name, value in attrs if name in ("src", "href", "action") and tag != "iframe"]
+        assert not [name for name, _ in attrs if name.startswith("on")]
+
+
+def test_a_report_refers_to_nothing_outside_itself_and_is_small() -> None:
+    text = report_text(document_of("gripper-box"), "t_s\n0\n")
+    assert len(text.encode()) < MOST_BYTES
+    assert all(link.startswith("#") for link in Tags(text).links)
+
+
+@pytest.mark.parametrize("title", HOSTILE, ids=["script", "attribute", "direction", "template", "long"])
+def test_hostile_titles_and_names_stay_text(title: str) -> None:
+    document = document_of("tripod")
+    names = [title, *document["contacts"][1:]]
+    ours = document | {"title": title, "contacts": names, "notes": [title]}
+    plain, told = Tags(report_text(document)), Tags(report_text(ours))
+    assert told.names.count("script") == plain.names.count("script") == 1
+    assert told.names.count("img") == 0
+    assert "49" not in report_text(ours)[:400]
+
+
+def test_charts_have_the_numbers_of_the_plan_in_units_that_people_read() -> None:
+    document = document_of("gripper-box")
+    found = {each.title: each for each in lines_of(document)}
+    assert np.allclose(found["slip margin"].values, document["true"]["margin"]["per_contact_N"])
+    assert np.allclose(found["object displacement"].values, 1e3 * np.array(document["du"])[:, :3])
+    assert found["object displacement"].unit == "mm"
+    forces = np.linalg.norm(np.array(document["true"]["force_N"]), axis=2)
+    assert np.allclose(found["contact force"].values, forces)
+    assert found["slip margin"].names == tuple(document["contacts"])
+
+
+def test_torques_are_in_percent_of_what_each_joint_may_do() -> None:
+    document = document_of("human-ball")
+    (lines,) = (each for each in lines_of(document) if each.title == "joint torque")
+    limits = dict(zip(document["joints"], document["execution"]["joint_torque"], strict=True))
+    name = lines.names[0]
+    torque = np.array(document["tau"])[:, document["joints"].index(name)]
+    assert np.allclose(lines.values[:, 0], 100 * torque / limits[name])
+
+
+def test_the_command_writes_it_with_the_answer_and_again_from_the_file(tmp_path: Path) -> None:
+    made = run("plan", "tripod", "-o", str(tmp_path), "--report")
+    assert made.exit_code == 0
+    assert "report.html" in made.stdout
+    first = (tmp_path / "report.html").read_bytes()
+    (tmp_path / "report.html").unlink()
+    again = run("report", str(tmp_path), "--format", "json")
+    assert json.loads(again.stdout) == {
+        "report": str(tmp_path / "report.html"), "verdict": "feasible", "exit_code": 0
+    }  # fmt: skip
+    assert (tmp_path / "report.html").read_bytes() == first
+    assert run("plan", "tripod", "-o", str(tmp_path)).exit_code == 0
+    assert not (tmp_path / "report.html").exists()  # of another answer
+
+
+def test_code_writes_the_page_of_the_command_line(tmp_path: Path) -> None:
+    problem = load_problem("tripod")
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    path = answer.report(tmp_path / "ours.html", problem=problem)
+    assert run("plan", "tripod", "-o", str(tmp_path), "--report").exit_code == 0
+    ours, theirs = (
+        re.sub(r'data-packed="[^"]*"', "", each.read_text(encoding="utf-8"))
+        for each in (path, tmp_path / "report.html")
+    )  # the packed document has its date
+    assert ours == theirs
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda told: told.pop("digest"), "has no digest"),
+        (lambda told: told["margin"].update(worst_N=9.0), "is not as it was written"),
+        (lambda told: told.pop("verdict"), "holds no answer"),
+    ],
+    ids=["no digest", "changed", "no answer"],
+)
+def test_an_answer_that_is_not_as_it_was_written_has_no_report(tmp_path: Path, change: Any, said: str) -> None:
+    told = json.loads(json.dumps(document_of("tripod")))
+    change(told)
+    (tmp_path / "plan.json").write_text(json.dumps(told), encoding="utf-8")
+    with pytest.raises(InputError, match=said):
+        read_answer(tmp_path / "plan.json")
+
+
+def test_what_is_not_installed_is_said_before_anything_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(page, "find_spec", lambda name: None if name == "viser" else object())
+    with pytest.raises(InputError, match=r"needs viser, which is not installed: pip install 'synergrip\[view\]'"):
+        page.refuse_without_libraries()
+
+
+@pytest.mark.skipif(browser_path() is None, reason="there is no Chromium to open the report with")
+def test_reports_open_without_a_network_or_an_error_and_their_cursors_follow(tmp_path: Path) -> None:
+    with browsing() as seen:
+        for name, overrides in ASKED.items():
+            document = document_of(name, *overrides)
+            path = tmp_path / f"{name}.html"
+            path.write_text(report_text(document), encoding="utf-8")
+            seen.open(path)
+            assert document["verdict"] in seen.value("document.querySelector('.verdict').className")
+            if document["verdict"] == "infeasible":
+                assert document["repairs"][0]["set"] in seen.value("document.getElementById('why').innerText")
+            if "true" in document:
+                _follows(seen)
+            assert not seen.errors
+            assert not seen.asked
+
+
+def _follows(seen: Page) -> None:
+    """Wait until the playback has moved the cursors of the charts, twice."""
+    cursor = "document.querySelector('.cursor').style.left"
+    first = seen.until(cursor)
+    seen.until(f"{cursor} !== '{first}'")
+    lefts = seen.value("[...document.querySelectorAll('.cursor')].map(each => each.style.left)")
+    assert len(lefts) > 3
+    assert len(set(lefts)) == 1  # all charts have the same time
