@@ -32,11 +32,11 @@ def report(outcome: Outcome, path: str | Path, problem: Asked | None) -> Path:
     """Write the report of an answer; see `Answer.report`."""
     from synergrip.reports.html.page import write_report
 
-    place = _path(path, "path")
+    place = path_of(path, "path")
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
     csv = plan_csv(outcome) if isinstance(outcome, Plan) else ""
-    _written("path", place, lambda: write_report(place, document, csv))
+    written_at("path", place, lambda: write_report(place, document, csv))
     return place
 
 
