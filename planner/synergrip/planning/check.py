@@ -45,6 +45,7 @@ class Judgement(Value):
     analysis: Analysis
     formulation: Formulation
     motion: Motion
+    elastic_motion: Array  # (T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     checks: tuple[Check, ...]
@@ -133,7 +134,13 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     found = between(there, analysis, formulation, motion)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
-    return Judgement(there, analysis, formulation, motion, frozen(usages[0].value), usages, checks, found, cases=cases)
+    elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)
+    return Judgement(there, analysis, formulation, motion, elastic, margins, usages, checks, found, cases=cases)
+
+
+def _elastic(formulation: Formulation, motion: Motion) -> Array:
+    """Return the elastic motion (T, 6) in the linear model of the start posture."""
+    return frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
 
 
 def _linear(
@@ -165,7 +172,8 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         executed = walk.executed
         lost = f"equilibrium from t = {executed.times[len(executed.states)]:.3g} s on: {executed.why}"
         missed = Check(f"{lost}; what follows is what the linear model of the start makes of it", float("inf"), 0.0)
-        return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, (missed,))
+        elastic, margins = _elastic(formulation, linear), frozen(usages[0].value)
+        return Judgement(task, analysis, formulation, linear, elastic, margins, usages, (missed,))
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
     margins = frozen(found.usages[0].value)
@@ -173,8 +181,8 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     samples = in_scenarios(walk, walker, formulation, unseen(LOOKS))  # others than those that a plan was judged by
     checks = (followed, *found.checks, *cases.checks, *samples.checks)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, checks, found.between, walk.executed,
-        walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh,
+        task, analysis, formulation, found.motion, found.elastic_motion, margins, found.usages, checks, found.between,
+        walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh,
     )  # fmt: skip
 
 
