@@ -70,8 +70,8 @@ class Plan(Tabled):
     beta: Array  # (T, dim Gamma_ucs) [m]
     gamma: Array  # (T, dim Gamma_zr)
     elastic_motion: Array
-    """(T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]. The rigid motion is Gamma_ucs beta
-    at the start, and on the hand that moves what the contacts of each instant make of it."""
+    """(T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]: of Gamma_ucs beta at the
+    start posture, and on the hand that moves of what the contacts of each instant make of it."""
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     """What the plan uses of every limit, friction cones first; `usages["joint torque"]` finds one by its title."""
