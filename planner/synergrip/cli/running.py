@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import sys
 import traceback
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.streams import PrintError
+from synergrip.cli.streams import PrintError, colored, columns
 from synergrip.errors import InputError, InterruptError, OutputError, SelfCheckError, SynergripError
 
 if TYPE_CHECKING:
@@ -139,7 +138,7 @@ def shown_anyway(form: Format, text: Callable[[], str], document: Callable[[], d
         if form is Format.JSON:
             say(json.dumps(_plain(error) | {"answer": document()}, allow_nan=False))
         else:
-            say(text())
+            say(_fitting(text))
             _print_error(error, form)
         raise typer.Exit(error.exit_code) from None
 
@@ -166,8 +165,16 @@ def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
-    """Print the answer, as text or as one JSON document, on standard output."""
-    say(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())
+    """Print the answer, as text that fits where it is shown or as one JSON document, on standard output."""
+    say(json.dumps(document(), allow_nan=False) if form is Format.JSON else _fitting(text))
+
+
+def _fitting(text: Callable[[], str]) -> str:
+    from synergrip.reports.text.screen import Screen, shown_on
+    from synergrip.reports.text.tables import fitted
+
+    with shown_on(Screen(columns(sys.stdout), color())):
+        return fitted(text())
 
 
 def say(text: str) -> None:
@@ -178,7 +185,7 @@ def say(text: str) -> None:
 
 def color() -> bool:
     """Return whether standard output wants colour."""
-    return sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    return colored(sys.stdout)
 
 
 def _print_error(error: SynergripError, form: Format) -> None:
@@ -188,7 +195,7 @@ def _print_error(error: SynergripError, form: Format) -> None:
         document = error_json(error) if isinstance(error, InputError) else _plain(error)
         say(json.dumps(document, allow_nan=False))
     else:
-        wants = sys.stderr.isatty() and "NO_COLOR" not in os.environ
+        wants = colored(sys.stderr)
         text = error_text(error, wants) if isinstance(error, InputError) else _line(error)
         print(text, file=sys.stderr)
 

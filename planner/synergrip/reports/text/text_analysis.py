@@ -13,6 +13,7 @@ from synergrip.planning.free import free_dimensions
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.unbroken import TIED
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.twists import describe_twist
 
@@ -63,7 +64,7 @@ def combination(column: np.ndarray, names: tuple[str, ...]) -> str:
     largest = float(np.abs(column).max())
     kept = [(value / largest, name) for value, name in zip(column, names, strict=True) if abs(value) > 1e-6 * largest]
     terms = [f"{'-' if v < 0 else '+'} {'' if abs(abs(v) - 1) < 5e-4 else f'{abs(v):.3g} '}{n}" for v, n in kept]
-    return " ".join(terms).removeprefix("+ ")
+    return " ".join(term.replace(" ", TIED) for term in terms).removeprefix(f"+{TIED}")
 
 
 def _values(analysis: Analysis) -> Iterator[str]:
