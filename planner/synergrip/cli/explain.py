@@ -13,6 +13,7 @@ import typer
 from synergrip.cli import ending
 from synergrip.cli.progress import PATIENCE, tell_what_takes_long, telling
 from synergrip.cli.running import (
+    DetailsOption,
     Format,
     FormatOption,
     ProblemArgument,
@@ -44,6 +45,7 @@ def explain(
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw what is missing over time: .svg, .png, .pdf.")
     ] = None,
+    details: DetailsOption = False,
 ) -> None:
     """Say why there is no plan, when, what clashes, and which changes of one number give one, each planned again."""
     with answering(form):
@@ -70,7 +72,7 @@ def explain(
             document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source, known)
 
         def text() -> str:
-            said = explanation_text(loaded, outcome, known, color())
+            said = explanation_text(loaded, outcome, known, color(), details=details)
             return "\n".join([said, "", *(f"wrote {name}" for name in wrote)])
 
         with shown_anyway(form, text, lambda: document):

@@ -12,6 +12,7 @@ import typer
 from synergrip.cli import ending
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
+    DetailsOption,
     Format,
     FormatOption,
     ProblemArgument,
@@ -62,6 +63,7 @@ def plan(
     qp_solver: Annotated[
         str | None, typer.Option(metavar="NAME", help="With --pyramids: any solver that qpsolvers finds (osqp).")
     ] = None,
+    details: DetailsOption = False,
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
@@ -90,7 +92,7 @@ def plan(
             possible("--save-program", save_program, refuse_unwritable)
 
         def text() -> str:
-            return outcome_text(loaded, outcome, folder, written, color()) + told + cost + drawn
+            return outcome_text(loaded, outcome, folder, written, color(), details=details) + told + cost + drawn
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard

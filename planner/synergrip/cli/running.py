@@ -35,6 +35,9 @@ SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help='Override a key of the problem, e.g. --set "limits.margin=0.3 N".'),
 ]
+DetailsOption = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Show every program that was solved and every check with its error.")
+]
 ProblemArgument = Annotated[
     str, typer.Argument(metavar="PROBLEM", help="A problem file, or the name of a bundled problem.")
 ]

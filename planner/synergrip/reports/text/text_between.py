@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, in_mm
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
@@ -51,7 +51,7 @@ def _departures(between: Between) -> Iterator[str]:
         yield f"the load leaves its straight line by {between.load_departure:.3g} N"
     if between.path_departure:
         leaves = "its own" if between.load_departure else "leaves its straight line"
-        yield f"the wanted motion {leaves} by {1e3 * between.path_departure:.3g} mm"
+        yield f"the wanted motion {leaves} by {in_mm(between.path_departure)}"
 
 
 def _limits(between: Between, asked: str | None) -> str:

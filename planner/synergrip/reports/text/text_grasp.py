@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, in_g
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
@@ -32,7 +32,7 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
     unbroken = " · ".join(value.replace(" ", "\u00a0") for value in values)
     yield from (line.replace("\u00a0", " ") for line in wrapped("posture  ", unbroken))
     body = held.body
-    mass = f", {1e3 * body.mass:.4g} g" if body.mass else ""
+    mass = f", {in_g(body.mass)}" if body.mass else ""
     titles = dict.fromkeys([body.title, *([body.shape.title] if body.shape else [])])
     yield f"object   {', '.join(titles)}{mass}, centre {_triple(1e3 * body.position, 4)} mm in the palm frame"
     yield ""

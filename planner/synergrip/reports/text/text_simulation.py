@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.simulation.simulation import SLIPPED, SPUN, Simulation
@@ -21,13 +22,13 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     shift, turn = simulation.motion_error
     moved = np.linalg.norm(simulation.du[-1, :3]), np.linalg.norm(simulation.du[-1, 3:])
     said = (
-        f"{1e3 * moved[0]:.4g} mm and {np.degrees(moved[1]):.3g} deg at the end; "
-        f"from the plan's motion at most {1e3 * shift:.3g} mm and {np.degrees(turn):.3g} deg"
+        f"{in_mm(moved[0], 4)} and {np.degrees(moved[1]):.3g} deg at the end; "
+        f"from the plan's motion at most {in_mm(shift)} and {np.degrees(turn):.3g} deg"
     )
     lines += wrapped("motion   ", said)
     if simulation.half_step is not None:
         margins, motion = simulation.half_step
-        said = f"with half the step margins differ by {margins:.2g} N and the motion by {1e3 * motion:.2g} mm at most"
+        said = f"with half the step margins differ by {margins:.2g} N and the motion by {in_mm(motion, 2)} at most"
         lines += wrapped("step     ", said)
     if simulation.differences:
         lines += wrapped("differs  ", _differs(simulation))
@@ -61,7 +62,7 @@ def _creeping(simulation: Simulation, name: str) -> str:
     promised = simulation.promised_least[i]
     return (
         f"{name} had no margin from {start:.3g} s to {end:.3g} s ({promised:.4g} N promised) and "
-        f"crept {1e3 * slid:.2g} mm and {np.degrees(spun):.2g} deg"
+        f"crept {in_mm(slid, 2)} and {np.degrees(spun):.2g} deg"
     )
 
 
@@ -82,7 +83,7 @@ def _contacts(simulation: Simulation) -> str:
         rows.append(
             (
                 name, f"{simulation.least[i]:.4g} N", f"{simulation.promised_least[i]:.4g} N", true,
-                f"{simulation.least_at[i]:.4g} s", f"{1e3 * slid[i]:.2g} mm", f"{np.degrees(spun[i]):.2g} deg", word,
+                f"{simulation.least_at[i]:.4g} s", f"{in_mm(slid[i], 2)}", f"{np.degrees(spun[i]):.2g} deg", word,
             )
         )  # fmt: skip
     if simulation.true is None:
