@@ -1,4 +1,4 @@
-"""What every verb prints fits the terminal, with no word and no number split, and has no colours where none are wanted."""
+"""What every verb prints fits the terminal, with no word and no number split, and has colours only where wanted."""
 
 from __future__ import annotations
 

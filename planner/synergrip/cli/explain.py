@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import aside, tell
 from synergrip.cli.progress import PATIENCE, tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -89,14 +90,14 @@ def _explained(no: Infeasible | Unknown) -> Explanation:
     """Return all that is known of a no; an interrupt keeps what is found."""
     begun = time.monotonic()
 
-    def tell(repair: Repair) -> None:
+    def heard_of(repair: Repair) -> None:
         if not (sys.stderr.isatty() or time.monotonic() - begun > PATIENCE):
             return
         said = "a plan" if repair.verified else "no plan"
-        print(f"planned  with {repair.set}: {said}", file=sys.stderr, flush=True)
+        tell(f"planned  with {repair.set}: {said}")
 
     with heard():
-        return no.explain(heard=tell)
+        return no.explain(heard=heard_of)
 
 
 def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:
@@ -106,7 +107,7 @@ def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:
 
     least = None if known is None or known.posed is None else compromise(known.posed)
     if known is None or least is None:
-        print(f"nothing is missing that could be drawn over time, so '{picture}' was not drawn", file=sys.stderr)
+        aside(f"nothing is missing that could be drawn over time, so '{picture}' was not drawn")
         return False
     draw_at(picture, lambda path: draw_no(known, least, title, path))
     return True

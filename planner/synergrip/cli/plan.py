@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import signal
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import aside
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -134,7 +134,7 @@ def _save(outcome: Outcome, path: Path) -> None:
 
     program = outcome.program if isinstance(outcome, Infeasible) else outcome.decisions[-1].program
     if program is None:
-        print(f"no program was solved, so '{path}' was not written", file=sys.stderr)
+        aside(f"no program was solved, so '{path}' was not written")
     else:
         program.save(path)
         ending.keep(path)
@@ -146,7 +146,7 @@ def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
     from synergrip.reports.pictures.plan_picture import draw_plan
 
     if not isinstance(outcome, Plan):
-        print(f"there is no plan, so '{picture}' was not drawn", file=sys.stderr)
+        aside(f"there is no plan, so '{picture}' was not drawn")
         return False
     draw_at(picture, lambda path: draw_plan(outcome, title, path))
     return True

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from synergrip.cli import ending
+from synergrip.cli import beside, ending
 from synergrip.cli.streams import PrintError, colored, columns
 from synergrip.errors import InputError, InterruptError, OutputError, SelfCheckError, SynergripError
 
@@ -47,6 +47,7 @@ ProblemArgument = Annotated[
 def answering(form: Format) -> Iterator[None]:
     """Turn errors into their text or document and their exit code; an interrupt into 130, a defect into 4."""
     ending.begin(_interrupted if form is Format.JSON else None)
+    beside.begin()
     try:
         yield
     except SynergripError as error:
@@ -169,7 +170,13 @@ def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
     """Print the answer, as text that fits where it is shown or as one JSON document, on standard output."""
-    say(json.dumps(document(), allow_nan=False) if form is Format.JSON else _fitting(text))
+    say(json.dumps(_noted(document()), allow_nan=False) if form is Format.JSON else _fitting(text))
+
+
+def _noted(document: dict[str, Any]) -> dict[str, Any]:
+    """Return the document with what would be told beside a text."""
+    more = beside.notes()
+    return document | {"notes": [*document.get("notes", ()), *more]} if more else document
 
 
 def _fitting(text: Callable[[], str]) -> str:
@@ -193,14 +200,16 @@ def color() -> bool:
 
 def _print_error(error: SynergripError, form: Format) -> None:
     from synergrip.reports.text.refusal_text import error_json, error_text
+    from synergrip.reports.text.screen import UNFOLDED, Screen, shown_on
+    from synergrip.reports.text.tables import fitted
 
     if form is Format.JSON and not isinstance(error, PrintError):
         document = error_json(error) if isinstance(error, InputError) else _plain(error)
         say(json.dumps(document, allow_nan=False))
     else:
-        wants = colored(sys.stderr)
-        text = error_text(error, wants) if isinstance(error, InputError) else _line(error)
-        print(text, file=sys.stderr)
+        with shown_on(Screen(columns(sys.stderr)) if sys.stderr.isatty() else UNFOLDED):
+            said = error_text(error, colored(sys.stderr)) if isinstance(error, InputError) else _line(error)
+            print(fitted(said) if sys.stderr.isatty() else said, file=sys.stderr)
 
 
 def _line(error: SynergripError) -> str:

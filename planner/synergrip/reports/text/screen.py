@@ -27,6 +27,8 @@ class Screen:
 
 
 ANYWHERE = Screen()
+UNFOLDED = Screen(107)
+"""A place where messages are read by programs, line by line: none is continued."""
 _HERE: ContextVar[Screen] = ContextVar("screen", default=ANYWHERE)
 
 

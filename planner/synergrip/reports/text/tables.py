@@ -46,18 +46,18 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[
     return "\n".join(lines)
 
 
-def wrapped(label: str, text: str, width: int = PARAGRAPH) -> list[str]:
+def wrapped(label: str, text: str, width: int = PARAGRAPH, inset: int = 0) -> list[str]:
     """Return the text in lines that fit, the first after the label, the others below the text.
 
     Args:
         label: stands before the text.
         text: words.
         width: of the longest line, where the place is wider.
+        inset: columns by which all but the first line are set in further.
     """
-    room = min(width, max(screen().width, LEAST)) - cells(label)
-    return [
-        freed(f"{label if i == 0 else ' ' * cells(label)}{line}") for i, line in enumerate(parted(glued(text), room))
-    ]
+    start = " " * (cells(label) + inset)
+    lines = parted(glued(text), min(width, max(screen().width, LEAST)) - len(start))
+    return [freed(f"{label if i == 0 else start}{line}") for i, line in enumerate(lines)]
 
 
 def fitted(text: str) -> str:
@@ -69,7 +69,7 @@ def fitted(text: str) -> str:
             continue
         label = re.match(r"\s*(?:\S+ {2,})?", line)
         start = label[0] if label and cells(label[0]) <= width // 2 else ""
-        lines += wrapped(start, line[len(start) :], width)
+        lines += wrapped(start, line[len(start) :], width, inset=0 if start else 2)
     return "\n".join(lines)
 
 

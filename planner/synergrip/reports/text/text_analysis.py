@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.documents.quantities import plain
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.free import free_dimensions
@@ -74,6 +75,6 @@ def _values(analysis: Analysis) -> Iterator[str]:
         shown = " ".join(f"{value:.2g}" if value > GREY_FLOOR else "0" for value in decision.singular_values)
         yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
     length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
-    yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"
+    yield f"  characteristic length {plain(length)} mm, condition of M {plain(condition, 3)}"
     for note in (*free_dimensions(analysis), *accuracy_notes(analysis.response)):
         yield from wrapped("note     ", note, WIDTH)

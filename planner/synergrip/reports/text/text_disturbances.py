@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from synergrip.documents.quantities import in_mm
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.margin.disturbance.disturbances import AXES, Disturbances, WithstoodAlong
 from synergrip.margin.disturbance.executed_wrench import ExecutedWrench
 from synergrip.margin.disturbance.withstood import Withstood
@@ -143,5 +143,7 @@ def _executed(found: ExecutedWrench) -> str:
     if found.margin is None:
         return f"{what} does not let it reach its end ({found.why})"
     if found.holds:
-        return f"{what} leaves a slip margin of {found.margin:.4g} N"
-    return f"{what} makes '{found.contact}' slip at t = {found.time_s:.2f} s ({found.margin:.4g} N): less is withstood"
+        return f"{what} leaves a slip margin of {plain(found.margin)} N"
+    return (
+        f"{what} makes '{found.contact}' slip at t = {found.time_s:.2f} s ({plain(found.margin)} N): less is withstood"
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from synergrip.documents.quantities import SHOWN_IN, in_g
+from synergrip.documents.quantities import SHOWN_IN, in_g, plain
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
@@ -50,7 +50,7 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
 def _value(kind: str, q: float) -> str:
     """Return a joint value in the unit people use."""
     factor, unit = SHOWN_IN[SI_UNITS[kind]]
-    return f"{round(factor * q, 6) + 0.0:.4g} {unit}"
+    return f"{plain(round(factor * q, 6) + 0.0)} {unit}"
 
 
 def _triple(values: Array, digits: int) -> str:

@@ -7,7 +7,7 @@ from shlex import quote
 
 import numpy as np
 
-from synergrip.documents.quantities import in_mm
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.reports.text.tables import table, wrapped
 
@@ -52,7 +52,7 @@ def _row(of: str, number: DirectNumber) -> tuple[str, ...]:
 
 
 def _told(number: DirectNumber, value: float) -> str:
-    return f"{in_mm(value, 5)}" if number.unit == "m" else f"{value:.5g}"
+    return in_mm(value, 5) if number.unit == "m" else plain(value, 5)
 
 
 def _moved(displacement: tuple[float, ...]) -> str:

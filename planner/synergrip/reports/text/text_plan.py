@@ -126,7 +126,7 @@ def _model(executed: Execution, fixed: Execution | None) -> str:
         return "contacts stay where they are on link and object"
     radii = sorted(1e3 * radius for touch in executed.setting.held.touches if (radius := touch.pad.radius))
     size = f"{radii[0]:.3g}" if radii[0] == radii[-1] else f"{radii[0]:.3g} to {radii[-1]:.3g}"
-    other = f"it would keep {fixed.margins.min():.4g} N" if fixed.whole else "it would not get through"
+    other = f"it would keep {plain(fixed.margins.min())} N" if fixed.whole else "it would not get through"
     return f"pads of {size} mm radius roll (if they stayed where they are {other})"
 
 
@@ -135,7 +135,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
-    head = f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
+    head = f"{word}  smallest slip margin {plain(worst)} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
     yield f"{head}{best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
     limits = plan.task.limits
@@ -168,7 +168,7 @@ def _largest_normal(plan: Plan) -> tuple[str, ...]:
 def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
     size = np.abs(values)
     k, i = first_largest(size, 1e-6 * float(size.max()))
-    return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
+    return title, f"{plain(values[k, i])} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
 def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
