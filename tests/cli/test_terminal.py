@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -12,33 +13,38 @@ WIDTHS = (60, 80, 120)
 PROBLEMS = {
     "gripper-box": ("--set", "task.knots=3"),
     "human-ball": ("--set", "task.knots=3"),
-    "robonaut-handle": ("--set", "task.knots=3"),
+    "robonaut-handle": ("--set", "task.knots=2"),
     "barrett-ball-lift": ("--set", "task.knots=3"),
     "tripod": (),
     "dlr-ball-turn": ("--set", "task.knots=5"),
 }
 """Bundled problems, with knots that take little time: the words are the same."""
 TOO_MUCH = ("--set", "limits.margin=100 N")
-ON_EACH = (("plan",), ("plan", "-v"), ("validate",), ("analyse",), ("analyse", "--table"), ("analyse", "--quality"))
-COMMANDS = [(verb, name, *options, *few) for verb, *options in ON_EACH for name, few in PROBLEMS.items()]
-COMMANDS += [("synergies", "needed", name, "--up-to", "1", "--most", "1", *few) for name, few in PROBLEMS.items()]
-COMMANDS += [("margins", name, "--only", "least_peak_N", *few) for name, few in PROBLEMS.items()]
-COMMANDS += [("explain", name, *few) for name, few in PROBLEMS.items() if name != "barrett-ball-lift"]
+ON_EACH = (("plan", "-v"), ("validate",), ("analyse",), ("synergies", "needed", "--up-to", "1", "--most", "1"))
+COMMANDS = [(*verb, name, *few) for verb in ON_EACH for name, few in PROBLEMS.items()]
+COMMANDS += [("margins", name, "--only", "fastest_timing_s", *few) for name, few in PROBLEMS.items() if few]
+COMMANDS += [("analyse", "--quality", name, *PROBLEMS[name]) for name in ("tripod", "gripper-box", "robonaut-handle")]
 COMMANDS += [
-    ("explain", "tripod", *TOO_MUCH), ("plan", "gripper-box", "--set", "task.knots=3", *TOO_MUCH),
-    ("margins", "tripod", "--all"), ("front", "tripod", "-n", "3"),
-    ("front", "tripod", "-n", "2", "--against", "friction"), ("problems",), ("hands",), ("synergies", "list"),
-    ("synergies", "show", "human", "--posture", "ball"), ("synergies", "show", "robonaut"),
-    ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
+    ("analyse", "--table", "human-ball"), ("explain", "tripod", *TOO_MUCH), ("explain", "tripod"),
+    ("plan", "gripper-box", *PROBLEMS["gripper-box"]), ("plan", "pinch-hard"), ("plan", "tripod", *TOO_MUCH),
     ("plan", "tripod", "--pyramids", "8"),
+    ("margins", "tripod", "--only", "least_peak_N", "--only", "sensitivities", "--only", "disturbance", "--all"),
+    ("margins", "pinch-soft", "--only", "heaviest_kg", "--only", "quality"),
+    ("front", "tripod", "-n", "3"), ("front", "tripod", "-n", "2", "--against", "friction"),
+    ("problems",), ("hands",), ("synergies", "list"), ("synergies", "show", "human", "--posture", "ball"),
+    ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
 ]  # fmt: skip
+"""Each verb; those that take seconds on hands are asked for little of them, and for all of smaller grasps."""
 
 
-@pytest.mark.parametrize("arguments", COMMANDS, ids=" ".join)
-def test_lines_fit_and_nothing_is_split(arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(autouse=True)
+def _terminal_with_colours(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.delenv("COLUMNS", raising=False)
     monkeypatch.setenv("TERM", "xterm")
+
+
+def holds(arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
     told = shown(arguments, (*WIDTHS, WIDE), monkeypatch)
     for width in WIDTHS:
         assert not too_long(told[width], width)
@@ -46,38 +52,44 @@ def test_lines_fit_and_nothing_is_split(arguments: tuple[str, ...], monkeypatch:
         assert not apart(told[width]), told[width]
 
 
-@pytest.mark.parametrize("name", PROBLEMS)
-def test_a_plan_that_is_checked_and_played_fits(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("arguments", COMMANDS, ids=" ".join)
+def test_lines_fit_and_nothing_is_split(arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    holds(arguments, monkeypatch)
+
+
+@pytest.mark.parametrize("name", ["gripper-box", "tripod", "dlr-ball-turn"])
+def test_a_plan_that_is_checked_fits(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     run("plan", name, "-o", "there", *PROBLEMS[name])
-    told = [shown(("check", "there", name, *PROBLEMS[name]), (*WIDTHS, WIDE), monkeypatch)]
-    if name == "gripper-box":
-        monkeypatch.undo()
-        told.append(shown(("simulate", "there", "--once", "--step", "1e-3"), (*WIDTHS, WIDE), monkeypatch))
-    for each in told:
-        for width in WIDTHS:
-            assert not too_long(each[width], width)
-            assert not broken(each[width], each[WIDE]), each[width]
+    holds(("check", "there", name, *PROBLEMS[name]), monkeypatch)
 
 
-def test_colours_are_there_unless_nobody_wants_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("NO_COLOR", raising=False)
-    monkeypatch.delenv("COLUMNS", raising=False)
-    plan = ("plan", "gripper-box", "--set", "task.knots=3")
-    colored = run_in_terminal(plan, 80, tmp_path, TERM="xterm")
+def test_a_plan_that_is_played_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    run("plan", "gripper-box", "-o", "there", "--set", "task.knots=2", "--set", "task.move=[]")
+    holds(("simulate", "there", "--once", "--step", "1e-3"), monkeypatch)
+
+
+def test_colours_are_there_unless_nobody_wants_them(tmp_path: Path) -> None:
+    colored = run_in_terminal(("plan", "tripod"), 80, tmp_path)
+    bare = run_in_terminal(("plan", "tripod"), 80, tmp_path, NO_COLOR="1")
+    piped = run("plan", "tripod").output
     assert "\x1b[1;32mfeasible" in colored
-    for environment in ({"NO_COLOR": "1", "TERM": "xterm"}, {"TERM": "dumb"}):
-        assert "\x1b" not in run_in_terminal(plan, 80, tmp_path, **environment)
-    assert not too_long(colored, 80)
-    piped = run(*plan)
-    assert "\x1b" not in piped.output
-    assert not too_long(piped.output, 80)
-    assert plain(colored).split()[:20] == piped.output.split()[:20]
+    assert "\x1b" not in bare + piped
+    assert not too_long(bare, 80)
+    for line, other, third in zip(plain(colored).split("\n"), bare.split("\n"), piped.split("\n"), strict=True):
+        assert line.startswith("solve") or line == other == third
 
 
-def test_what_is_wrong_fits_and_is_without_colours_where_none_are_wanted(tmp_path: Path) -> None:
-    long = 'limits.margin="this is a number in many words, none of which has a meaning to anybody"'
-    for arguments in (("plan", "tripod", "--set", long), ("plan", "no-such-problem"), ("check", "none", "tripod")):
-        told = run_in_terminal(arguments, 80, tmp_path, NO_COLOR="1", TERM="xterm")
-        assert "error" in told
-        assert "\x1b" not in told
-        assert not too_long(told, 80)
+def test_what_is_wrong_fits_the_terminal_and_is_one_line_in_a_pipe(tmp_path: Path) -> None:
+    wrong = ("plan", "tripod", "--set", 'limits.margin="a number in many words, none of which has a meaning"')
+    told = run_in_terminal(wrong, 60, tmp_path, NO_COLOR="1")
+    assert told.startswith("error limits.margin: ")
+    assert "\x1b" not in told
+    assert not too_long(told, 60)
+    assert not apart(told)
+    (line, *_) = run(*wrong).stderr.splitlines()
+    assert " ".join(told.split()).startswith(line)
+
+
+def test_a_document_is_all_that_is_printed(tmp_path: Path) -> None:
+    told = run_in_terminal(("plan", "pinch-hard", "--picture", "none.svg", "--format", "json"), 80, tmp_path)
+    assert "'none.svg' was not drawn" in json.loads(told)["notes"][-1]

@@ -73,7 +73,8 @@ def _least(cases: Sequence[InCase]) -> str:
     least = worst_case(cases)
     slip = least.usages[0]
     k, i = slip.worst()
-    return f"the smallest slip margin is {plain(least.margin)} N ({slip.items[i]}, t = {slip.times[k]:.2f} s), {least.title}"
+    where = f"{slip.items[i]}, t = {slip.times[k]:.2f} s"
+    return f"the smallest slip margin is {plain(least.margin)} N ({where}), {least.title}"
 
 
 def case_table(cases: Sequence[InCase]) -> list[tuple[str, ...]]:

@@ -20,16 +20,15 @@ def solved_lines(decisions: Sequence[Decision], *, details: bool) -> Iterator[st
     """Yield how many programs were solved, how large they are and how long it took; with details each of them."""
     if not decisions:
         return
-    solvers = dict.fromkeys(decision.solution.solver for decision in decisions)
-    tries = sum(decision.attempts for decision in decisions)
-    took = f"{1e3 * sum(decision.seconds for decision in decisions):.0f} ms" + f", {tries} attempts" * (
-        tries > len(decisions)
-    )
-    short = [decision for decision in decisions if decision.solution.claim is not Claim.OPTIMAL]
-    claims = ", ".join(f"{decision.goal} {decision.solution.claim}" for decision in short) or "optimal"
+    solvers = " and ".join(dict.fromkeys(decision.solution.solver for decision in decisions))
     variables = many(max(len(decision.program.q) for decision in decisions), "variable")
     size = f"{len(decisions)} programs of up to {variables}" if len(decisions) > 1 else f"1 program of {variables}"
-    yield from wrapped("solve    ", f"{claims} by {' and '.join(solvers)} in {took}: {size}")
+    tries = sum(decision.attempts for decision in decisions)
+    more = f", {tries} attempts" if tries > len(decisions) else ""
+    short = [decision for decision in decisions if decision.solution.claim is not Claim.OPTIMAL]
+    claims = ", ".join(f"{decision.goal} {decision.solution.claim}" for decision in short) or "optimal"
+    took = f"{1e3 * sum(decision.seconds for decision in decisions):.0f} ms{more}"
+    yield from wrapped("solve    ", f"{size} by {solvers} in {took}: {claims}")
     if details:
         head = ("goal", "variables", "cones", "claim", "iterations", "attempts", "time")
         yield table(head, [_row(decision) for decision in decisions], right=(1, 2, 4, 5, 6))

@@ -63,7 +63,7 @@ def _columns(found: GraspProperties, effect: ReferenceEffect) -> Iterator[str]:
     for i, (references, motion) in enumerate(shown):
         text = combination(references, analysis.grasp.synergies)
         if np.any(motion):
-            size = 1e3 * np.linalg.norm(analysis.response.scale.twist(motion))
+            size = 1e3 * float(np.linalg.norm(analysis.response.scale.twist(motion)))
             moved = describe_twist(motion, analysis.grasp.contacts, analysis.response.scale.length)
             text += f": {plain(size, 3)} mm per newton, {moved}"
         yield from wrapped(f"{effect.name.removesuffix(' squeeze')} {i + 1}  ", text, WIDTH)

@@ -18,7 +18,8 @@ def timing_lines(problem: Problem, found: FastestTiming, written: Path | None) -
         yield from wrapped("         ", f"fastest timing: {found.why}")
         return
     below = "" if found.lower is None else f", not below {plain(found.lower, 5)} s"
-    yield f"Fastest timing along the path of the palm: {plain(found.value, 5)} s instead of {plain(found.given_s, 5)} s{below}"
+    instead = f"instead of {plain(found.given_s, 5)} s{below}"
+    yield f"Fastest timing along the path of the palm: {plain(found.value, 5)} s {instead}"
     yield from wrapped("         ", found.why)
     if written is None:
         yield "         -o DIR writes it as the path of the palm"
