@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 from command_line import run
 from pseudo_terminal import WIDE, apart, broken, plain, run_in_terminal, shown, too_long
+
+from synergrip.cli import beside, running
 
 WIDTHS = (60, 80, 120)
 PROBLEMS = {
@@ -65,6 +68,18 @@ def test_a_plan_that_is_checked_fits(name: str, monkeypatch: pytest.MonkeyPatch)
 def test_a_plan_that_is_played_fits(monkeypatch: pytest.MonkeyPatch) -> None:
     run("plan", "gripper-box", "-o", "there", "--set", "task.knots=2", "--set", "task.move=[]")
     holds(("simulate", "there", "--once", "--step", "2e-3"), monkeypatch)
+
+
+def test_how_far_it_is_stands_on_one_line_that_is_wiped(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    for told in ("11 of 20 subsets", "2 of 3", "", ""):
+        beside.over(told)
+    written = capsys.readouterr().err
+    assert written == "\r11 of 20 subsets\r2 of 3          \r      \r"
+    running.show(running.Format.TEXT, lambda: "answer", dict)
+    assert capsys.readouterr() == ("answer\n", "")
 
 
 def test_colours_are_there_unless_nobody_wants_them(tmp_path: Path) -> None:
