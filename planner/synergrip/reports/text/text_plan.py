@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import compress
 from pathlib import Path
 
 import numpy as np
@@ -110,10 +111,8 @@ def _used(outcome: Unknown) -> Iterator[str]:
     count, whole, last = len(motion.times), len(outcome.task.times), f"t = {motion.times[-1]:.3g} s"
     at = f"all {many(whole, 'knot')}" if count == whole else f"the first {count} of {whole} knots, until {last}"
     at = f"the first of {whole} knots, {last}" if count == 1 < whole else at
-    rolls = "pads with a radius roll" if executed.setting.contact_model == "rolling" else STAY
-    yield from wrapped(
-        "true     ", f"the figures are those of the hand that moves, at {at}; {rolls}; {_held_with(executed)}"
-    )
+    told = f"the figures are those of the hand that moves, at {at}; {_model(executed)}; {_held_with(executed)}"
+    yield from wrapped("true     ", told)
     yield table(("", "worst", "at", "limit"), used_rows(outcome.usages, motion, outcome.task, outcome.grasp))
 
 
@@ -126,7 +125,7 @@ def _executed(plan: Plan) -> Iterator[str]:
         if (first := plan.first_passes) is not None:
             how += f", after {many(first.passes, 'time')} at {first.knots} of its knots"
         told = (
-            f"the figures are those of the hand that moves, {how}; {_model(plan.executed, plan.fixed)}; "
+            f"the figures are those of the hand that moves, {how}; {_model(plan.executed, _if_fixed(plan.fixed))}; "
             f"{_held_with(plan.executed)}"
         )
     yield from wrapped("true     ", told)
@@ -137,14 +136,24 @@ def _held_with(executed: Execution) -> str:
     return f"the object is held with {1e-3 * float(executed.stiffness.min()):.3g} N/mm at least"
 
 
-def _model(executed: Execution, fixed: Execution | None) -> str:
-    """Return how contacts move, and what it would cost if they moved otherwise."""
-    if fixed is None:
-        return STAY
-    radii = sorted(1e3 * radius for touch in executed.setting.held.touches if (radius := touch.pad.radius))
+def _model(executed: Execution, otherwise: str = "") -> str:
+    """Return how contacts move; of pads that roll also what is known otherwise, in brackets."""
+    own = executed.setting
+    radii = sorted(1e3 * touch.pad.radius for touch in compress(own.held.touches, own.rolls))
+    contacts = zip(own.grasp.contacts, own.held.touches, strict=True)
+    flat = any(touch.pad.radius and contact.kind.lies_flat for contact, touch in contacts)
+    if not radii:
+        return f"{STAY} (patches lie flat, also where pads are round)" if flat else STAY
     size = f"{radii[0]:.3g}" if radii[0] == radii[-1] else f"{radii[0]:.3g} to {radii[-1]:.3g}"
+    return f"pads of {size} mm radius roll{', and patches lie flat' if flat else ''}{otherwise}"
+
+
+def _if_fixed(fixed: Execution | None) -> str:
+    """Return what it would cost if pads did not roll."""
+    if fixed is None:
+        return ""
     other = f"it would keep {fixed.margins.min():.4g} N" if fixed.whole else "it would not get through"
-    return f"pads of {size} mm radius roll (if they stayed where they are {other})"
+    return f" (if they stayed where they are {other})"
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
