@@ -229,6 +229,8 @@ class Unknown(Reasoned):
     """These states as a motion: references, forces, torques and displacements at the same knots."""
     usages: tuple[Usage, ...] = ()
     """What they use of every limit, friction cones first."""
+    between_only: bool = False
+    """Whether limits are missed between the knots alone: more of these may help."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
     notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant

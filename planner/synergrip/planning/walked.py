@@ -76,8 +76,6 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
 
 SOON = "found as soon as limits hold along the motion: by its goals it may not be the best"
 """What is told of a plan that goes with a no."""
-MORE_KNOTS = "more knots straighten it"
-"""What is advised where limits are missed between the knots only."""
 ALONG = 'task.linearise = "along" plans for the hand that moves'
 
 
@@ -105,7 +103,9 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
     if said := _missed(found):
-        return _truer(walk, walker, linear) or _unknown(walker, linear, said, walk, found)
+        inside = all(BETWEEN in check.name for check in found.checks if not check.passed)
+        no = replace(_unknown(walker, linear, said, walk, found), between_only=inside)
+        return _truer(walk, walker, linear) or no
     return _in_all_cases(walk, walker, linear, found)
 
 
@@ -233,14 +233,13 @@ def _unknown(walker: Walker, linear: Plan, why: str, walk: Walk, found: Figures 
 
 
 def _missed(found: Figures) -> str:
-    """Return what is missed at the true states, and what helps; nothing when every check passes."""
+    """Return what is missed at the true states; nothing when every check passes."""
     failed = [check for check in found.checks if not check.passed]
     if not failed:
         return ""
     told = [*found.missed, *(_of_state(check) for check in failed if "stability" in check.name)]
     told = told or [f"{check.name}, by {check.error:.3g}" for check in failed]
-    advice = f"; {MORE_KNOTS}" if all(BETWEEN in check.name for check in failed) else ""
-    return f"at the true equilibrium limits are missed: {'; '.join(told)}{advice}"
+    return f"at the true equilibrium limits are missed: {'; '.join(told)}"
 
 
 def _of_state(check: Check) -> str:
