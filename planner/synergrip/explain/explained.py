@@ -26,7 +26,6 @@ from synergrip.explain.words import blamed, most_margin
 from synergrip.log import LONG
 from synergrip.planning.outcome import Infeasible, Unknown
 from synergrip.planning.pace import BRIEF, SHORT, WHOLE, Effort
-from synergrip.planning.walked import MORE_KNOTS
 
 BEST = 3
 """Repairs of the short form."""
@@ -133,7 +132,7 @@ def _of_the_motion(
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
     numbers = sorted(dials(asked, no.task, posed.analysis), key=lambda dial: not dial.key.startswith(SAMPLED))
-    knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.why.endswith(MORE_KNOTS) else ()
+    knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.between_only else ()
     found, interrupted = _as_found(knots)
     if not interrupted:
         more, interrupted = _tried(no, asked, posed, numbers, heard, short=short)

@@ -227,9 +227,14 @@ class Unknown(Reasoned):
     reached: Reached | None = None
     """Until when the motion was followed, at the stage "reach"."""
     executed: Execution | None = None
-    """The true states that the references found lead to, at the stages "reach" and "execution"."""
+    """The true states that the references found lead to, at the stages "reach" and "execution": at the knots until the
+    motion is no longer followed, or the way ends; None where that is before the first."""
+    motion: Motion | None = None
+    """These states as a motion: references, forces, torques and displacements at the same knots."""
     usages: tuple[Usage, ...] = ()
-    """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
+    """What they use of every limit, friction cones first."""
+    between_only: bool = False
+    """Whether limits are missed between the knots alone: more of these may help."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
     notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant
@@ -240,7 +245,7 @@ class Unknown(Reasoned):
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "notes", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "motion", "notes", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

@@ -109,9 +109,19 @@ class Pace:
         way = LONGER * self.way if now.behind > allowed else self.way
         return Pace(min(1.0, longer * self.step), min(1.0, way), 0, stays)
 
-    def back(self, found: Walk | None) -> Pace:
-        """Return the pace after a pass in vain: what it came to, or None when no program goes it."""
+    def back(self, before: Walk, found: Walk | None) -> Pace:
+        """Return the pace after a pass in vain.
+
+        Where no program goes it and nothing of the way is left, it is the step in which what is asked cannot be had:
+        the next one is longer.
+
+        Args:
+            before: where the pass began.
+            found: what it came to, or None when no program goes it.
+        """
         again = replace(self, tries=self.tries + 1, stays=False)
+        if found is None and before.there and self.step < 1:
+            return replace(again, step=min(1.0, ROUND * self.step))
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
         shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))

@@ -128,7 +128,7 @@ class Walker:
             met = best.hindered  # a shorter step is hindered by being short, too
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             now = found if good and found is not None else best
-            pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
+            pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(best, found)
             short = best.short + 1 if self._falls_short(answered, best) else 0
             best = replace(now, passes=count, tried=tried, hindered=met, pace=pace, short=short)
         return best

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
 from synergrip.planning.between import Between
@@ -62,14 +64,19 @@ def _limits(between: Between, asked: str | None) -> str:
     worst = max(between.usages, key=lambda usage: usage.violation)
     k, i = worst.worst()
     reached, limit = nearest(worst)
-    advice = "; more knots straighten it"
+    advice = []
     if between.rooms is None and asked != "hold":
-        advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
+        advice = ['task.between = "hold" keeps the limits there']
     elif asked == "report":
-        advice = '; without task.between = "report" they are kept there, more knots straighten it'
+        advice = ['without task.between = "report" they are kept there']
+    if (
+        np.count_nonzero(worst.times == worst.times[k]) == 1
+    ):  # where a load jumps, references are the same on both sides
+        advice.append("more knots straighten it")
+    told = f"; {', '.join(advice)}" if advice else ""
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {plain(worst.times[k], 3)} s, "
-        f"past its limit of {limit}{advice}"
+        f"past its limit of {limit}{told}"
     )
 
 

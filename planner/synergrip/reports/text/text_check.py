@@ -24,8 +24,9 @@ from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at
 from synergrip.reports.text.text_cases import judged_cases
-from synergrip.reports.text.text_plan import refused_lines, usage_rows, verdict_word
+from synergrip.reports.text.text_plan import refused_lines, verdict_word
 from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_usages import usage_rows
 
 
 def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) -> str:
