@@ -39,7 +39,8 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
-    bounds = np.concatenate([bounds, np.full(extra, farthest(formulation))])
+    if extra:
+        bounds = np.append(bounds, farthest(formulation))
     constant = _constant(cost) / worth
     return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, frozen(bounds), basis, constant)
 
