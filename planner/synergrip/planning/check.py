@@ -131,7 +131,7 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     reached = analysis.coordinates.coordinates(motion.dz_r)
     tracking = _tracking(task, times, reached[1], formulation)
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
-    found = between(there, analysis, formulation, motion)
+    found = between(there, analysis, formulation, motion, usages)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
     elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)
