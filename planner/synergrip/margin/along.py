@@ -14,11 +14,11 @@ from synergrip.planning.outcome import Outcome, Plan, Unknown
 from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
-WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.97)
-"""Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
-where that has no plan the others, halved until the last one with a plan is known."""
+NEARLY, WHOLE_WAY, NEARER = 0.97, 0.999, (0.4, 0.7)
+"""Shares of the way to the extreme of the start posture that are tried on a hand that moves: first most of it, then all
+but nothing of it where that has a plan, and the others where it has none."""
 FARTHER = (1.1, 1.5)
-"""Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
+"""Shares that are tried of a motion instead, where it has a plan at most of the way."""
 NEAR, SHY, BACK = 0.02, 2e-3, 0.03
 """Shares of the number: how near each other a value with and one without a plan are at which nothing more is tried, how
 far short of where the margin seems to end it is tried, and how much shorter where that was too far all the same."""
@@ -47,20 +47,24 @@ class Search(Value):
         return cls(dial, end, dial.value, plan, lacks=_lacking(dial.value, plan))
 
     def over(self, tries: int) -> Search:
-        """Return it after as many tries at most, from almost the whole way on."""
-        search = self._with(self._at(WHOLE_WAY))
-        if search.bad is None and np.any(self.best.task.target.values):
-            for share in FARTHER:
+        """Return it after as many tries at most, from most of the way on."""
+        moves = bool(np.any(self.best.task.target.values)) and self.dial.cause == "amplitude"
+        search = self._with(self._at(NEARLY))
+        for share in FARTHER if moves else (WHOLE_WAY,):
+            if search.bad is None:
                 search = search._with(search._at(share))
-                if search.bad is not None:
-                    break
         return search.on(tries)
 
-    def on(self, tries: int) -> Search:
-        """Return it after as many tries at most, those there were among them."""
+    def on(self, tries: int, apart: float = NEAR) -> Search:
+        """Return it after as many tries at most, with those there were, or where values are near each other.
+
+        Args:
+            tries: how often a value is planned with.
+            apart: how far a value with a plan and one without may be from each other, as a share of the number.
+        """
         search = self
         while search.count < tries and search.bad is not None:
-            if abs(search.good - search.bad) <= NEAR * abs(search.good):
+            if abs(search.good - search.bad) <= apart * abs(search.good):
                 break
             search = search._with(search._next())
         return search
@@ -70,10 +74,10 @@ class Search(Value):
         assert self.bad is not None
         if (guess := self._guess()) is not None:
             return guess
-        known, short = dict(self.lacks), self.dial.rounded(self.dial.easier(self.bad, BACK * abs(self.bad)))
+        known, short = dict(self.lacks), self.dial.easier(self.bad, BACK * abs(self.bad))
         if self.bad not in known and max(known.values(), default=0.0) > 0 and self._inside(short):
             return short
-        left = [value for value in map(self.dial.rounded, map(self._at, NEARER)) if self._inside(value)]
+        left = [value for value in map(self._at, NEARER) if self._inside(value)]
         return left[len(left) // 2] if left else between(self.good, self.bad)
 
     def _guess(self) -> float | None:
@@ -94,7 +98,8 @@ class Search(Value):
         return None
 
     def _inside(self, value: float) -> bool:
-        """Return whether a value lies between those with and without a plan."""
+        """Return whether a value, as it is told, lies between those with and without a plan."""
+        value = self.dial.rounded(value) if np.isfinite(value) else value
         return self.bad is not None and min(self.good, self.bad) < value < max(self.good, self.bad)
 
     def _at(self, share: float) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import first_plan, least_with_plan, posed_at
+from synergrip.changes.at_a_value import first_plan, posed_at
 from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -24,13 +24,13 @@ from synergrip.values import Value
 HEAVIEST, FACTOR = "heaviest_kg", "load_factor"
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
-MORE = (1e-5, 1e-4, 2e-3, 2e-2, 1e-1)
-"""Shares by which a bound is wider than what the plan uses that is there; the first mostly has one, and the least
-of the others with a plan is found by halves."""
+MORE = (1e-5, 2e-3, 2e-2, 1e-1)
+"""Shares by which a bound is wider than what the plan uses that is there: the first with a plan is told."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
-TRIES, ONE_MORE = 4, 1
-"""How many values are tried along the motion, if nothing else is said, and how many more where none has had a plan.
+TRIES, WIDE = 3, 0.25
+"""How many values are tried along the motion, if nothing else is said, and one more where a value with a plan and one
+without are farther from each other than this share of the number; two more where no other value has had a plan.
 A bound is not looked for along the motion where a plan that was made without it is as near to its end as two values
 that are near each other."""
 
@@ -151,8 +151,7 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial = found.dial
     if dial.cause not in OF_PLAN:
         return _ends(of, found, dial.value, plan)
-    first, *rest = (dial.rounded(dial.value * (1 + more)) for more in MORE)
-    attained = first_plan(dial, [first], BRIEF) or least_with_plan(dial, rest, BRIEF)
+    attained = first_plan(dial, [dial.rounded(dial.value * (1 + more)) for more in MORE], BRIEF)
     if attained is None:
         more = f"up to {MORE[-1]:.0%} more than the plan uses"
         return DirectNumber.none(of.name, of.unit, f"no plan verified with {more}")
@@ -190,6 +189,6 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     search = Search.of(dial, end, plan).over(of.tries)
     if search.best is plan and dial.cause in OF_PLAN:
         return _near(of, found, plan)
-    if search.best is plan:
-        search = search.on(of.tries + ONE_MORE)
+    search = search.on(of.tries + 1, WIDE)
+    search = search.on(of.tries + 2) if search.best is plan else search
     return _ends(of, found, search.good, search.best, search.bad)
