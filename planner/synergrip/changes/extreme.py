@@ -40,8 +40,8 @@ class Extreme(Value):
     value: float | None
     """The last value with a plan; None where none was found, as far as the number is followed, without one."""
     past: float | None
-    """The nearest value of which it is certified that there is none: 0.1 % farther, or 1 or 10 % where between the
-    knots a reserve asks for more than is needed. None where nothing is proven."""
+    """The nearest value of which it is certified that there is none: 0.1 % farther; where a reserve asks for more than
+    is needed 0.1 % farther than without it, or 1 or 10 %. None where nothing is proven."""
 
 
 def extreme(dial: Dial[Asked], posed: Posed, program: Program) -> Extreme:
