@@ -112,6 +112,11 @@ class Intersample(Value):
         nothing = np.zeros(0, dtype=np.intp)
         return Intersample(whole.of(order), corner, nothing, 0, whole.of(nothing))
 
+    def at_corners(self) -> Intersample:
+        """Return the knots and the corners alone: nothing is asked of what is curved between them."""
+        nothing = np.zeros(0, dtype=np.intp)
+        return Intersample(self.grid, self.corner, nothing, 0, self.grid.of(nothing))
+
     def departures(self, times: Array, wrench: Array, target: Array) -> tuple[Array, Array]:
         """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""
         looks = self.all
