@@ -226,6 +226,8 @@ class Unknown(Reasoned):
     """The true states that the references found lead to, at the stages "reach" and "execution"."""
     usages: tuple[Usage, ...] = ()
     """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
+    passes: int = 0
+    """How often the grasp was linearised anew along the motion, in vain."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
     notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant

@@ -96,7 +96,7 @@ class Walker:
 
     @property
     def _ends_sooner(self) -> bool:
-        return self.leads or self.effort.brief
+        return self.leads or (self.effort.brief and not self.effort.strict)
 
     @property
     def allowed(self) -> float:
@@ -160,7 +160,8 @@ class Walker:
 
     def _wait(self, best: Walk) -> bool:
         """Return whether goals after the first wait until promises are near what happens."""
-        return len(self.task.goals) > 1 and not best.rough and (best.stage is None or best.left_out)
+        several = len(self.task.goals) > 1 and not self.effort.brief
+        return several and not best.rough and (best.stage is None or best.left_out)
 
     def _asked(self, walk: Walk, pace: Pace, limits: tuple[Limit, ...], *, wait: bool) -> tuple[Answered, Stage | None]:
         """Return what the first goal comes to around a path, and all that do not wait; None without an answer."""
@@ -174,6 +175,8 @@ class Walker:
             names = ", ".join(f"'{goal.name}'" for goal in others)
             left = f"along the motion there was no plan yet to ask {names} around"
             stage = replace(stage, notes=(*stage.notes, left))
+        if self.effort.brief:
+            return answered, stage  # there is a plan: that is what is asked, and not which is best by all goals
         return answered, through(stage, () if wait else others, unasked_goals(self.task), self.solver)
 
     def executed(
