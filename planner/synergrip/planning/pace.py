@@ -51,8 +51,8 @@ class Effort:
     """After how many passes in a row that find less than the margin that is asked it is given up."""
     brief: bool = False
     """Whether passes begin at the plan of least effort, whatever the goals, ask for the first of these alone, and end
-    where another one or two would make true what is promised, if all limits hold there; and no more is told of a walk
-    in vain than that it is."""
+    where another one or two would make true what is promised, if all limits hold there; no more is told of a walk in
+    vain than that it is, and none is begun where the start posture says no."""
     strict: bool = False
     """Whether brief passes go on until what is promised is true."""
     near: Execution | None = None

@@ -84,7 +84,7 @@ def planned_along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcom
         from synergrip.planning.walked import on_the_hand
 
         return on_the_hand(outcome, answers, effort)
-    if isinstance(outcome, Infeasible):
+    if isinstance(outcome, Infeasible) and not effort.brief:
         from synergrip.planning.going_on import gone_on
 
         return gone_on(outcome, lambda analysis, task: _planned(analysis, task, answers), answers, effort)
