@@ -101,8 +101,10 @@ def _helping(found: Explanation) -> Iterator[str]:
         told = "where no plan is found, the linear model of the start posture has one with that value"
         yield from wrapped("         ", f"{told}, and the hand that moves was tried with more{farther}")
     if not all(each.tried for each in found.repairs):
-        told = "what was not tried the linear model of the start posture has a plan with; whether the hand that moves has one"
-        yield from wrapped("         ", f"{told} takes longer than goes with a no: synergrip explain plans with it")
+        told = (
+            "what was not tried the linear model of the start posture has a plan with, too, and synergrip explain plans"
+        )
+        yield from wrapped("         ", f"{told} with it along the motion, which takes longer than goes with a no")
 
 
 def _nearer(repairs: Sequence[Repair], *, whole: bool) -> Iterator[str]:
