@@ -23,9 +23,9 @@ ENOUGH = (0.02, 0.1)
 """How much farther than the least change of the start posture is tried in the short form, where the hand that moves
 needs more; the first alone once some change has a plan, the last alone once one has none with either: each is one along
 the motion."""
-PASSES, AROUND, WORTH, UNLIMITED = 12, 2, 2, 10**9
-"""How many passes along the motion the short form takes in all, at most, for how many a plan counts beside its passes,
-and with how many left it is still worth it to try another value."""
+AROUND, WORTH, UNLIMITED = 2, 2, 10**9
+"""For how many passes a plan counts beside its own, and with how many left it is still worth it to try another value;
+as many as none ever takes."""
 MORE = (0.0, 0.005, *ENOUGH, 0.2, 0.5, 1.0)
 """The same in the long form, which tells no more than the short one."""
 NEAR = 0.02
@@ -100,7 +100,7 @@ def by_size(every: Sequence[T], size: Callable[[T], float], cause: Callable[[T],
 
 def repaired(
     changes: Sequence[LeastChange], posed: Posed, *, most: int | None = None, prove: bool = True,
-    effort: Effort = WHOLE, heard: Callable[[Repair], None] = lambda repair: None,
+    effort: Effort = WHOLE, passes: int = UNLIMITED, heard: Callable[[Repair], None] = lambda repair: None,
 ) -> Iterator[Repair]:  # fmt: skip
     """Yield the repair of each change, planned again, as it is found.
 
@@ -110,10 +110,11 @@ def repaired(
         most: how many are planned again at most; the others are left out.
         prove: whether what is short of each is looked at, too, and more values are tried.
         effort: how much is tried along the motion.
+        passes: how many are made along it for all of them at most; each plan counts as `AROUND` beside its own.
         heard: is told of each.
     """
     farther: tuple[float, ...] = MORE if prove else ENOUGH
-    left = PASSES if effort.brief else UNLIMITED
+    left = passes
     for change in changes[:most]:
         search, stopped = _Search(change, effort, left), False
         try:
