@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from synergrip.equilibrium.execution import Execution
     from synergrip.planning.walk_so_far import Walk
 
 SHORTER, SHORTER_WAY, SHORTEST = 1 / 3, 1 / 9, 1e-3
@@ -49,8 +50,14 @@ class Effort:
     short: float = np.inf
     """After how many passes in a row that find less than the margin that is asked it is given up."""
     brief: bool = False
-    """Whether passes begin at the plan of least effort, whatever the goals, and end where another one or two would make
-    true what is promised, if all limits hold there; and no more is told of a walk in vain than that it is."""
+    """Whether passes begin at the plan of least effort, whatever the goals, ask for the first of these alone, and end
+    where another one or two would make true what is promised, if all limits hold there; no more is told of a walk in
+    vain than that it is, and none is begun where the start posture says no."""
+    strict: bool = False
+    """Whether brief passes go on until what is promised is true."""
+    near: Execution | None = None
+    """What the same hand went through for nearly the same task: passes begin there, and not at the plan of the start
+    posture, where the hand is still in equilibrium at as many instants."""
 
     def until(self, passes: int) -> int:
         """Return the number of the last pass of a round that begins after some."""

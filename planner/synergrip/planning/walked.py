@@ -43,11 +43,20 @@ def on_the_hand(plan: Plan, answers: Answerer, effort: Effort = WHOLE) -> Plan |
     """
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers, effort=effort)
     if plan.task.linearise == "along" and not plan.interrupted:
-        return answer_of(walk_from_plan(walker, plan.motion), walker, plan)
+        return answer_of(_from_near(walker, effort) or walk_from_plan(walker, plan.motion), walker, plan)
     answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
     if plan.interrupted and not isinstance(answer, Plan):
         raise KeyboardInterrupt
     return answer
+
+
+def _from_near(walker: Walker, effort: Effort) -> Walk | None:
+    """Return the walk that passes from a motion near by end with; None where there is none, or not for this task."""
+    near = effort.near
+    if near is None or not near.whole or not np.array_equal(near.times, walker.task.times):
+        return None
+    begun = walker.executed(near.references, None, near, fewer=True)
+    return None if begun.way is None else walker.on(begun)
 
 
 def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
@@ -97,6 +106,9 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
         why += f" by {walk.gap:.3g} N" if np.isfinite(walk.gap) else ", or an equilibrium is not found"
         found = None if walker.effort.brief else figures(walk, walker, linear.formulation, linear.between)
         return _unknown(walker, linear, why, walk, found)
+    if walker.effort.brief and walk.short:
+        why = f"along the motion the largest slip margin is less than the {walker.task.margin:.4g} N asked"
+        return _unknown(walker, linear, why, walk)
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
     walk = walker.to_all_digits(walk)
@@ -127,7 +139,7 @@ def _truer(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown | None:
     """Return the answer of a walk gone on with until its promises are true; None where they are, or do not get so."""
     if walk.true:
         return None
-    strict = replace(walker, effort=replace(walker.effort, brief=False))
+    strict = replace(walker, effort=replace(walker.effort, strict=True))
     again = strict.on(walk)
     return answer_of(again, strict, linear) if again.true else None
 
@@ -226,7 +238,7 @@ def _with(
 def _unknown(walker: Walker, linear: Plan, why: str, walk: Walk, found: Figures | None = None) -> Unknown:
     """Return that the hand does not do what a plan promises, with what it does."""
     decisions = (*linear.decisions, *walk.tried)
-    answer = Unknown(walker.task, walker.start, why, decisions, "execution")
+    answer = Unknown(walker.task, walker.start, why, decisions, "execution", passes=walk.all_passes)
     if found is None:
         return answer
     executed = walk.executed.first(len(found.motion.times))
