@@ -63,7 +63,7 @@ def test_what_holds_until_then_is_said() -> None:
     assert max(float(usage.excess.max()) for usage in answer.usages) < 1e-3
     assert answer.usages["slip margin"].value.min() >= 0.5 - 1e-3
     text = text_of(*FAR)
-    assert "at the first 5 of 11 knots, until t = 0.8 s; pads of 5 mm radius roll; the object is held with" in text
+    assert "at the first 5 of 11 knots, until t = 0.8 s; pads of 8 mm radius roll; the object is held with" in text
     assert "largest normal force 2.647 N" in text
 
 
