@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 
+import numpy as np
+
 from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import between, first_plan
 from synergrip.changes.turning import dials, knots_dial, tolerance_dial
@@ -15,6 +17,7 @@ from synergrip.conic.limits.dial import Dial
 from synergrip.explain.repairs import Repair, beyond
 from synergrip.planning.outcome import Unknown
 from synergrip.planning.pace import BRIEF, WHOLE, Effort
+from synergrip.tasks.tracking import target_displacement
 
 FACTORS = (1.25, 2.0, 5.0, 20.0, 100.0)
 """Of each number, toward more room."""
@@ -28,6 +31,9 @@ FEW = 3
 """How many numbers the short form tells, and single changes to each of which a second one is looked for."""
 NEARLY = (1.0, 1.25, 2.0)
 """How many times as far as the object is off is tried as its tolerance; the first two in the short form."""
+ALMOST, LEAST_PART = (1.0, 0.97, 0.9), 0.05
+"""Which shares of the part of a motion that was followed are tried as its size, the first two in the short form; and
+what part is worth it."""
 ROOMY = 0.05
 """How much farther than the start posture needs a number goes to which a second one is looked for."""
 
@@ -67,6 +73,25 @@ def near_enough(
         return
     dial = tolerance_dial(asked, no.task, posed.analysis)
     values = [_two_digits(factor * off) for factor in (NEARLY[:2] if short else NEARLY)]
+    found = first_repair(dial, values, BRIEF if short else WHOLE)
+    if found is not None:
+        heard(found)
+        yield found
+
+
+def as_far_as_followed(
+    no: Unknown, numbers: Sequence[Dial[Asked]], posed: Posed, heard: Callable[[Repair], None], *, short: bool
+) -> Iterator[Repair]:
+    """Yield how much of a motion has a plan, about as much as was followed of it."""
+    dial = next((each for each in numbers if each.cause == "amplitude"), None)
+    if no.reached is None or dial is None:
+        return
+    scale, wanted = posed.analysis.response.scale, target_displacement(posed.analysis, no.task, no.task.target.values)
+    whole = float(np.linalg.norm(scale.twist(wanted), axis=1).max(initial=0.0))
+    part = float(np.linalg.norm(scale.twist(no.reached.pose[None]))) / whole if whole > 0 else 0.0
+    if not LEAST_PART < part < 1:
+        return
+    values = [dial.rounded(dial.value * part * share) for share in (ALMOST[:2] if short else ALMOST)]
     found = first_repair(dial, values, BRIEF if short else WHOLE)
     if found is not None:
         heard(found)

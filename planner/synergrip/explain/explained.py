@@ -15,7 +15,7 @@ from synergrip.conic.conflicts import Conflict
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.conic.limits.friction_cone import FRICTION
 from synergrip.conic.limits.slip_margin import KEY
-from synergrip.explain.along import FIRST, more_knots, near_enough, tried, tried_briefly
+from synergrip.explain.along import FIRST, as_far_as_followed, more_knots, near_enough, tried, tried_briefly
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
@@ -153,12 +153,14 @@ def _tried(
 ) -> tuple[list[Repair], bool]:  # fmt: skip
     """Return changes that are tried along the motion, and whether somebody interrupted.
 
-    A tolerance comes first where it is known by how much the motion is not reached, and is not tried twice.
+    A tolerance comes first where it is known by how much the motion is not reached, and is not tried twice; then as
+    much of the motion as was followed.
     """
     near = no.reached is not None and no.reached.off_m is not None
     left = [dial for dial in numbers if not (near and dial.cause == "tolerance")]
+    followed = as_far_as_followed(no, numbers, posed, heard, short=short)
     more = tried_briefly(left, heard, effort) if short else tried(left, heard)
-    return _as_found(chain(near_enough(no, asked, posed, heard, short=short), more))
+    return _as_found(chain(near_enough(no, asked, posed, heard, short=short), followed, more))
 
 
 def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:
