@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from synergrip.documents.quantities import in_g, in_mm
+from synergrip.documents.quantities import in_g, in_mm, plain
 from synergrip.errors import Issue
 from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.grasp import Grasp
@@ -93,14 +93,14 @@ def mass_doubt(body: Object, mass: float) -> str:
             return ""
         than = f"more than {HEAVIEST:g}: no solid" if density > 1 else f"less than {LIGHTEST:g}, as air: nothing"
         return (
-            f"{in_g(mass)} in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
+            f"{in_g(mass)} in the box around the {body.shape.title} are {plain(density, 3)} kg/m^3, {than} "
             "that hands hold is so; is it in another unit?"
         )
     if not body.mass or 1 / OTHER_UNIT < mass / body.mass < OTHER_UNIT:
         return ""
     return (
-        f"{mass:.4g} kg are {mass / body.mass:.3g} times the object's own mass, {body.mass:.4g} kg: in code masses are "
-        "in kg; is it in another unit?"
+        f"{plain(mass)} kg are {plain(mass / body.mass, 3)} times the object's own mass, {body.mass:.4g} kg: in code "
+        "masses are in kg; is it in another unit?"
     )
 
 
