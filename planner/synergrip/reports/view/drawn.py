@@ -22,6 +22,8 @@ CONE = 0.3
 """Height of the friction cones, of the size of the scene."""
 CELL = 0.01
 """[m] The side of a square of the ground."""
+FAR = 1.6
+"""How far the camera is, in radii of what is seen."""
 STILL = 1.0
 """[s] How long a single frame is shown."""
 
@@ -89,29 +91,30 @@ class Drawn:
             shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
         )  # fmt: skip
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
-        self._time = nodes.add_label("/time", "")
+        self._time = nodes.add_label("/time", "", anchor="bottom-center")
         self._time.position = tuple(self._middle + 1.9 * size * scene.up[0])
         self.show(0)
 
     @property
     def camera(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Where one looks from, and at."""
+        """Where one looks from, and at: hand and object are both seen."""
         up = self.scene.up[0]
         side = np.cross(up, [0.0, 0.0, 1.0] if abs(up[2]) < 0.9 else [1.0, 0.0, 0.0])
         side /= np.linalg.norm(side)
         from_there = 1.2 * np.cross(side, up) + 0.8 * side + 0.7 * up
-        far = 4.0 * max(self.scene.size, 0.6 * self._reach)
-        return tuple(self._middle + far * from_there / np.linalg.norm(from_there)), tuple(self._middle)
+        ends = np.vstack([self._around - self.scene.size, self._around + self.scene.size])
+        middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
+        far = FAR * float(np.linalg.norm(ends - middle, axis=1).max())
+        return tuple(middle + far * from_there / np.linalg.norm(from_there)), tuple(middle)
 
     @property
     def _middle(self) -> Array:
         return np.asarray(self.scene.position[0])
 
     @property
-    def _reach(self) -> float:
-        """[m] How far the hand is from the middle."""
-        ends = self.scene.bones[0].reshape(-1, 3)
-        return float(np.linalg.norm(ends - self._middle, axis=1).max(initial=0.0))
+    def _around(self) -> Array:
+        """(., 3) where the hand and the object are at the start."""
+        return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self._middle])
 
     def show(self, k: int) -> None:
         """Move everything to frame `k`."""
@@ -138,9 +141,9 @@ class Drawn:
     def _ground(self, nodes: Any) -> None:
         """Draw squares of 10 mm below everything, across gravity at the start."""
         scene, up = self.scene, self.scene.up[0]
-        points = np.vstack([scene.bones[0].reshape(-1, 3), scene.places[0], [self._middle - scene.size * up]])
-        low = self._middle + up * ((points - self._middle) @ up).min()
-        wide = float(np.ceil(2.5 * max(self._reach, scene.size) / CELL) * CELL)
+        points = np.vstack([self._around, [self._middle - scene.size * up]]) - self._middle
+        low = self._middle + up * (points @ up).min()
+        wide = float(np.ceil(2.2 * np.linalg.norm(points, axis=1).max() / CELL) * CELL)
         nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
                        position=tuple(low), wxyz=_quaternion(_upright(up)))  # fmt: skip
         nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
@@ -158,7 +161,7 @@ def _body(nodes: Any, scene: Scene) -> Any:
     solid = of_shape(scene.shape)
     round_all_over = len(solid.points) > 300
     return nodes.add_mesh_simple(
-        "/palm/object", solid.points.astype(np.float32), solid.triangles.astype(np.uint32), color=OBJECT, opacity=0.5,
+        "/palm/object", solid.points.astype(np.float32), solid.triangles.astype(np.uint32), color=OBJECT, opacity=0.35,
         flat_shading=not round_all_over, side="double",
     )  # fmt: skip
 
