@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
-from synergrip.simulation.simulation import SLIPPED, SPUN, Simulation
+from synergrip.simulation.notes import moment
+from synergrip.simulation.simulation import Simulation
+from synergrip.simulation.watching import SLIPPED, SPUN
 
 
 def simulation_text(simulation: Simulation, color: bool = False) -> str:
@@ -14,14 +19,15 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     how = "so slowly that inertia does not count" if simulation.speed == "slow" else "at the speed of the plan"
     lines = [simulation.title, f"played in MuJoCo {how}, {simulation.step:g} s a step", "", _contacts(simulation), ""]
     worst, contact, time = simulation.worst
-    promised = f"{simulation.promised_worst:.4g} N promised"
+    promised = f"{simulation.promised_worst:.4g} N {promised_word(simulation)}"
     if simulation.true_worst is not None:
         promised += f", {simulation.true_worst:.4g} N at the true equilibrium"
-    lines += wrapped("margin   ", f"{worst:.4g} N at least, {contact} at {time:.4g} s ({promised})")
+    lines += wrapped("margin   ", f"{worst:.4g} N at least, {contact} {moment(time, simulation.knots[0])} ({promised})")
     shift, turn = simulation.motion_error
     moved = np.linalg.norm(simulation.du[-1, :3]), np.linalg.norm(simulation.du[-1, 3:])
+    end = "at the end" if simulation.ended is None else "where the play was ended"
     said = (
-        f"{1e3 * moved[0]:.4g} mm and {np.degrees(moved[1]):.3g} deg at the end; "
+        f"{1e3 * moved[0]:.4g} mm and {np.degrees(moved[1]):.3g} deg {end}; "
         f"from the plan's motion at most {1e3 * shift:.3g} mm and {np.degrees(turn):.3g} deg"
     )
     lines += wrapped("motion   ", said)
@@ -38,11 +44,16 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     return "\n".join([*lines, "", f"{word}  {_said(simulation)}"])
 
 
+def promised_word(simulation: Simulation) -> str:
+    """Return what a plan's own numbers are: promised, or claimed by a file that is not as it was written."""
+    return "claimed" if simulation.as_written is False else "promised"
+
+
 def _said(simulation: Simulation) -> str:
     if simulation.lost:
-        return f"no touch at {', '.join(simulation.lost)}"
+        return _first("no touch at", simulation, simulation.lost, simulation.lost_at)
     if simulation.slipped:
-        return f"the object slipped at {', '.join(simulation.slipped)}"
+        return _first("the object slipped at", simulation, simulation.slipped, simulation.slipped_at)
     if simulation.at_cone:
         parts = "; ".join(_creeping(simulation, name) for name in simulation.at_cone)
         return f"{parts}; slipped is from {1e3 * SLIPPED:g} mm or {np.degrees(SPUN):.2g} deg on"
@@ -54,26 +65,36 @@ def _said(simulation: Simulation) -> str:
     return "every contact touched and none slipped" + (f"; at the cone for a moment: {moments}" if moments else "")
 
 
+def _first(what: str, simulation: Simulation, names: Sequence[str], times: Array) -> str:
+    """Return what became of contacts, and when the first of them was that far; times (n_c,)."""
+    at = [float(times[simulation.contacts.index(name)]) for name in names]
+    known = [time for time in at if not np.isnan(time)]
+    when = f", first {moment(min(known), simulation.knots[0])}" if known else ""
+    loose = ", as pads stuck no longer and before anything moved" if simulation.failed_before else ""
+    return f"{what} {', '.join(names)}{when}{loose}"
+
+
 def _creeping(simulation: Simulation, name: str) -> str:
     i = simulation.contacts.index(name)
     start, end = simulation.cone_at[i]
     slid, spun = (float(each[i]) for each in simulation.crept)
     promised = simulation.promised_least[i]
     return (
-        f"{name} had no margin from {start:.3g} s to {end:.3g} s ({promised:.4g} N promised) and "
+        f"{name} had no margin from {start:.3g} s to {end:.3g} s ({promised:.4g} N {promised_word(simulation)}) and "
         f"crept {1e3 * slid:.2g} mm and {np.degrees(spun):.2g} deg"
     )
 
 
 def _differs(simulation: Simulation) -> str:
+    word = promised_word(simulation)
     parts = ", ".join(
-        f"{each.contact} has {each.played:.4g} N of {each.promised:.4g} N promised" for each in simulation.differences
+        f"{each.contact} has {each.played:.4g} N of {each.promised:.4g} N {word}" for each in simulation.differences
     )
     return f"{parts}: more than {simulation.within:.2g} N apart; likely cause: {simulation.likely_cause}"
 
 
 def _contacts(simulation: Simulation) -> str:
-    header: tuple[str, ...] = ("contact", "margin", "promised", "true", "at", "slip", "spin", "")
+    header: tuple[str, ...] = ("contact", "margin", promised_word(simulation), "true", "at", "slip", "spin", "")
     rows, (slid, spun) = list[tuple[str, ...]](), simulation.crept
     for i, name in enumerate(simulation.contacts):
         true = "" if simulation.true is None else f"{simulation.true[:, i].min():.4g} N"
@@ -82,7 +103,8 @@ def _contacts(simulation: Simulation) -> str:
         rows.append(
             (
                 name, f"{simulation.least[i]:.4g} N", f"{simulation.promised_least[i]:.4g} N", true,
-                f"{simulation.least_at[i]:.4g} s", f"{1e3 * slid[i]:.2g} mm", f"{np.degrees(spun[i]):.2g} deg", word,
+                moment(float(simulation.least_at[i]), simulation.knots[0]).removeprefix("at "),
+                f"{1e3 * slid[i]:.2g} mm", f"{np.degrees(spun[i]):.2g} deg", word,
             )
         )  # fmt: skip
     if simulation.true is None:
