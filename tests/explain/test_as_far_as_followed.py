@@ -16,7 +16,9 @@ def test_as_much_of_the_motion_as_was_followed_is_planned_with() -> None:
     answer = plan(problem.grasp, problem.task)
     assert isinstance(answer, Unknown)
     assert answer.reached is not None
-    (repair,) = (each for each in (*answer.explanation.repairs, *answer.explanation.others) if each.cause == "amplitude")
+    (repair,) = (
+        each for each in (*answer.explanation.repairs, *answer.explanation.others) if each.cause == "amplitude"
+    )
     assert repair.verified
     assert repair.to == pytest.approx(answer.reached.pose[2] / 10e-3, rel=0.12)
     again = load_problem("gripper-box", [*ASKED, repair.set])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from synergrip.cli.beside import over, tell
@@ -64,3 +66,27 @@ def tell_what_takes_long() -> None:
 def counted(done: int, of: int, what: str) -> None:
     """Tell on a terminal how much of a long work is done, on one line that is written over and wiped at the end."""
     over(f"{done} of {of} {what}" if done < of else "")
+
+
+TENTHS = 10
+"""Parts of a long work that are told one by one where they cannot be written over."""
+
+
+def shares() -> Callable[[str, float], None]:
+    """Return what tells how far a work is: on a terminal on a line that is written over, else by tenths.
+
+    A tenth that is done sooner after the line before than `PATIENCE` is not told.
+    """
+    tenths, last = dict[str, int](), [0.0]
+
+    def told(what: str, share: float) -> None:
+        if sys.stderr.isatty():
+            over(f"{what} ... {share:.0%}" if share < 1 else "")
+            return
+        tenth, now = int(TENTHS * share + 1e-9), time.monotonic()
+        begins = what not in tenths
+        if begins or (tenths[what] < tenth < TENTHS and now - last[0] >= PATIENCE):
+            tell(f"{what} ..." + ("" if begins else f" {tenth / TENTHS:.0%}"))
+            tenths[what], last[0] = tenth, now
+
+    return told

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +9,7 @@ from typing import Annotated
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.beside import over, tell
+from synergrip.cli.progress import shares
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -63,7 +61,7 @@ def simulate(
         picture_place(picture)
         if output:
             possible("--output", output, refuse_simulation_place)
-        found = played(plan, speed=speed.value, step=step, friction=friction, half_step=not once, progress=_teller())
+        found = played(plan, speed=speed.value, step=step, friction=friction, half_step=not once, progress=shares())
         document, wrote = simulation_document(found), list[str]()
 
         def text() -> str:
@@ -82,17 +80,3 @@ def simulate(
                 wrote.append(str(picture))
         show(form, text, lambda: document)
     raise typer.Exit(found.exit_code)
-
-
-def _teller() -> Callable[[str, float], None]:
-    """Return what tells on a terminal how far it is, on a line that is written over; elsewhere, when it begins."""
-    begun = set[str]()
-
-    def told(what: str, share: float) -> None:
-        if sys.stderr.isatty():
-            over(f"{what} ... {share:.0%}" if share < 1 else "")
-        elif what not in begun:
-            begun.add(what)
-            tell(f"{what} ...")
-
-    return told

@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.simulation.played_plan import PlayedPlan
+from synergrip.simulation.playing import Played
 from synergrip.values import Value
 
 SAME, SHARE = 0.05, 0.02
@@ -34,6 +35,8 @@ class Circumstances(Value):
     half_step: float | None  # [N] by how much margins differ with half the step
     sliding: Sequence[str]
     """Contacts that slipped, were lost, or were on their cone."""
+    before: bool = False
+    """Whether the first of them did so before anything moved."""
 
 
 def allowed_difference(plan: PlayedPlan) -> float:
@@ -52,12 +55,19 @@ def likely_cause(plan: PlayedPlan, found: Sequence[Difference], circumstances: C
     """Return why margins are likely to differ; None when none does."""
     if not found:
         return None
-    first = max(found, key=lambda each: abs(each.played - each.promised))
+    if plan.unchanged is False:
+        return "plan.json is not as it was written, and what it claims is of other numbers: `synergrip check` judges it"
+    if circumstances.friction != 1.0:
+        return f"all friction was multiplied by {circumstances.friction:g}, for which nothing was promised"
+    if circumstances.before:
+        return "the references of the start do not hold the load of the start: that went wrong before anything moved"
+    return _cause_on_the_way(plan, max(found, key=lambda each: abs(each.played - each.promised)), circumstances)
+
+
+def _cause_on_the_way(plan: PlayedPlan, first: Difference, circumstances: Circumstances) -> str:
     off, own = abs(first.played - first.promised), plan.names.index(first.contact)
     true = None if plan.true_margins is None else float(plan.true_margins[:, own].min())
     half = circumstances.half_step
-    if circumstances.friction != 1.0:
-        return f"all friction was multiplied by {circumstances.friction:g}, for which nothing was promised"
     if true is None:
         return "the plan was not checked on the hand that moves: it tells no true equilibrium"
     if abs(true - first.promised) > off / 2:
@@ -71,3 +81,19 @@ def likely_cause(plan: PlayedPlan, found: Sequence[Difference], circumstances: C
     if circumstances.sliding:
         return f"forces are others from when {', '.join(circumstances.sliding)} slid"
     return "none is known; compare `lambda` of simulation.json and of plan.json"
+
+
+def half_step_difference(found: Played, finer: Played) -> tuple[float, float]:
+    """Return how far margins [N] and motion [m] of two plays are apart, where both have been."""
+    count = min(len(found.time), len(finer.time))
+    if count < 2:
+        return float(np.abs(found.least - finer.least).max()), float("inf")
+    order = np.argsort(finer.time, kind="stable")
+
+    def apart(a: Array, b: Array) -> Array:
+        # one value for each instant: what stands at the same time twice is a jump, whose last value counts
+        return np.column_stack([np.interp(found.time, finer.time[order], column) for column in b[order].T]) - a
+
+    margins = np.abs(finer.least - found.least).max()
+    shift = np.linalg.norm(apart(found.du[:, :3], finer.du[:, :3]), axis=1).max()
+    return float(margins), float(shift)

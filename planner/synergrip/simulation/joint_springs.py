@@ -7,6 +7,7 @@ spring, tau = tau_0 - K (q - q_r) with K the inverse of C there; in its null spa
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class JointSprings(Value):
     held: Array  # (n_q, n_q) projector on what gives
     prescribed: Array  # (n_q, n_q) projector on what does not
 
-    @property
+    @cached_property
     def count(self) -> int:
         """How many directions are prescribed."""
         return round(float(np.trace(self.prescribed)))

@@ -30,21 +30,23 @@ def touches(model: Model, data: Any, frames: Array) -> list[Touch | None]:
         frames: (n, 3, 3) of the contacts, columns n, t, o, axes of the object.
     """
     found: list[Touch | None] = [None] * len(model.pads)
-    of = {each.geom: number for number, each in enumerate(model.pads)}
+    contacts, of = data.contact, {each.geom: number for number, each in enumerate(model.pads)}
     turned = data.xmat[model.body].reshape(3, 3)
-    for contact in data.contact[: data.ncon]:
-        first, second = (int(geom) for geom in contact.geom)
+    # all at once: what the engine tells of a single contact is made anew each time it is asked for
+    addresses, dims, pairs = contacts.efc_address.tolist(), contacts.dim.tolist(), contacts.geom.tolist()
+    frames_of, forces, speeds = contacts.frame, data.efc_force, data.efc_vel
+    for i, (address, dim, (first, second)) in enumerate(zip(addresses, dims, pairs, strict=True)):
         number, sign = (of[first], 1.0) if first in of else (of[second], -1.0)
-        if contact.efc_address >= 0:
-            found[number] = _touch(model.pads[number], data, contact, sign, turned, frames[number])
+        if address >= 0:
+            rows, axes = slice(address, address + dim), sign * frames_of[i].reshape(3, 3)
+            found[number] = _touch(model.pads[number], forces[rows], speeds[rows], axes, turned, frames[number])
     return found
 
 
-def _touch(pad: PadModel, data: Any, contact: Any, sign: float, turned: Array, frame: Array) -> Touch:
-    rows = slice(contact.efc_address, contact.efc_address + contact.dim)
-    axes = sign * contact.frame.reshape(3, 3)  # normal toward the object, tangents
+def _touch(pad: PadModel, pushed: Array, moved: Array, axes: Array, turned: Array, frame: Array) -> Touch:
+    """Return the contact of a pad by forces and speeds (dim,) along axes: normal toward the object, tangents."""
     forces, speeds = np.zeros(4), np.zeros(4)
-    forces[: contact.dim], speeds[: contact.dim] = data.efc_force[rows], data.efc_vel[rows]
+    forces[: len(pushed)], speeds[: len(moved)] = pushed, moved
     force = forces[:3] @ axes
     sliding = -turned.T @ (speeds[1:3] @ axes[1:])
     every = np.array([*(force @ turned @ frame), forces[3]])

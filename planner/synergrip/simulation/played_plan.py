@@ -22,6 +22,7 @@ from synergrip.hands.models.model_file import read_model
 from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import Array, frozen
 from synergrip.plain_file import read_bytes
+from synergrip.planning.digest import unchanged
 from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.told_values import Told
 from synergrip.values import Value
@@ -78,6 +79,9 @@ class PlayedPlan(Value):
     contact_model: str | None
     """How contacts move at the true equilibrium, when the plan tells it: "rolling" or "fixed"."""
     load: Load
+    unchanged: bool | None = None
+    """Whether the file is as it was written, by its digest; None when it has none. What one that was
+    changed says of true equilibria is left out: nobody has found them."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -110,12 +114,12 @@ def read_played_plan(path: Path) -> PlayedPlan:
         message = "has no 'execution': a grasp given as matrices has no hand to move; plan it on a hand to simulate it"
         raise InputError.at(KEY, f"'{file}' {message}")
     try:
-        return _played(Told(data, ""), Told(data["execution"], "execution"), file.parent)
+        return _played(Told(data, ""), Told(data["execution"], "execution"), file.parent, unchanged(data))
     except InputError as error:
         raise error.under(f"{KEY} '{file}'") from None
 
 
-def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
+def _played(plan: Told, told: Told, folder: Path, whole: bool | None) -> PlayedPlan:
     joints = told.texts("joints")
     n_q, times = len(joints), plan.array("time_s", (None,))
     tree = hand_tree(told, folder)
@@ -129,7 +133,7 @@ def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
     rows = np.cumsum([0, *(pad.contact.n_rows for pad in pads)])
     lambda_0 = told.array("lambda_0", (int(rows[-1]),))
     mass, shape = body.get("mass_kg"), body.get("shape")
-    true = plan.inside("true") if plan.get("true") is not None else None
+    true = plan.inside("true") if plan.get("true") is not None and whole is not False else None
     shown = (true.inside("margin") if true.get("margin") is not None else None) if true else None
     return PlayedPlan(
         str(plan.get("title") or "plan"), tree, kinematics(tree, joints), q_0, S, frozen(C_q + S @ C_z @ S.T),
@@ -140,7 +144,7 @@ def _played(plan: Told, told: Told, folder: Path) -> PlayedPlan:
         plan.inside("margin").array("per_contact_N", (n_t, len(pads))),
         None if shown is None else shown.array("per_contact_N", (n_t, len(pads))),
         None if true is None or true.get("contact_model") is None else true.text("contact_model"),
-        _load(told.inside("load")),
+        _load(told.inside("load")), whole,
     )  # fmt: skip
 
 

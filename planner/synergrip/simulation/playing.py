@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
+from synergrip.simulation.keeping import Kept, Row
 from synergrip.simulation.model import Model, make_model
 from synergrip.simulation.observing import Touch, touches
 from synergrip.simulation.pad_springs import PadSprings
@@ -29,9 +29,6 @@ SQUEEZE = 0.5
 """[s] at least."""
 EVERY = 10
 """Steps from one look at the contacts to the next."""
-SAMPLES = 400
-"""Instants of the play that are kept."""
-
 FLOWN = 0.05
 """How far from where it was to be [m] an object is that has left the hand."""
 
@@ -55,9 +52,11 @@ class Played(Value):
     apart: Array  # (n_c,) [s] of the simulation: the longest time without touch
     on_cone: Array  # (n_c,) [s] of the simulation: how long contacts that touch had no margin
     cone_at: Array  # (n_c, 2) [s] of the plan: from when to when the longest of that was; NaN where there was none
-    duration: float  # [s] of the play on the clock of the simulation
-    flown: bool
-    """Whether the object went so far from where it was to be that the play was ended."""
+    lost_at: Array  # (n_c,) [s] of the plan: since when contacts that were lost did not touch; NaN where none was
+    slipped_at: Array  # (n_c,) [s] of the plan: since when slips were too large; NaN where none was
+    flown: float | None
+    """When the object was so far from where it was to be that the play was ended [s] of the plan; None when it was
+    not. Times before the plan's first are of the simulation, from when on pads stuck no longer."""
     model: Model = field(repr=False)
 
 
@@ -74,12 +73,14 @@ def play(plan: PlayedPlan, step: float, speed: str, progress: Progress | None = 
     squeeze = to_the_first_knot(plan, line, run.wrench_0, max(SQUEEZE, size, float(np.abs(plan.forces[0]).max()) / 20))
     run.total = squeeze.duration + RELEASE + 4 * SETTLE + line.duration
     run.squeeze(squeeze)
-    run.keep = max(int(line.duration / step / SAMPLES), 1)
-    run.look(line.applied(0.0).at)
-    run.through(line)
-    run.still(line)
-    run.look(float(line.at[-1]))
-    return run.seen(line.duration)
+    if run.flown is None:
+        run.begin(line)
+        run.through(line)
+        run.still(line)
+        run.end()
+    if progress:
+        progress(run.total, run.total)
+    return run.seen()
 
 
 class _Run:
@@ -92,10 +93,11 @@ class _Run:
         self.data = mujoco.MjData(model.mujoco)
         self.data.qpos[model.places] = plan.q_0
         self.slipped, self.turned = np.zeros((len(plan.pads), 3)), np.zeros(len(plan.pads))
-        self.rows: list[tuple[Any, ...]] = []
-        self.watch, self.flown = Watch(len(plan.pads)), False
-        self.keep, self.count, self.total = 0, 0, 1.0
-        self.damping = model.lag * model.springs.K
+        self.watch = Watch(len(plan.pads))
+        self.flown: float | None = None
+        self.kept: Kept | None = None  # while pads stick
+        self.count, self.total = 0, 1.0
+        self.tau_0 = model.springs.held @ plan.tau_0
         self.q_r = plan.q_0
         mujoco.mj_forward(model.mujoco, self.data)
         self.pads = PadSprings(model)
@@ -124,11 +126,23 @@ class _Run:
         self.damped(0.0)
         self.still(line)
         self.slipped[:] = self.turned[:] = 0.0
-        steps = int(np.ceil(RELEASE / self.model.step))
-        for number in range(steps):
-            self.data.ctrl[:] = glue * (1 - (number + 1) / steps)
-            self.advance(line, line.duration)
-        self.still(line)
+        first, steps, rest = float(line.at[-1]), *(int(np.ceil(time / self.model.step)) for time in (RELEASE, SETTLE))
+        self.kept = Kept(len(self.plan.pads), RELEASE + SETTLE, RELEASE + SETTLE)
+        for number in range(steps + rest):
+            if self.flown is None:
+                self.data.ctrl[:] = glue * max(1 - (number + 1) / steps, 0.0)
+                self.advance(line, line.duration, first - (steps + rest - 1 - number) * self.model.step)
+
+    def begin(self, line: Timeline) -> None:
+        """Begin what is told: the object is held by what the plan has at its start."""
+        self.watch = self.watch.afresh()
+        self.kept = Kept(len(self.plan.pads), line.duration, float(line.at[-1] - line.at[0]))
+        self.follow(float(line.at[0]), 0.0)
+
+    def end(self) -> None:
+        """Keep what is seen at the end."""
+        if self.flown is None:
+            self.follow(float(self.plan.times[-1]), 0.0, always=True)
 
     def damped(self, rate: float) -> None:
         """Hold back the object with a rate [1/s] of its inertia."""
@@ -140,15 +154,16 @@ class _Run:
     def through(self, line: Timeline) -> None:
         steps = int(np.ceil(line.duration / self.model.step))
         for number in range(steps):
-            if not self.flown:
+            if self.flown is None:
                 self.advance(line, (number + 1) * self.model.step)
 
     def still(self, line: Timeline) -> None:
         for _ in range(int(np.ceil(SETTLE / self.model.step))):
-            self.advance(line, line.duration)
+            if self.flown is None:
+                self.advance(line, line.duration)
 
-    def advance(self, line: Timeline, clock: float) -> None:
-        """Apply what is due at a time, and take one step."""
+    def advance(self, line: Timeline, clock: float, at: float | None = None) -> None:
+        """Apply what is due at a time, and take one step, which ends at a time of the plan."""
         import mujoco
 
         plan, model, data = self.plan, self.model, self.data
@@ -157,7 +172,7 @@ class _Run:
         rate = (q_r - self.q_r) / model.step
         self.q_r = q_r
         q, v = data.qpos[model.places], data.qvel[model.dofs]
-        tau = springs.held @ plan.tau_0 - springs.K @ (q - q_r) - self.damping @ (v - rate)
+        tau = self.tau_0 - springs.K @ (q - q_r + model.lag * (v - rate))
         if springs.count:
             tau -= springs.prescribed @ (data.qfrc_constraint + data.qfrc_actuator)[model.dofs]
         data.qfrc_applied[model.dofs] = tau
@@ -174,13 +189,11 @@ class _Run:
             data.qvel[model.dofs] += springs.prescribed @ (rate - data.qvel[model.dofs])
         self.count += 1
         if self.count % EVERY == 0:
-            self.follow(now.at)
-        if self.keep and self.count % self.keep == 0:
-            self.look(now.at)
+            self.follow(now.at if at is None else at, EVERY * model.step)
 
-    def follow(self, at: float) -> None:
-        """Add up how the contacts slide, and see which margin is smallest, at a time of the plan [s]."""
-        data, span = self.data, EVERY * self.model.step
+    def follow(self, at: float, span: float, always: bool = False) -> None:
+        """Add up how the contacts slide, and see them, at a time of the plan, `span` after the last time [s]."""
+        data = self.data
         if not np.isfinite(data.qvel).all() or np.abs(data.qvel).max() > 1e6:
             raise InputError.at(
                 "step", f"the simulation ran away with steps of {self.model.step:g} s; try smaller ones"
@@ -191,12 +204,30 @@ class _Run:
             if touch is not None:
                 self.slipped[number] += span * touch.sliding
                 self.turned[number] += span * touch.spinning
-        if self.keep:
-            self.watch.see(*self.judged(found), at, span)
-            wanted = np.array([np.interp(at, self.plan.times, column) for column in self.plan.du[:, :3].T])
-            self.flown = bool(np.linalg.norm(self.moved()[:3] - wanted) > FLOWN)
+        if self.kept:
+            self.see(self.kept, found, at, span, always)
         if self.progress and self.count % (100 * EVERY) == 0:
             self.progress(min(float(data.time), self.total), self.total)
+
+    def see(self, kept: Kept, found: list[Touch | None], at: float, span: float, always: bool) -> None:
+        """See which margin is smallest and what is lost, and keep the instant when it is to be kept."""
+        margins, touching = self.judged(found)
+        slips, du, clock = np.linalg.norm(self.slipped, axis=1), self.moved(), float(self.data.time)
+        lower = self.watch.see(margins, touching, at, span)
+        self.watch.slid(slips, self.turned, at)
+        wanted = [np.interp(at, self.plan.times, column) for column in self.plan.du[:, :3].T]
+        if np.linalg.norm(du[:3] - wanted) > FLOWN:
+            self.flown = at
+        even = always or self.flown is not None or (kept.due(clock, at) and not self.watch.parted)
+        if not even and not lower.any():
+            return
+        forces = [np.zeros(pad.contact.n_rows) if touch is None else touch.force
+                  for pad, touch in zip(self.plan.pads, found, strict=True)]  # fmt: skip
+        row = Row(at, np.concatenate(forces), margins, slips, self.turned.copy(), touching, du,
+                  self.data.qpos[self.model.places].copy())  # fmt: skip
+        kept.keep_worst(lower, self.count, row)
+        if even:
+            kept.keep(self.count, clock, row)
 
     def judged(self, found: list[Touch | None]) -> tuple[Array, NDArray[np.bool_]]:
         """Return slip margins (n_c,) and which contacts touch."""
@@ -213,25 +244,12 @@ class _Run:
         mujoco.mju_quat2Vel(turn, place[3:], 1.0)
         return np.concatenate([place[:3] - self.plan.position, turn])
 
-    def look(self, at: float) -> None:
-        """Keep what is seen now."""
-        self.pads.follow(self.data)
-        found = touches(self.model, self.data, self.pads.frames)
-        margins, touching = self.judged(found)
-        forces = [np.zeros(pad.contact.n_rows) if t is None else t.force
-                  for pad, t in zip(self.plan.pads, found, strict=True)]  # fmt: skip
-        self.watch.smallest(margins, touching, at)
-        self.rows.append((at, np.concatenate(forces), margins, np.linalg.norm(self.slipped, axis=1),
-                          self.turned.copy(), touching, self.moved(),
-                          self.data.qpos[self.model.places].copy()))  # fmt: skip
-
-    def seen(self, duration: float) -> Played:
+    def seen(self) -> Played:
         """Return what was kept."""
-        time, forces, margins, slips, spins, touching, du, q = (
-            frozen(np.array(column)) for column in zip(*self.rows, strict=True)
-        )
+        assert self.kept is not None, "a squeeze ends with what is kept"
         watch = self.watch
-        least = frozen(np.where(np.isfinite(watch.least), watch.least, 0.0))
-        return Played(time, forces, margins, slips, spins, touching, du, q, least, frozen(watch.least_at),
-                      frozen(watch.apart), frozen(watch.on_cone), frozen(watch.cone_at), duration, self.flown,
-                      self.model)  # fmt: skip
+        least = np.where(np.isfinite(watch.least), watch.least, 0.0)
+        time, forces, margins, slips, spins, touching, du, q = map(frozen, self.kept.columns())
+        return Played(time, forces, margins, slips, spins, touching, du, q, frozen(least), frozen(watch.least_at),
+                      frozen(watch.apart), frozen(watch.on_cone), frozen(watch.cone_at), frozen(watch.lost_at),
+                      frozen(watch.slipped_at), self.flown, self.model)  # fmt: skip

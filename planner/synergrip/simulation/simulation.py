@@ -20,20 +20,18 @@ from synergrip.simulation.differences import (
     Difference,
     allowed_difference,
     differences,
+    half_step_difference,
     likely_cause,
 )
+from synergrip.simulation.notes import notes_of
 from synergrip.simulation.played_plan import PlayedPlan, read_played_plan
 from synergrip.simulation.playing import Played, play
-from synergrip.simulation.watching import LOST
+from synergrip.simulation.watching import LOST, SLIPPED, SPUN
 from synergrip.values import Value
 
 SPEEDS = ("slow", "real")
 STEP = 2e-4
 """[s] when none is asked for."""
-SLIPPED = 5e-5
-"""[m] from which on a contact has slipped; friction in the engine creeps by some 1e-6 m."""
-SPUN = 0.01
-"""[rad] about its normal from which on a contact has slipped."""
 ON_CONE = 0.02
 """[s] of the simulation on its friction cone from which on a contact has not held, however little it crept."""
 
@@ -85,6 +83,16 @@ class Simulation(Value):
     notes: tuple[str, ...]
     model: str = field(repr=False)
     """The model, as MJCF."""
+    as_written: bool | None
+    """Whether plan.json is as it was written, by its digest; where it is not, what is promised is what it claims."""
+    lost_at: Array  # (n_c,) [s] since when contacts that were lost did not touch; NaN where none was
+    slipped_at: Array  # (n_c,) [s] since when contacts had slipped; NaN where none did
+    ended: float | None
+    """When the play was ended because the object was elsewhere [s]; None when it went to its end. Times before the
+    first knot are of the simulation, from when on pads stuck no longer."""
+    knots: Array = field(repr=False)  # (T,) [s] of the plan
+    knots_promised: tuple[Array, Array] = field(repr=False)
+    """Margins (T, n_c) [N] and motion (T, 6) there."""
 
     @cached_property
     def worst(self) -> tuple[float, str, float]:
@@ -115,6 +123,18 @@ class Simulation(Value):
         return self.slip.max(axis=0), np.abs(self.spin).max(axis=0)
 
     @property
+    def failed_at(self) -> float | None:
+        """When the first contact that has not held was lost, slipped or came to its cone [s]; None when all held."""
+        parts = ((self.lost, self.lost_at), (self.slipped, self.slipped_at), (self.at_cone, self.cone_at[:, 0]))
+        times = [float(at[self.contacts.index(name)]) for names, at in parts for name in names]
+        return min((time for time in times if time == time), default=None)
+
+    @property
+    def failed_before(self) -> bool:
+        """Whether that was before anything moved."""
+        return self.failed_at is not None and self.failed_at < self.knots[0]
+
+    @property
     def motion_error(self) -> tuple[float, float]:
         """Largest distance [m] and angle [rad] of the object from where the plan has it."""
         apart = self.du - self.promised_du
@@ -122,10 +142,11 @@ class Simulation(Value):
 
     @property
     def verdict(self) -> str:
-        """What became of the grasp: "held", "at its cone", "slipped" or "lost contact"."""
+        """What became of the grasp: "held", "at its cone", "slipped", "lost contact" or "went elsewhere"."""
         if self.lost:
             return "lost contact"
-        return "slipped" if self.slipped else "at its cone" if self.at_cone else "held"
+        failed = "slipped" if self.slipped else "at its cone" if self.at_cone else None
+        return failed or ("held" if self.ended is None else "went elsewhere")
 
     @property
     def exit_code(self) -> int:
@@ -194,50 +215,18 @@ def _simulation(
     def there(values: Array) -> Array:
         return frozen(interpolated(found.time, plan.times, values))
 
-    true, half = plan.true_margins, None if finer is None else _difference(found, finer)
+    true, half = plan.true_margins, None if finer is None else half_step_difference(found, finer)
     made = Simulation(
         plan.title, plan.names, plan.kinematics.joints, speed, step, friction, found.time, found.forces, found.margins,
         there(plan.margins), None if true is None else there(true), found.slips, found.spins, found.touching,
         found.du, there(plan.du), found.q, found.least, found.least_at, found.apart, found.on_cone, found.cone_at,
         frozen(plan.margins.min(axis=0)), float(plan.margins.min()), None if true is None else float(true.min()), half,
-        allowed_difference(plan), differences(plan, found.least), None, tuple(_notes(plan, found, speed)),
-        found.model.text,
+        allowed_difference(plan), differences(plan, found.least), None, notes_of(plan, found, speed),
+        found.model.text, plan.unchanged, found.lost_at, found.slipped_at, found.flown, plan.times,
+        (plan.margins, plan.du),
     )  # fmt: skip
     sliding = dict.fromkeys([*made.lost, *made.slipped, *made.at_cone])
-    circumstances = Circumstances(friction, speed, None if half is None else half[0], tuple(sliding))
+    circumstances = Circumstances(
+        friction, speed, None if half is None else half[0], tuple(sliding), made.failed_before
+    )
     return replace(made, likely_cause=likely_cause(plan, made.differences, circumstances))
-
-
-def _difference(found: Played, finer: Played) -> tuple[float, float]:
-    """Return how far margins [N] and motion [m] of two plays are apart, where both have been."""
-    count = min(len(found.time), len(finer.time))
-    if count < 2:
-        return float(np.abs(found.least - finer.least).max()), float("inf")
-    order = np.argsort(finer.time, kind="stable")
-
-    def apart(a: Array, b: Array) -> Array:
-        # one value for each instant: what stands at the same time twice is a jump, whose last value counts
-        return np.column_stack([np.interp(found.time, finer.time[order], column) for column in b[order].T]) - a
-
-    margins = np.abs(finer.least - found.least).max()
-    shift = np.linalg.norm(apart(found.du[:, :3], finer.du[:, :3]), axis=1).max()
-    return float(margins), float(shift)
-
-
-def _notes(plan: PlayedPlan, found: Played, speed: str) -> list[str]:
-    model, notes = found.model, []
-    points = [each.pad.contact.name for each in model.pads if not each.pad.radius > 0]
-    if points:
-        radius = next(each.radius for each in model.pads if not each.pad.radius > 0)
-        notes.append(f"pads without a radius touch with a sphere of {1e3 * radius:g} mm: {', '.join(points)}")
-    if plan.mass is None:
-        notes.append(f"the object has no mass in the plan; {model.mass:g} kg stand in for it")
-    if model.springs.count:
-        notes.append(
-            f"{model.springs.count} of {len(plan.q_0)} directions of the joints do not give and are prescribed"
-        )
-    if speed == "real":
-        notes.append("the hand's own inertia is not in plan.json; links and pads are light")
-    if found.flown:
-        notes.append("the object left the hand, and the play was ended there")
-    return notes

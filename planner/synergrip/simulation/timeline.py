@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -43,12 +45,19 @@ class Timeline(Value):
 
     def applied(self, clock: float) -> Applied:
         """Return what is applied at a time of the simulation [s]; at a jump what comes after it."""
-        i = min(max(int(np.searchsorted(self.clock, clock, side="right")) - 1, 0), max(len(self.clock) - 2, 0))
-        j = min(i + 1, len(self.clock) - 1)
-        span = self.clock[j] - self.clock[i]
-        share = min(max((clock - self.clock[i]) / span, 0.0), 1.0) if span > 0 else 1.0
-        mixed = [(1 - share) * each[i] + share * each[j] for each in (self.at, self.dz_r, self.wrench, self.forces)]
-        return Applied(float(mixed[0]), *mixed[1:])
+        times, stations = self._stations
+        i = min(max(bisect_right(times, clock) - 1, 0), max(len(times) - 2, 0))
+        j = min(i + 1, len(times) - 1)
+        span = times[j] - times[i]
+        share = min(max((clock - times[i]) / span, 0.0), 1.0) if span > 0 else 1.0
+        mixed, n_z = (1 - share) * stations[i] + share * stations[j], self.dz_r.shape[1]
+        return Applied(float(mixed[0]), mixed[1 : 1 + n_z], mixed[1 + n_z : 7 + n_z], mixed[7 + n_z :].reshape(-1, 3))
+
+    @cached_property
+    def _stations(self) -> tuple[list[float], Array]:
+        """Times, and everything else side by side (N, ...): it is asked at every step."""
+        every = [self.at[:, None], self.dz_r, self.wrench, self.forces.reshape(len(self.at), -1)]
+        return self.clock.tolist(), np.hstack(every)
 
 
 def timeline(plan: PlayedPlan, speed: str) -> Timeline:

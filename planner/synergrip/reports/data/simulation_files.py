@@ -27,9 +27,12 @@ def simulation_document(simulation: Simulation) -> dict[str, Any]:
     return {
         "title": simulation.title, "verdict": simulation.verdict, "exit_code": simulation.exit_code,
         "engine": "mujoco", "speed": simulation.speed, "step_s": simulation.step,
-        "friction_factor": simulation.friction,
+        "friction_factor": simulation.friction, "as_written": simulation.as_written,
+        "failed_at_s": simulation.failed_at, "ended_at_s": simulation.ended,
         "contacts": list(simulation.contacts), "joints": list(simulation.joints),
         "lost": list(simulation.lost), "slipped": list(simulation.slipped), "at_cone": list(simulation.at_cone),
+        "lost_at_s": [finite(each) for each in simulation.lost_at],
+        "slipped_at_s": [finite(each) for each in simulation.slipped_at],
         "on_cone_s": simulation.on_cone.tolist(),
         "cone_at_s": [None if np.isnan(each).any() else each.tolist() for each in simulation.cone_at],
         "crept_m": simulation.crept[0].tolist(), "crept_rad": simulation.crept[1].tolist(),

@@ -71,7 +71,10 @@ def _draw(axes: Any, times: np.ndarray, chart: Chart) -> None:
         axes.axhline(bound, color=INK, lw=1.0, ls=(0, (4, 3)), zorder=1)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8)
-    axes.margins(x=0.0 if len(times) > 1 else 0.1)
+    if len(times) > 1:
+        axes.set_xlim(times[0], times[-1])  # the same in all charts, also where a line ends before
+    else:
+        axes.margins(x=0.1)
     _no_noise(axes, chart)
     handles, names = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], names[::-1], frameon=False, fontsize=7, ncols=3, loc="lower right",
@@ -81,7 +84,7 @@ def _draw(axes: Any, times: np.ndarray, chart: Chart) -> None:
 def _no_noise(axes: Any, chart: Chart) -> None:
     """Keep rounding from filling a chart of what does not move."""
     low, high = axes.get_ylim()
-    room = 1e-6 * max(1.0, float(np.abs(chart.values).max(initial=0.0)))
+    room = 1e-6 * max(1.0, float(np.nanmax(np.abs(chart.values), initial=0.0)))
     if high - low < room:
-        middle = float(np.mean(chart.values))
+        middle = float(np.nanmean(chart.values))
         axes.set_ylim(middle - 1.0, middle + 1.0)

@@ -9,13 +9,16 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.reports.pictures.courses import Chart
 from synergrip.reports.pictures.plan_picture import draw_charts
-from synergrip.simulation.simulation import SLIPPED, Simulation
+from synergrip.reports.text.text_simulation import promised_word
+from synergrip.simulation.notes import moment
+from synergrip.simulation.simulation import Simulation
+from synergrip.simulation.watching import SLIPPED
 
 AXES = ("x", "y", "z")
 
 
 def draw_simulation(simulation: Simulation, path: Path) -> None:
-    """Draw margins, slip and motion over the time of the plan.
+    """Draw margins, slip and motion over the time of the plan; what was promised goes on where a play was ended.
 
     Args:
         simulation: what was seen.
@@ -30,22 +33,35 @@ def draw_simulation(simulation: Simulation, path: Path) -> None:
     bounds = (0.0,) if simulation.margin.min() < 0.1 * float(np.abs(simulation.margin).max()) else ()
     slip = 1e3 * simulation.slip[:, order]
     shown = (1e3 * SLIPPED,) if slip.max() > 0.1 * 1e3 * SLIPPED else ()
+    rest = simulation.knots > simulation.time[-1]
+    margins, motion = simulation.knots_promised
     parts = (
-        Chart("slip margin", "N", names, simulation.margin[:, order], bounds, simulation.promised[:, order]),
-        Chart("slip", "mm", names, slip, shown),
-        _motion("object displacement", "mm", 1e3, simulation, slice(0, 3)),
-        _motion("object rotation", "deg", float(np.degrees(1)), simulation, slice(3, 6)),
-    )
+        _chart("slip margin", "N", names, simulation.margin[:, order], bounds,
+               np.vstack([simulation.promised, margins[rest]])[:, order]),
+        Chart("slip", "mm", names, np.vstack([slip, np.full((int(rest.sum()), len(names)), np.nan)]), shown),
+        *(
+            _chart(title, unit, AXES, factor * simulation.du[:, part], (),
+                   factor * np.vstack([simulation.promised_du, motion[rest]])[:, part])
+            for title, unit, factor, part in (
+                ("object displacement", "mm", 1e3, slice(0, 3)),
+                ("object rotation", "deg", float(np.degrees(1)), slice(3, 6)),
+            )
+        ),
+    )  # fmt: skip
     worst, contact, time = simulation.worst
+    start, failed = float(simulation.knots[0]), simulation.failed_at
+    since = "" if failed is None else f", first {moment(failed, start)}"
     under = (
-        f"in MuJoCo, {simulation.speed}: {simulation.verdict}; smallest margin {worst:.4g} N at {contact}, "
-        f"{time:.4g} s ({simulation.promised_worst:.4g} N promised); dashed: as promised, and limits"
+        f"in MuJoCo, {simulation.speed}: {simulation.verdict}{since}; smallest margin {worst:.4g} N at {contact}, "
+        f"{moment(time, start).removeprefix('at ')} ({simulation.promised_worst:.4g} N {promised_word(simulation)}); "
+        f"dashed: as {promised_word(simulation)}, and limits"
     )
-    draw_charts(parts, simulation.time, simulation.title, under, path)
+    draw_charts(parts, np.append(simulation.time, simulation.knots[rest]), simulation.title, under, path)
 
 
-def _motion(title: str, unit: str, factor: float, simulation: Simulation, part: slice) -> Chart:
-    def scaled(values: Array) -> Array:
-        return factor * values[:, part]
-
-    return Chart(title, unit, AXES, scaled(simulation.du), target=scaled(simulation.promised_du))
+def _chart(
+    title: str, unit: str, names: tuple[str, ...], seen: Array, bounds: tuple[float, ...], target: Array
+) -> Chart:
+    """Return a chart of what was seen (N, m) beside what was promised (N or more, m), which goes on where it ended."""
+    gone = np.full((len(target) - len(seen), seen.shape[1]), np.nan)
+    return Chart(title, unit, names, np.vstack([seen, gone]), bounds, target)

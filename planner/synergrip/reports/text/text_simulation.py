@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from synergrip.documents.quantities import in_mm, plain
+from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
-from synergrip.simulation.simulation import SLIPPED, SPUN, Simulation
+from synergrip.simulation.notes import moment
+from synergrip.simulation.simulation import Simulation
+from synergrip.simulation.watching import SLIPPED, SPUN
 
 
 def simulation_text(simulation: Simulation, color: bool = False) -> str:
@@ -15,14 +20,16 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     how = "so slowly that inertia does not count" if simulation.speed == "slow" else "at the speed of the plan"
     lines = [simulation.title, f"played in MuJoCo {how}, {simulation.step:g} s a step", "", _contacts(simulation), ""]
     worst, contact, time = simulation.worst
-    promised = f"{plain(simulation.promised_worst)} N promised"
+    promised = f"{plain(simulation.promised_worst)} N {promised_word(simulation)}"
     if simulation.true_worst is not None:
         promised += f", {plain(simulation.true_worst)} N at the true equilibrium"
-    lines += wrapped("margin   ", f"{plain(worst)} N at least, {contact} at {plain(time)} s ({promised})")
+    when = moment(time, simulation.knots[0])
+    lines += wrapped("margin   ", f"{plain(worst)} N at least, {contact} {when} ({promised})")
     shift, turn = simulation.motion_error
     moved = [float(np.linalg.norm(part)) for part in np.split(simulation.du[-1], 2)]
+    end = "at the end" if simulation.ended is None else "where the play was ended"
     said = (
-        f"{in_mm(moved[0], 4)} and {plain(np.degrees(moved[1]), 3)} deg at the end; "
+        f"{in_mm(moved[0], 4)} and {plain(np.degrees(moved[1]), 3)} deg {end}; "
         f"from the plan's motion at most {in_mm(shift)} and {plain(np.degrees(turn), 3)} deg"
     )
     lines += wrapped("motion   ", said)
@@ -41,11 +48,16 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     return "\n".join([*lines, "", f"{word}  {_said(simulation)}"])
 
 
+def promised_word(simulation: Simulation) -> str:
+    """Return what a plan's own numbers are: promised, or claimed by a file that is not as it was written."""
+    return "claimed" if simulation.as_written is False else "promised"
+
+
 def _said(simulation: Simulation) -> str:
     if simulation.lost:
-        return f"no touch at {', '.join(simulation.lost)}"
+        return _first("no touch at", simulation, simulation.lost, simulation.lost_at)
     if simulation.slipped:
-        return f"the object slipped at {', '.join(simulation.slipped)}"
+        return _first("the object slipped at", simulation, simulation.slipped, simulation.slipped_at)
     if simulation.at_cone:
         parts = "; ".join(_creeping(simulation, name) for name in simulation.at_cone)
         return f"{parts}; slipped is from {1e3 * SLIPPED:g} mm or {plain(np.degrees(SPUN), 2)} deg on"
@@ -57,27 +69,37 @@ def _said(simulation: Simulation) -> str:
     return "every contact touched and none slipped" + (f"; at the cone for a moment: {moments}" if moments else "")
 
 
+def _first(what: str, simulation: Simulation, names: Sequence[str], times: Array) -> str:
+    """Return what became of contacts, and when the first of them was that far; times (n_c,)."""
+    at = [float(times[simulation.contacts.index(name)]) for name in names]
+    known = [time for time in at if not np.isnan(time)]
+    when = f", first {moment(min(known), simulation.knots[0])}" if known else ""
+    loose = ", as pads stuck no longer and before anything moved" if simulation.failed_before else ""
+    return f"{what} {', '.join(names)}{when}{loose}"
+
+
 def _creeping(simulation: Simulation, name: str) -> str:
     i = simulation.contacts.index(name)
     start, end = simulation.cone_at[i]
     slid, spun = (float(each[i]) for each in simulation.crept)
     promised = simulation.promised_least[i]
     return (
-        f"{name} had no margin from {plain(start, 3)} s to {plain(end, 3)} s ({plain(promised)} N promised) and "
-        f"crept {in_mm(slid, 2)} and {plain(np.degrees(spun), 2)} deg"
+        f"{name} had no margin from {plain(start, 3)} s to {plain(end, 3)} s ({plain(promised)} N "
+        f"{promised_word(simulation)}) and crept {in_mm(slid, 2)} and {plain(np.degrees(spun), 2)} deg"
     )
 
 
 def _differs(simulation: Simulation) -> str:
+    word = promised_word(simulation)
     parts = ", ".join(
-        f"{each.contact} has {plain(each.played)} N of {plain(each.promised)} N promised"
+        f"{each.contact} has {plain(each.played)} N of {plain(each.promised)} N {word}"
         for each in simulation.differences
     )
     return f"{parts}: more than {plain(simulation.within, 2)} N apart; likely cause: {simulation.likely_cause}"
 
 
 def _contacts(simulation: Simulation) -> str:
-    header: tuple[str, ...] = ("contact", "margin", "promised", "true", "at", "slip", "spin", "")
+    header: tuple[str, ...] = ("contact", "margin", promised_word(simulation), "true", "at", "slip", "spin", "")
     rows, (slid, spun) = list[tuple[str, ...]](), simulation.crept
     for i, name in enumerate(simulation.contacts):
         true = "" if simulation.true is None else f"{plain(simulation.true[:, i].min())} N"
@@ -86,7 +108,8 @@ def _contacts(simulation: Simulation) -> str:
         rows.append(
             (
                 name, f"{plain(simulation.least[i])} N", f"{plain(simulation.promised_least[i])} N", true,
-                f"{plain(simulation.least_at[i])} s", in_mm(slid[i], 2), f"{plain(np.degrees(spun[i]), 2)} deg", word,
+                moment(float(simulation.least_at[i]), simulation.knots[0]).removeprefix("at "),
+                in_mm(slid[i], 2), f"{plain(np.degrees(spun[i]), 2)} deg", word,
             )
         )  # fmt: skip
     if simulation.true is None:
