@@ -68,7 +68,8 @@ def test_an_object_that_is_not_restrained_is_not_drawn() -> None:
     assert not Path("figure.svg").exists()
 
 
-def test_a_table_says_what_each_number_of_synergies_controls() -> None:
+def test_a_table_says_what_each_number_of_synergies_controls(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
     plain, found = run("table2-hard-motors").stdout, run("table2-hard-motors", "--table").stdout
     assert found.splitlines()[:2] == plain.splitlines()[:2]  # what was read, and the task
     lines = [line.split() for line in found.splitlines()[2:]]

@@ -59,7 +59,8 @@ def test_a_pinch_pays_one_newton_of_margin_with_a_known_force() -> None:
     assert slopes == pytest.approx(1 / problem.grasp.contacts[0].friction, rel=1e-5)
 
 
-def test_the_verb_prints_a_line_for_each_point() -> None:
+def test_the_verb_prints_a_line_for_each_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
     found = CliRunner().invoke(app, ["front", "utah-mit-ball", "-n", "3"])
     assert found.exit_code == 0
     assert len(found.stdout.splitlines()) == 4 + 1 + 3  # read, task, front, blank; header; points
@@ -112,7 +113,10 @@ def test_a_pinch_pays_for_slippery_fingers_by_one_over_their_friction() -> None:
     assert peaks[0] == pytest.approx(20.0, rel=2e-3)
 
 
-def test_what_is_slippery_is_printed_with_its_setting_and_is_the_least_peak_there() -> None:
+def test_what_is_slippery_is_printed_with_its_setting_and_is_the_least_peak_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
     arguments = ["front", "gripper-box", "-n", "3", "--against", "friction", "--set", "task.knots=5"]
     document = json.loads(CliRunner().invoke(app, [*arguments, "--format", "json"]).stdout)
     assert [sorted(point) for point in document["front"]] == [["dz_r", "friction_scale", "peak_normal_N", "set"]] * 3

@@ -17,7 +17,7 @@ from synergrip.reports.text.text_between import between_lines
     ("unit", "said"),
     [
         ("rad", "reaches 120.3 deg at t = 0.5 s, past its limit of 114.6 deg"),
-        ("m", "reaches 2100 mm at t = 0.5 s, past its limit of 2000 mm"),
+        ("m", "reaches 2.1 m at t = 0.5 s, past its limit of 2 m"),
         ("N m", "reaches 2.1 N m at t = 0.5 s, past its limit of 2 N m"),
         ("", "reaches 2.1 at t = 0.5 s, past its limit of 2;"),
     ],

@@ -6,6 +6,7 @@ import json
 import math
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from synergrip.planning.planning import plan
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_grasp import in_order_document
 from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.text_grasp import in_order_text
 from synergrip.reports.text.text_plan import outcome_text
 
@@ -64,6 +66,14 @@ def test_the_document_holds_posture_object_and_contacts_in_the_palm_frame(ball: 
         "kind": ["hard"] * 3, "friction": [0.6] * 3,
     }  # fmt: skip
     json.dumps(document, allow_nan=False)
+
+
+@pytest.fixture(autouse=True)
+def _wide(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Every row in one line."""
+    monkeypatch.setenv("COLUMNS", "200")
+    with shown_on(Screen(200)):
+        yield
 
 
 def test_the_text_says_the_same(ball: Problem) -> None:

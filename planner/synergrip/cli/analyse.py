@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import aside
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -130,7 +130,7 @@ def _drawn(problem: Problem, found: Analysis | NotRestrainedError, picture: Path
     from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 
     if isinstance(found, NotRestrainedError):
-        print(f"the object is not restrained, so '{picture}' was not drawn", file=sys.stderr)
+        aside(f"the object is not restrained, so '{picture}' was not drawn")
         return None
     with writing("--picture", picture):
         try:

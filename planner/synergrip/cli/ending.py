@@ -65,6 +65,11 @@ def begin(document: Callable[[str], str] | None) -> None:
     _document = document
 
 
+def asks_document() -> bool:
+    """Return whether one JSON document is asked for that standard output does not have yet."""
+    return _document is not None
+
+
 def keep(*names: object) -> None:
     """Remember what has been written, to be named when it is all there is."""
     _kept.extend(map(str, names))

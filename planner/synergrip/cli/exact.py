@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
+
+from synergrip.cli.beside import aside
 
 if TYPE_CHECKING:
     from synergrip.planning.outcome import Outcome
@@ -15,7 +16,7 @@ def proven(outcome: Outcome, document: dict[str, Any]) -> tuple[str, dict[str, A
     from synergrip.planning.outcome import Infeasible
 
     if not isinstance(outcome, Infeasible):
-        print("only a no has an exact proof, so 'proof.json' was not written", file=sys.stderr)
+        aside("only a no has an exact proof, so 'proof.json' was not written")
         return "", None
     found = exact_proof(outcome)
     keys: dict[str, Any] = {"sum": None, "problem_sha256": None, "why": None}

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import aside, tell
 from synergrip.cli.progress import PATIENCE, tell_what_takes_long, telling
 from synergrip.cli.running import (
+    DetailsOption,
     Format,
     FormatOption,
     ProblemArgument,
@@ -44,6 +46,7 @@ def explain(
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="FILE", help="Draw what is missing over time: .svg, .png, .pdf.")
     ] = None,
+    details: DetailsOption = False,
 ) -> None:
     """Say why there is no plan, when, what clashes, and which changes of one number give one, each planned again."""
     with answering(form):
@@ -70,7 +73,7 @@ def explain(
             document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source, known)
 
         def text() -> str:
-            said = explanation_text(loaded, outcome, known, color())
+            said = explanation_text(loaded, outcome, known, color(), details=details)
             return "\n".join([said, "", *(f"wrote {name}" for name in wrote)])
 
         with shown_anyway(form, text, lambda: document):
@@ -87,14 +90,14 @@ def _explained(no: Infeasible | Unknown) -> Explanation:
     """Return all that is known of a no; an interrupt keeps what is found."""
     begun = time.monotonic()
 
-    def tell(repair: Repair) -> None:
+    def heard_of(repair: Repair) -> None:
         if not (sys.stderr.isatty() or time.monotonic() - begun > PATIENCE):
             return
         said = "a plan" if repair.verified else "no plan"
-        print(f"planned  with {repair.set}: {said}", file=sys.stderr, flush=True)
+        tell(f"planned  with {repair.set}: {said}")
 
     with heard():
-        return no.explain(heard=tell)
+        return no.explain(heard=heard_of)
 
 
 def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:
@@ -104,7 +107,7 @@ def _drawn(known: Explanation | None, title: str, picture: Path) -> bool:
 
     least = None if known is None or known.posed is None else compromise(known.posed)
     if known is None or least is None:
-        print(f"nothing is missing that could be drawn over time, so '{picture}' was not drawn", file=sys.stderr)
+        aside(f"nothing is missing that could be drawn over time, so '{picture}' was not drawn")
         return False
     draw_at(picture, lambda path: draw_no(known, least, title, path))
     return True

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import tell
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -135,4 +136,4 @@ def six(option: str, text: str) -> list[float]:
 
 def _tell(number: DirectNumber | FastestTiming) -> None:
     if sys.stderr.isatty():
-        print(f"found    {number.name}", file=sys.stderr, flush=True)
+        tell(f"found    {number.name}")

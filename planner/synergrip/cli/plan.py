@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import signal
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import aside
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
+    DetailsOption,
     Format,
     FormatOption,
     ProblemArgument,
@@ -65,6 +66,7 @@ def plan(
     qp_solver: Annotated[
         str | None, typer.Option(metavar="NAME", help="With --pyramids: any solver that qpsolvers finds (osqp).")
     ] = None,
+    details: DetailsOption = False,
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
@@ -96,7 +98,7 @@ def plan(
             possible("--save-program", save_program, refuse_unwritable)
 
         def text() -> str:
-            return outcome_text(loaded, outcome, folder, written, color()) + told + cost + drawn
+            return outcome_text(loaded, outcome, folder, written, color(), details=details) + told + cost + drawn
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
@@ -147,7 +149,7 @@ def _save(outcome: Outcome, path: Path) -> None:
 
     program = outcome.program if isinstance(outcome, Infeasible) else outcome.decisions[-1].program
     if program is None:
-        print(f"no program was solved, so '{path}' was not written", file=sys.stderr)
+        aside(f"no program was solved, so '{path}' was not written")
     else:
         program.save(path)
         ending.keep(path)
@@ -159,7 +161,7 @@ def _drawn(outcome: Outcome, title: str, picture: Path) -> bool:
     from synergrip.reports.pictures.plan_picture import draw_plan
 
     if not isinstance(outcome, Plan):
-        print(f"there is no plan, so '{picture}' was not drawn", file=sys.stderr)
+        aside(f"there is no plan, so '{picture}' was not drawn")
         return False
     draw_at(picture, lambda path: draw_plan(outcome, title, path))
     return True

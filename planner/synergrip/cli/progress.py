@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from typing import TYPE_CHECKING
+
+from synergrip.cli.beside import over, tell
 
 if TYPE_CHECKING:
     from synergrip.conic.program import Program
@@ -35,7 +36,7 @@ def telling(answer: Answerer) -> Answerer:
             what = f"{question.goal.name}{where}, {many(program.knots, 'knot')}: {size}"
             attempt = attempts.index(settings) + 1 if settings in attempts else 1
             again = f", attempt {attempt} of {len(attempts)}" if attempt > 1 else ""
-            print(f"solving  {what}{again} ...", file=sys.stderr, flush=True)
+            tell(f"solving  {what}{again} ...")
         return answer(question, program, settings)
 
     return told
@@ -53,7 +54,7 @@ def tell_what_takes_long() -> None:
     class Teller(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
             if record.levelno >= logging.INFO or time.monotonic() - _begun > PATIENCE:
-                print(f"{record.getMessage()} ...", file=sys.stderr, flush=True)
+                tell(f"{record.getMessage()} ...")
 
     if not LONG.handlers:
         LONG.addHandler(Teller())
@@ -62,5 +63,4 @@ def tell_what_takes_long() -> None:
 
 def counted(done: int, of: int, what: str) -> None:
     """Tell on a terminal how much of a long work is done, on one line that is written over and wiped at the end."""
-    if sys.stderr.isatty():
-        print(f"\r{done} of {of} {what} " if done < of else "\r\x1b[K", end="", file=sys.stderr, flush=True)
+    over(f"{done} of {of} {what}" if done < of else "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import sys
 import traceback
@@ -15,8 +14,8 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from synergrip.cli import ending
-from synergrip.cli.streams import PrintError
+from synergrip.cli import beside, ending
+from synergrip.cli.streams import PrintError, colored, columns
 from synergrip.errors import InputError, InterruptError, OutputError, SelfCheckError, SynergripError
 
 if TYPE_CHECKING:
@@ -36,6 +35,9 @@ SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help='Override a key of the problem, e.g. --set "limits.margin=0.3 N".'),
 ]
+DetailsOption = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Show every program that was solved and every check with its error.")
+]
 ProblemArgument = Annotated[
     str, typer.Argument(metavar="PROBLEM", help="A problem file, or the name of a bundled problem.")
 ]
@@ -45,6 +47,7 @@ ProblemArgument = Annotated[
 def answering(form: Format) -> Iterator[None]:
     """Turn errors into their text or document and their exit code; an interrupt into 130, a defect into 4."""
     ending.begin(_interrupted if form is Format.JSON else None)
+    beside.begin()
     try:
         yield
     except SynergripError as error:
@@ -139,7 +142,7 @@ def shown_anyway(form: Format, text: Callable[[], str], document: Callable[[], d
         if form is Format.JSON:
             say(json.dumps(_plain(error) | {"answer": document()}, allow_nan=False))
         else:
-            say(text())
+            say(_fitting(text))
             _print_error(error, form)
         raise typer.Exit(error.exit_code) from None
 
@@ -166,8 +169,22 @@ def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
 
 
 def show(form: Format, text: Callable[[], str], document: Callable[[], dict[str, Any]]) -> None:
-    """Print the answer, as text or as one JSON document, on standard output."""
-    say(json.dumps(document(), allow_nan=False) if form is Format.JSON else text())
+    """Print the answer, as text that fits where it is shown or as one JSON document, on standard output."""
+    say(json.dumps(_noted(document()), allow_nan=False) if form is Format.JSON else _fitting(text))
+
+
+def _noted(document: dict[str, Any]) -> dict[str, Any]:
+    """Return the document with what would be told beside a text."""
+    more = beside.notes()
+    return document | {"notes": [*document.get("notes", ()), *more]} if more else document
+
+
+def _fitting(text: Callable[[], str]) -> str:
+    from synergrip.reports.text.screen import Screen, shown_on
+    from synergrip.reports.text.tables import fitted
+
+    with shown_on(Screen(columns(sys.stdout), color())):
+        return fitted(text())
 
 
 def say(text: str) -> None:
@@ -178,19 +195,21 @@ def say(text: str) -> None:
 
 def color() -> bool:
     """Return whether standard output wants colour."""
-    return sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    return colored(sys.stdout)
 
 
 def _print_error(error: SynergripError, form: Format) -> None:
     from synergrip.reports.text.refusal_text import error_json, error_text
+    from synergrip.reports.text.screen import UNFOLDED, Screen, shown_on
+    from synergrip.reports.text.tables import fitted
 
     if form is Format.JSON and not isinstance(error, PrintError):
         document = error_json(error) if isinstance(error, InputError) else _plain(error)
         say(json.dumps(document, allow_nan=False))
     else:
-        wants = sys.stderr.isatty() and "NO_COLOR" not in os.environ
-        text = error_text(error, wants) if isinstance(error, InputError) else _line(error)
-        print(text, file=sys.stderr)
+        with shown_on(Screen(columns(sys.stderr)) if sys.stderr.isatty() else UNFOLDED):
+            said = error_text(error, colored(sys.stderr)) if isinstance(error, InputError) else _line(error)
+            print(fitted(said) if sys.stderr.isatty() else said, file=sys.stderr)
 
 
 def _line(error: SynergripError) -> str:

@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.beside import over, tell
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -89,10 +90,9 @@ def _teller() -> Callable[[str, float], None]:
 
     def told(what: str, share: float) -> None:
         if sys.stderr.isatty():
-            text = f"\r\x1b[K{what} ... {share:.0%}" if share < 1 else "\r\x1b[K"
-            print(text, end="", file=sys.stderr, flush=True)
+            over(f"{what} ... {share:.0%}" if share < 1 else "")
         elif what not in begun:
             begun.add(what)
-            print(f"{what} ...", file=sys.stderr, flush=True)
+            tell(f"{what} ...")
 
     return told

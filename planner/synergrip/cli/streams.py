@@ -7,13 +7,15 @@ import io
 import os
 import select
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from synergrip.errors import OutputError
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
+UNKNOWN_WIDTH = 80
+"""Columns of what is no terminal."""
 REASONS = {errno.EPIPE: "its reader has gone", errno.EBADF: "it is closed"}
 
 
@@ -35,6 +37,22 @@ def guard() -> None:
         sys.stdout = _stream(sys.stdout, _Answer(1, "w", closefd=False), lines=os.isatty(1))
     if sys.stderr is sys.__stderr__:
         sys.stderr = _stream(sys.stderr, _Messages(2, "w", closefd=False), lines=True)
+
+
+def columns(stream: TextIO) -> int:
+    """Return how wide a stream is: as COLUMNS says, as its terminal is, 80 where it is none."""
+    stated = os.environ.get("COLUMNS", "")
+    if stated.isascii() and stated.isdigit() and 0 < len(stated) < 6 and int(stated):
+        return int(stated)
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or UNKNOWN_WIDTH
+    except (OSError, ValueError, AttributeError):  # of a pipe, or of what has no number
+        return UNKNOWN_WIDTH
+
+
+def colored(stream: TextIO) -> bool:
+    """Return whether a stream wants colours: it is a terminal that has them, and nobody asked for none."""
+    return stream.isatty() and "NO_COLOR" not in os.environ and os.environ.get("TERM") != "dumb"
 
 
 class _Patient(io.FileIO):

@@ -38,6 +38,11 @@ USUAL: dict[str, tuple[float, float]] = {
 SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N m": (1.0, "N m")}
 """SI unit -> the factor and the unit in which people read it."""
 
+PLAIN = 1e7
+"""Size from which on a number is written with an exponent."""
+METRE, KILOGRAM = 1.0, 1.0
+"""[m, kg] from which on a length or a mass is not told in mm or g."""
+
 EXAMPLES = {
     "length": "10 mm", "angle": "5 deg", "mass": "200 g", "time": "2 s", "force": "0.5 N", "torque": "1.5 N m",
     "stiffness": "8 N/mm", "spin stiffness": "2 N m/rad", "joint compliance": "0.025 rad/(N m)",
@@ -134,4 +139,30 @@ def apart(one: float, other: float, digits: int = 4) -> tuple[str, str]:
     """Return two numbers as text, with as many digits as it takes to tell them apart (at most 17)."""
     while digits < 17 and one != other and f"{one:.{digits}g}" == f"{other:.{digits}g}":
         digits += 1
-    return f"{one:.{digits}g}", f"{other:.{digits}g}"
+    return plain(one, digits), plain(other, digits)
+
+
+def plain(value: float, digits: int = 4) -> str:
+    """Return a number with as many digits, and without an exponent unless it is far from 1: 10000, not 1e+04."""
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < PLAIN else text
+
+
+def in_mm(value: float, digits: int = 3) -> str:
+    """Return a length [m] as people read it: 2.6 mm, but 10 m."""
+    return f"{plain(value, digits)} m" if abs(value) >= METRE else f"{plain(1e3 * value, digits)} mm"
+
+
+def in_g(value: float, digits: int = 4) -> str:
+    """Return a mass [kg] as people read it: 200 g, but 20 kg."""
+    return f"{plain(value, digits)} kg" if abs(value) >= KILOGRAM else f"{plain(1e3 * value, digits)} g"
+
+
+def both_apart(one: float, other: float, unit: str) -> tuple[str, str]:
+    """Return two values [`unit`] with the units that people read, and digits that tell them apart."""
+    far = [unit == "m" and abs(value) >= METRE for value in (one, other)]
+    if any(far) and not all(far):
+        return in_mm(one, 4), in_mm(other, 4)
+    factor, name = (1.0, unit) if any(far) else SHOWN_IN.get(unit, (1.0, ""))
+    first, second = (f"{number} {name}".rstrip() for number in apart(factor * one, factor * other))
+    return first, second

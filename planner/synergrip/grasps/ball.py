@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 
@@ -128,9 +129,9 @@ def _unfit(points: Array, radius: float, pads: Array) -> InputError:
     spread = _Spread.of(points, pads, most=3)
     fitting = spread.fitting_radius()
     which = "the one through them" if len(spread.across) == 3 else "the smallest one"
-    named = f": {which} has radius {1e3 * fitting:.4g} mm" if fitting else ""
+    named = f": {which} has radius {in_mm(fitting, 4)}" if fitting else ""
     message = (
-        f"a ball of radius {1e3 * radius:.4g} mm cannot touch all pads in this posture{named}; "
+        f"a ball of radius {in_mm(radius, 4)} cannot touch all pads in this posture{named}; "
         "change the radius or the posture, or let the hand close on it (close)"
     )
     return InputError.at("object.shape.radius", message)

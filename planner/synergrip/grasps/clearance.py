@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.grasps.golden_section import lowest
 from synergrip.grasps.objects import Object, Shape
 from synergrip.grasps.placing import Touch
@@ -56,7 +57,7 @@ def collision_notes(hand: Hand, q: Array, body: Object, touches: Sequence[Touch]
     points = [motion.position - body.position for motion in motions]
     depths = [depth(body.shape, a, b) for a, b in zip(points[::2], points[1::2], strict=True)]
     inside = ", ".join(
-        f"from {a.name} to {b.name} ({1e3 * deep:.2g} mm deep)"
+        f"from {a.name} to {b.name} ({in_mm(deep, 2)} deep)"
         for (a, b), deep in zip(lines, depths, strict=True)
         if deep > DEEP
     )

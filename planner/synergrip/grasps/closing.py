@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
@@ -181,7 +182,7 @@ class _Closing:
             why = [f"{self.hand.joint_names[j]} {stop.text}" for j, stop in stops.items()]
             yield Issue(
                 f"pad '{touch.pad.name}' does not reach the {self.gaps.shape.title}: at its closest, closed by "
-                f"{closed:.4g}, it is {1e3 * gap:.3g} mm away ({', '.join(why)}); "
+                f"{closed:.4g}, it is {in_mm(gap)} away ({', '.join(why)}); "
                 f"{advice(self.hand, self.direction, self.movers, pad, stops)}",
                 key=touch.key,
             )

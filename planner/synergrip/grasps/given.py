@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.documents.documents import read_document
+from synergrip.documents.quantities import in_mm
 from synergrip.documents.words import listed
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contacts.contact import Contact, contact_frame
@@ -116,7 +117,7 @@ def _places(matrices: Matrices, columns: list[Array]) -> Iterator[Issue]:
     worst = int(np.argmax(gaps))
     if gaps[worst] > CONTRADICTION * size:
         k = judged[worst][0]
-        message = f"is {1e3 * gaps[worst]:.3g} mm off the moments of contact {matrices.contacts[k].name} in G"
+        message = f"is {in_mm(gaps[worst])} off the moments of contact {matrices.contacts[k].name} in G"
         yield Issue(f"{message}; no origin of B makes the points agree with G", key=f"contacts[{k}].point_m")
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from synergrip.documents.judging import Arguments, as_numbers, described
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.contact_maps import component_places, grasp_matrices, hand_jacobians, moved_points
@@ -138,7 +139,7 @@ def _inward(held: Held, seen: Array, pushing: Array) -> Array:
 
     def told(k: int, i: int) -> str:
         side = "outside" if off[k, i] > 0 else "inside"
-        return f"is {1e3 * abs(off[k, i]):.3g} mm {side} the surface of the {body.title}{hint}"
+        return f"is {in_mm(abs(off[k, i]))} {side} the surface of the {body.title}{hint}"
 
     _refuse(held, "q", np.abs(off) > REACH, told)
     return np.asarray(-outward)

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue, raise_issues
 from synergrip.grasps.ball import REACH, ball_centre
 from synergrip.grasps.contacts.contact import Contact, contact_frame
@@ -195,7 +196,7 @@ def _reached(title: str, touch: Touch, gap: float) -> float:
     """
     if abs(gap) > REACH:
         message = (
-            f"pad '{touch.pad.name}' is {1e3 * abs(gap):.3g} mm {'outside' if gap > 0 else 'inside'} the surface of "
+            f"pad '{touch.pad.name}' is {in_mm(abs(gap))} {'outside' if gap > 0 else 'inside'} the surface of "
             f"the {title}; change the posture, or the object's size or position; or let the hand close until its pads "
             'touch, from a more open posture: close = "NAME" of a synergy or joint, or weights by name'
         )

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from synergrip.documents.quantities import in_g, in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.contacts.contact import contact_frame
 from synergrip.grasps.grasp import Grasp
@@ -72,7 +73,7 @@ def _on_edges(grasp: Grasp) -> Iterator[Issue]:
         distance = edge_distance(held.body.shape, contact.point)
         if distance is not None:
             message = (
-                f"contact '{contact.name}' is {1e3 * distance:.2g} mm or less from an edge of the "
+                f"contact '{contact.name}' is {in_mm(distance, 2)} or less from an edge of the "
                 f"{held.body.shape.title}: a pad that is placed a little otherwise touches another face, or none"
             )
             yield Issue(message, key=touch.key or "contacts")
@@ -92,7 +93,7 @@ def mass_doubt(body: Object, mass: float) -> str:
             return ""
         than = f"more than {HEAVIEST:g}: no solid" if density > 1 else f"less than {LIGHTEST:g}, as air: nothing"
         return (
-            f"{1e3 * mass:.4g} g in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
+            f"{in_g(mass)} in the box around the {body.shape.title} are {density:.3g} kg/m^3, {than} "
             "that hands hold is so; is it in another unit?"
         )
     if not body.mass or 1 / OTHER_UNIT < mass / body.mass < OTHER_UNIT:
@@ -111,8 +112,8 @@ def _soft_contacts(grasp: Grasp, body: Object) -> Iterator[Issue]:
     size, most = float(extents(body.shape).max()), int(np.argmax(gives))
     if gives[most] > MUCH * size:
         message = (
-            f"contact '{grasp.contacts[most].name}' gives by {1e3 * gives[most]:.4g} mm under the object's weight, "
-            f'and that is {1e3 * size:.4g} mm large: stiffness is in N/m, or with its unit, as "8 N/mm"'
+            f"contact '{grasp.contacts[most].name}' gives by {in_mm(gives[most], 4)} under the object's weight, "
+            f'and that is {in_mm(size, 4)} large: stiffness is in N/m, or with its unit, as "8 N/mm"'
         )
         yield Issue(message, key="contacts.stiffness")
 

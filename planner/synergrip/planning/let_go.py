@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.conic.limits.joint_range import JointRange
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, in_mm
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
@@ -50,6 +50,6 @@ def undone_notes(analysis: Analysis, task: TimedTask) -> Iterator[str]:
     left, wish = undone(analysis, task), wish_size(analysis, task)
     if left > RIGID_TOLERANCE * wish:
         yield (
-            f"up to {1e3 * left:.3g} mm of the {1e3 * wish:.3g} mm that are wanted (rotations times length) are left "
+            f"up to {in_mm(left)} of the {in_mm(wish)} that are wanted (rotations times length) are left "
             f"undone: no rigid motion of the hand does them, and task.tolerance allows it"
         )

@@ -8,6 +8,7 @@ from itertools import compress
 import numpy as np
 
 from synergrip.conic.conflicts import Conflict
+from synergrip.documents.quantities import in_mm
 from synergrip.documents.words import listed
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.hand import Joint
@@ -51,7 +52,7 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
         apart = _apart(walk, walker, slice(max(k - 1, 0), max(k, 1)))
         astray = walk.way is not None and walk.way.behind[k] <= walker.allowed
     told, most = describe_displacement(pose, walker.start.response.scale.length), float(far.max())
-    beyond = f"the motion goes on, by {1e3 * most:.3g} mm at most, where no rigid motion does"
+    beyond = f"the motion goes on, by {in_mm(most)} at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     known = np.isfinite(most) and (astray or not _at_ends(walk, dict(_ends(walk, walker)), straight=False))
     because = f"not reached from t = {until:.3g} s: nearest pose {told}{apart}, because {why}"
@@ -64,7 +65,7 @@ def _apart(walk: Walk, walker: Walker, knots: slice) -> str:
     if np.abs(left * ([1.0] * 3 + [length] * 3)).max(initial=0.0) <= walker.allowed:
         return ""
     shifted, turned = (float(np.linalg.norm(part, axis=1).max()) for part in (left[:, :3], left[:, 3:]))
-    return f" ({1e3 * shifted:.3g} mm and {np.degrees(turned):.3g} deg off the wanted one, with what is elastic)"
+    return f" ({in_mm(shifted)} and {np.degrees(turned):.3g} deg off the wanted one, with what is elastic)"
 
 
 def hindrances(walk: Walk, walker: Walker) -> str:
@@ -144,8 +145,8 @@ def notes(walk: Walk, walker: Walker) -> Iterator[str]:
     if walk.behind > FOLLOWED:
         where = "near a straight posture " if _dear(walk, walker) > DEAR else ""
         yield (
-            f"{where}the object stays up to {1e3 * walk.behind:.2g} mm behind the wanted motion, "
-            f"within the {1e3 * walker.allowed:.2g} mm that count as followed{_apart(walk, walker, slice(None))}"
+            f"{where}the object stays up to {in_mm(walk.behind, 2)} behind the wanted motion, "
+            f"within the {in_mm(walker.allowed, 2)} that count as followed{_apart(walk, walker, slice(None))}"
         )
     yield from _jumps(walk, walker)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from synergrip.conic.allowed import Allowed
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import SHOWN_IN, apart
+from synergrip.documents.quantities import both_apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.between import Between
@@ -103,10 +103,8 @@ def nearest(usage: Usage) -> tuple[str, str]:
     """Return the worst value of a limit and the bound that it is nearest to or beyond, as people read them."""
     k, i = usage.worst()
     value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
-    factor, unit = SHOWN_IN.get(usage.unit, (1.0, ""))
     bound = lower if lower - value >= value - upper else upper
-    shown, limit = (f"{number} {unit}".rstrip() for number in apart(factor * value, factor * bound))
-    return shown, limit
+    return both_apart(value, bound, usage.unit)
 
 
 def series_document(usage: Usage) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.well_formed import usage_of
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue, SelfCheckError
 from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
@@ -121,15 +122,15 @@ def _far(analysis: Analysis, motion: Motion) -> Iterator[str]:
     size = float(np.linalg.norm(scale.twist(motion.du), axis=1).max(initial=0.0))
     if size > FAR * scale.length:
         yield (
-            f"the object moves by up to {1e3 * size:.3g} mm, {size / scale.length:.0%} of the size of the grasp "
-            f"({1e3 * scale.length:.3g} mm): the linear model is a first guess there"
+            f"the object moves by up to {in_mm(size)}, {size / scale.length:.0%} of the size of the grasp "
+            f"({in_mm(scale.length)}): the linear model is a first guess there"
         )
 
 
 def passed_over(between: Between | None) -> Iterator[str]:
     """Yield a note when the knots are so far apart that the plan passes over a good part of the wanted motion."""
     if between is not None and between.path_departure > PASSED_OVER * between.path_size:
-        size, departure = (f"{1e3 * value:.3g} mm" for value in (between.path_size, between.path_departure))
+        size, departure = (f"{in_mm(value)}" for value in (between.path_size, between.path_departure))
         yield (
             f"between its knots the plan goes straight where the wanted motion, of up to {size}, bends by up to "
             f"{departure}: more knots follow it more closely"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from synergrip.conic.decide import Decision
+from synergrip.documents.quantities import in_mm
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array
 from synergrip.planning.hindrances import Hindrance
@@ -152,7 +153,7 @@ def what_came(found: Walk | None, *, good: bool) -> str:
         return "no answer"
     if found.way is None:
         return f"ends at instant {len(found.executed.states)}: {found.executed.why}"
-    told = f"promise and truth differ by {found.gap:.3g} N, {1e3 * found.behind:.3g} mm behind"
+    told = f"promise and truth differ by {found.gap:.3g} N, {in_mm(found.behind)} behind"
     return told if good else f"{told}, taken back"
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
@@ -57,7 +58,7 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     found = figures(walk, walker, plan.formulation, plan.between)
     said = _missed(found)
     if (most := float(off(walk, walker).max())) > walker.allowed:
-        strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
+        strays = f"the object is up to {in_mm(most)} off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
     cases = ExecutedCases() if said else executed_cases(walk, walker, plan.formulation)
     said = said or cases.said
@@ -163,7 +164,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
     """
     come = f"{walk.come}, "
     if (most := float(off(walk, walker).max())) > walker.allowed:
-        strays = f"the object is up to {1e3 * most:.3g} mm off the wanted motion"
+        strays = f"the object is up to {in_mm(most)} off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
     missed = _missed(found)

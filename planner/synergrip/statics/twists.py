@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
 
@@ -31,7 +32,7 @@ def describe_twist(twist: Array, contacts: Sequence[Contact], length: float) -> 
         through = on_axis[0] if on_axis else f"({_numbers(1e3 * point, 1e3 * length)}) mm from B"
         line = f"the axis {_direction(axis)} through {through}"
     turn = f"rotation about {line}"
-    return turn if abs(pitch) < 1e-6 * length else f"{turn}, advancing {1e3 * pitch:.3g} mm per radian"
+    return turn if abs(pitch) < 1e-6 * length else f"{turn}, advancing {in_mm(pitch)} per radian"
 
 
 def describe_displacement(twist: Array, length: float) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from synergrip.documents.quantities import in_g, in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import EARTH, extents, mass_doubt
@@ -64,9 +65,7 @@ def _large_motion(timed: TimedTask, grasp: Grasp) -> Iterator[Issue]:
     size = float(extents(shape).max()) if shape is not None else 2 * scale_of(grasp).length
     whose = f"the {shape.title}" if shape is not None else "the grasp"
     if shift > size:
-        message = (
-            f"a motion of {1e3 * shift:.4g} mm is larger than {whose} ({1e3 * size:.4g} mm): hands hardly reach so far"
-        )
+        message = f"a motion of {in_mm(shift, 4)} is larger than {whose} ({in_mm(size, 4)}): hands hardly reach so far"
         yield Issue(message, key="Task.target")
     turn = float(np.linalg.norm(values[:, 3:6], axis=1).max()) if motion else 0.0
     if turn > TURN:
@@ -91,8 +90,8 @@ def _beside_what_is_stated(allow: Allowances, grasp: Grasp) -> Iterator[Issue]:
     if unlikely:
         yield Issue(unlikely[0], key="Task.allow.mass")
     elif allow.mass is not None and mass and not allow.mass[0] <= mass <= allow.mass[1]:
-        low, high = (f"{1e3 * each:.4g} g" for each in allow.mass)
-        message = f"the object's own mass, {1e3 * mass:.4g} g, is not between {low} and {high}: it is held for, too"
+        low, high = (f"{in_g(each)}" for each in allow.mass)
+        message = f"the object's own mass, {in_g(mass)}, is not between {low} and {high}: it is held for, too"
         yield Issue(message, key="Task.allow.mass")
     for contact in grasp.contacts:
         friction = float(getattr(contact.kind, "friction", np.nan))
@@ -111,7 +110,7 @@ def _far_off(allow: Allowances, timed: TimedTask, grasp: Grasp) -> Iterator[Issu
     for key, most in (("contact_gap", gap), ("scenarios.position", position)):
         if most > OFF * length:
             message = (
-                f"contacts that are off by {1e3 * most:.4g} mm are off by much of the grasp, in which they are "
-                f"{1e3 * length:.4g} mm from their middle: in code lengths are in m"
+                f"contacts that are off by {in_mm(most, 4)} are off by much of the grasp, in which they are "
+                f"{in_mm(length, 4)} from their middle: in code lengths are in m"
             )
             yield Issue(message, key=f"Task.allow.{key}")

@@ -91,7 +91,9 @@ class FrictionReserve(Limit):
     @property
     def title(self) -> str:
         """Name in reports."""
-        return "slip margin with reserve" if self.angle is None else "slip margin with angle"
+        if self.angle is not None:
+            return f"slip margin {np.degrees(self.angle):.4g} deg inside the cone"
+        return "slip margin with reserve" if self.factor is None else f"slip margin at friction / {self.factor:.4g}"
 
     def dials(self, grasp: Grasp) -> tuple[Dial[Limit], ...]:
         """Angle or factor, whichever is stated."""

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.quantities import plain
 from synergrip.hands.units import torque_unit
 from synergrip.margin.friction_front import FrictionPoint
 from synergrip.margin.front import FrontPoint
@@ -32,10 +33,10 @@ def front_text(problem: Problem, points: Points, interrupted: bool) -> str:
 
 
 def _row(point: FrontPoint | FrictionPoint, unit: str) -> tuple[str, ...]:
-    torque = f"{np.abs(point.plan.motion.torques).max():.4g} {unit}".rstrip()
+    torque = f"{plain(np.abs(point.plan.motion.torques).max())} {unit}".rstrip()
     if isinstance(point, FrontPoint):
-        return f"{point.margin:.4g} N", f"{point.peak:.4g} N", torque
-    return f"{point.scale:.4g} times", f"{point.peak:.4g} N", torque, f"--set {quote(point.setting)}"
+        return f"{plain(point.margin)} N", f"{plain(point.peak)} N", torque
+    return f"{plain(point.scale)} times", f"{plain(point.peak)} N", torque, f"--set {quote(point.setting)}"
 
 
 def front_document(points: Points, interrupted: bool) -> dict[str, Any]:

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from synergrip.errors import InputError, Issue
+from synergrip.reports.text.screen import LEAST, screen
 
-WIDTH = 100  # characters of a source line that are shown
+WIDTH, NUMBERED = 100, 7  # characters of a source line that are shown, where there is room; and of its number
 LONGEST = 4000  # characters of a message
 LONGEST_NAME = 400  # of a key or a file
 
@@ -68,8 +69,9 @@ def _block(issue: Issue, color: bool) -> Iterator[str]:
 def _window(issue: Issue) -> tuple[str, int]:
     """Return the part of the source line to show, and where in it the issue begins."""
     source, start = issue.source.rstrip(), max(issue.column - 1, 0)
-    first = 0 if len(source) <= WIDTH or start < WIDTH * 2 // 3 else start - WIDTH // 3
-    shown = source[first : first + WIDTH]
+    width = min(WIDTH, max(screen().width, LEAST) - NUMBERED)
+    first = 0 if len(source) <= width or start < width * 2 // 3 else start - width // 3
+    shown = source[first : first + width]
     return "".join(
         " " if letter == "\t" else letter if letter.isprintable() else "?" for letter in shown
     ), start - first

@@ -7,12 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from synergrip.documents.quantities import plain
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, RANK_TOLERANCE, frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.free import free_dimensions
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.unbroken import TIED
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.twists import describe_twist
 
@@ -30,7 +32,7 @@ def analysis_text(problem: Problem, analysis: Analysis, color: bool = False) -> 
     """Return the dimensions for the synergies and for all joints, the rigid motions, and the rank decisions."""
     grasp = analysis.grasp
     header = ("inputs", "n_z", "internal forces E_s", "rigid motions Γ_ucs", "redundant Γ_zr")
-    rows = [(f"{grasp.n_z} synergies (this file)", *_dimensions(analysis))]
+    rows = [(f"{grasp.n_z} synergies", *_dimensions(analysis))]
     if grasp.S.shape[0] != grasp.S.shape[1] or not np.array_equal(grasp.S, np.eye(grasp.n_q)):
         every = replace(grasp, S=frozen(np.eye(grasp.n_q)), C_z=frozen(np.zeros((grasp.n_q, grasp.n_q))),
                         synergies=grasp.joints)  # fmt: skip
@@ -63,16 +65,20 @@ def combination(column: np.ndarray, names: tuple[str, ...]) -> str:
     largest = float(np.abs(column).max())
     kept = [(value / largest, name) for value, name in zip(column, names, strict=True) if abs(value) > 1e-6 * largest]
     terms = [f"{'-' if v < 0 else '+'} {'' if abs(abs(v) - 1) < 5e-4 else f'{abs(v):.3g} '}{n}" for v, n in kept]
-    return " ".join(terms).removeprefix("+ ")
+    return " ".join(term.replace(" ", TIED) for term in terms).removeprefix(f"+{TIED}")
 
 
 def _values(analysis: Analysis) -> Iterator[str]:
     grey = f"{GREY_FLOOR:.0e} to {GREY_CEILING:.0e}"
-    yield f"singular values, relative; counted above {RANK_TOLERANCE:.0e}, ambiguous from {grey}"
+    told = f"singular values, relative; counted above {RANK_TOLERANCE:.0e}, ambiguous from {grey}"
+    rows = []
     for name, decision in analysis.spaces.decisions.items():
         shown = " ".join(f"{value:.2g}" if value > GREY_FLOOR else "0" for value in decision.singular_values)
-        yield f"  {_DECISIONS[name]:42} rank {decision.rank}  [{shown}]{'  AMBIGUOUS' if decision.ambiguous else ''}"
+        flag = "  AMBIGUOUS" if decision.ambiguous else ""
+        rows.append((_DECISIONS[name], str(decision.rank), f"[{shown}]{flag}"))
+    yield from wrapped("", told, inset=2)
+    yield table(("", "rank", "values"), rows, right=(1,))
     length, condition = 1e3 * analysis.response.scale.length, analysis.coordinates.condition
-    yield f"  characteristic length {length:.4g} mm, condition of M {condition:.3g}"
+    yield f"characteristic length {plain(length)} mm, condition of M {plain(condition, 3)}"
     for note in (*free_dimensions(analysis), *accuracy_notes(analysis.response)):
         yield from wrapped("note     ", note, WIDTH)

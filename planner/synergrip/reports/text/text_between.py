@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
@@ -48,10 +48,10 @@ def _departures(between: Between) -> Iterator[str]:
         looked.append("straight lines from one to the next")
     yield " and ".join(looked)
     if between.load_departure:
-        yield f"the load leaves its straight line by {between.load_departure:.3g} N"
+        yield f"the load leaves its straight line by {plain(between.load_departure, 3)} N"
     if between.path_departure:
         leaves = "its own" if between.load_departure else "leaves its straight line"
-        yield f"the wanted motion {leaves} by {1e3 * between.path_departure:.3g} mm"
+        yield f"the wanted motion {leaves} by {in_mm(between.path_departure)}"
 
 
 def _limits(between: Between, asked: str | None) -> str:
@@ -68,7 +68,7 @@ def _limits(between: Between, asked: str | None) -> str:
     elif asked == "report":
         advice = '; without task.between = "report" they are kept there, more knots straighten it'
     return (
-        f"{worst.title} of {worst.items[i]} reaches {reached} at t = {worst.times[k]:.3g} s, "
+        f"{worst.title} of {worst.items[i]} reaches {reached} at t = {plain(worst.times[k], 3)} s, "
         f"past its limit of {limit}{advice}"
     )
 
@@ -86,7 +86,7 @@ def to_within(usages: Sequence[Usage]) -> str:
 
 def _size(usage: Usage) -> str:
     factor, unit = FINE.get(usage.unit, SHOWN_IN.get(usage.unit, (1.0, usage.unit)))
-    return f"{_rounded_up(factor * float(usage.excess.max())):.2g} {unit}".rstrip()
+    return f"{plain(_rounded_up(factor * float(usage.excess.max())), 2)} {unit}".rstrip()
 
 
 def _rounded_up(value: float) -> float:

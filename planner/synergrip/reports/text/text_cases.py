@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from synergrip.conic.allowed import Allowed
+from synergrip.documents.quantities import plain
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Plan
@@ -33,10 +34,10 @@ def guaranteed_margin(plan: Plan) -> str:
         return ""
     least = worst_case(plan.cases)
     if plan.fresh is not None:
-        also = f"; {least.margin:.4g} N in what is guaranteed beside" if len(plan.cases) > 1 else ""
+        also = f"; {plain(least.margin)} N in what is guaranteed beside" if len(plan.cases) > 1 else ""
         return f" as stated{also}; scenarios keep what is asked, not this"
     drawn = " and of the scenarios drawn" if plan.formulation.allowed and plan.formulation.allowed.samples else ""
-    return f" as stated; {least.margin:.4g} N in the worst case of all that is allowed for{drawn}"
+    return f" as stated; {plain(least.margin)} N in the worst case of all that is allowed for{drawn}"
 
 
 def judged_cases(cases: Sequence[InCase], fresh: FreshSamples | None, allowed: Allowed | None) -> Iterator[str]:
@@ -72,9 +73,8 @@ def _least(cases: Sequence[InCase]) -> str:
     least = worst_case(cases)
     slip = least.usages[0]
     k, i = slip.worst()
-    return (
-        f"the smallest slip margin is {least.margin:.4g} N ({slip.items[i]}, t = {slip.times[k]:.2f} s), {least.title}"
-    )
+    where = f"{slip.items[i]}, t = {slip.times[k]:.2f} s"
+    return f"the smallest slip margin is {plain(least.margin)} N ({where}), {least.title}"
 
 
 def case_table(cases: Sequence[InCase]) -> list[tuple[str, ...]]:
@@ -83,5 +83,5 @@ def case_table(cases: Sequence[InCase]) -> list[tuple[str, ...]]:
     for case in sorted(cases, key=lambda each: each.margin)[:OTHERS]:
         slip = case.usages[0]
         k, i = slip.worst()
-        rows.append((f"{case.margin:.4g} N", f"{slip.items[i]}, t = {slip.times[k]:.2f} s", case.title))
+        rows.append((f"{plain(case.margin)} N", f"{slip.items[i]}, t = {slip.times[k]:.2f} s", case.title))
     return rows

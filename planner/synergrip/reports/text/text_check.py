@@ -44,7 +44,7 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) 
         lines += looked_at(judgement.between, judgement.task.between)
     lines += judged_cases(judgement.cases, judgement.fresh, judgement.formulation.allowed)
     used = [row for usage in judgement.usages for row in usage_rows(usage)]
-    return "\n".join([*lines, "", f"{word}  {why}", table(("", "worst", "at", "limit"), used)])
+    return "\n".join([*lines, "", *wrapped(f"{word}  ", why), table(("", "worst", "at", "limit"), used)])
 
 
 def _claims(claims: Claims) -> Iterator[str]:

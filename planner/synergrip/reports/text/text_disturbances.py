@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.margin.disturbance.disturbances import AXES, Disturbances, WithstoodAlong
 from synergrip.margin.disturbance.executed_wrench import ExecutedWrench
 from synergrip.margin.disturbance.withstood import Withstood
@@ -38,7 +39,7 @@ def disturbance_lines(found: Disturbances) -> Iterator[str]:
         rows.append((f"box of {_written(box.wrench)}", *_cells("times", box.slip, box.passive, box.active)))
     head = ("", "until it slips", "within all limits", "forces answering", "these end at")
     yield table(head, rows)
-    norm = f"force and moment about the middle of the contacts / {1e3 * found.length:.4g} mm"
+    norm = f"force and moment about the middle of the contacts / {in_mm(found.length, 4)}"
     told = (
         f"any direction: a ball of extra wrenches, {norm}; axes are those of the palm through the origin of the "
         "object, the lesser of both ways is told. References stay as they are in the first two columns; in the third "
@@ -142,5 +143,7 @@ def _executed(found: ExecutedWrench) -> str:
     if found.margin is None:
         return f"{what} does not let it reach its end ({found.why})"
     if found.holds:
-        return f"{what} leaves a slip margin of {found.margin:.4g} N"
-    return f"{what} makes '{found.contact}' slip at t = {found.time_s:.2f} s ({found.margin:.4g} N): less is withstood"
+        return f"{what} leaves a slip margin of {plain(found.margin)} N"
+    return (
+        f"{what} makes '{found.contact}' slip at t = {found.time_s:.2f} s ({plain(found.margin)} N): less is withstood"
+    )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, plain
 from synergrip.hands.synergies.fitting import Fit
 from synergrip.hands.units import SI_UNITS
 from synergrip.reports.text.tables import table, wrapped
@@ -70,4 +70,4 @@ def _directions(fit: Fit) -> Iterator[str]:
 
 def _size(value: float, kind: str) -> str:
     factor, unit = SHOWN_IN[SI_UNITS[kind]]
-    return f"{factor * value:.3g} {unit}" if value > NOTHING else f"0 {unit}"
+    return f"{plain(factor * value, 3)} {unit}" if value > NOTHING else f"0 {unit}"

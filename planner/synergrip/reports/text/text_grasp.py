@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, in_g, plain
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
@@ -12,6 +12,7 @@ from synergrip.linalg import Array
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_problem import many
+from synergrip.reports.text.unbroken import TIED
 
 HEADER = ("contact", "link", "kind", "point [mm]", "normal", "gap [mm]", "friction")
 
@@ -20,7 +21,9 @@ def in_order_text(problem: Problem) -> str:
     """Return what a problem in order holds: counts; with a hand its posture, the object and the contacts; notes."""
     grasp = problem.grasp
     counts = {"contact": grasp.n_c, "joint": grasp.n_q, "synergy": grasp.n_z, "knot": len(problem.timed.times)}
-    lines = [f"{problem.path}: in order ({', '.join(many(count, noun) for noun, count in counts.items())})"]
+    told = ", ".join(many(count, noun) for noun, count in counts.items())
+    place, counted = (words.replace(" ", TIED) for words in (str(problem.path), f"({told})"))
+    lines = wrapped("", f"{place}: in order {counted}", inset=2)
     if problem.held is not None:
         lines += ["", *_held_lines(problem.held, grasp)]
     lines += [line for note in problem.notes for line in wrapped("note     ", note)]
@@ -29,12 +32,12 @@ def in_order_text(problem: Problem) -> str:
 
 def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
     values = [f"{joint.name} {_value(joint.kind, q)}" for joint, q in zip(held.hand.joints, held.q, strict=True)]
-    unbroken = " · ".join(value.replace(" ", "\u00a0") for value in values)
-    yield from (line.replace("\u00a0", " ") for line in wrapped("posture  ", unbroken))
+    yield from wrapped("posture  ", " · ".join(value.replace(" ", TIED) for value in values))
     body = held.body
-    mass = f", {1e3 * body.mass:.4g} g" if body.mass else ""
+    mass = f", {in_g(body.mass)}" if body.mass else ""
     titles = dict.fromkeys([body.title, *([body.shape.title] if body.shape else [])])
-    yield f"object   {', '.join(titles)}{mass}, centre {_triple(1e3 * body.position, 4)} mm in the palm frame"
+    where = f"centre {_triple(1e3 * body.position, 4)} mm in the palm frame"
+    yield from wrapped("object   ", f"{', '.join(titles)}{mass}, {where}")
     yield ""
     rows = [
         (
@@ -50,7 +53,7 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
 def _value(kind: str, q: float) -> str:
     """Return a joint value in the unit people use."""
     factor, unit = SHOWN_IN[SI_UNITS[kind]]
-    return f"{round(factor * q, 6) + 0.0:.4g} {unit}"
+    return f"{plain(round(factor * q, 6) + 0.0)} {unit}"
 
 
 def _triple(values: Array, digits: int) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import SHOWN_IN, plain
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.found import Margins
 from synergrip.margin.measures import Measure
@@ -100,7 +100,7 @@ def _cases(found: Margins) -> Iterator[str]:
 def _value(measure: Measure) -> str:
     value = measure.worst.value
     if np.isfinite(value):
-        return f"{value if abs(value) > ROUNDING else 0.0:.4g} {measure.unit}".strip()
+        return f"{plain(value if abs(value) > ROUNDING else 0.0)} {measure.unit}".strip()
     return "none would do" if measure.most_is_worst else "no friction is needed"
 
 
@@ -126,4 +126,4 @@ def _with_unit(number: DirectNumber, value: float) -> str:
     factor, unit = SHOWN_IN.get(number.unit, (1.0, number.unit))
     if number.unit == "kg" and value < 1:
         factor, unit = 1e3, "g"
-    return f"{factor * value:.5g} {unit or ASKS[number.name][1]}".strip()
+    return f"{plain(factor * value, 5)} {unit or ASKS[number.name][1]}".strip()

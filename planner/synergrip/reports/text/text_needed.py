@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from synergrip.documents.quantities import plain
 from synergrip.explain.synergies.needed_points import NeededPoint
 from synergrip.explain.synergies.subset_values import GOALS
 from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
@@ -47,7 +48,7 @@ def cells(point: NeededPoint) -> tuple[str, ...]:
 
 
 def _number(value: float | None, factor: float, unit: str) -> str:
-    return MISSING if value is None else f"{factor * value:.4g} {unit}"
+    return MISSING if value is None else f"{plain(factor * value)} {unit}"
 
 
 def _searched(needed: SynergiesNeeded) -> Iterator[str]:

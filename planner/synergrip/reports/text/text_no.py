@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from shlex import quote
 
+from synergrip.documents.quantities import plain
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
@@ -160,7 +161,7 @@ def _when(found: Explanation, times: Array) -> str:
     if late.first_s is None or len(times) < 2:
         return ""
     if late.alone is False:
-        together = f"together they have none up to t = {late.first_s:.4g} s"
+        together = f"together they have none up to t = {plain(late.first_s)} s"
         return f"{model}every instant has a plan by itself; for the steps between them, {together}"
     ends = [_stretch(start, end, times) for start, end in late.intervals_s]
     return f"{', '.join(ends)}: {model}none of these instants has a plan even by itself"
@@ -169,4 +170,4 @@ def _when(found: Explanation, times: Array) -> str:
 def _stretch(start: float, end: float, times: Array) -> str:
     if start <= times[0] and end >= times[-1]:
         return "throughout"
-    return f"t = {start:.4g} s" if start == end else f"t = {start:.4g} s to {end:.4g} s"
+    return f"t = {plain(start)} s" if start == end else f"t = {plain(start)} s to {plain(end)} s"

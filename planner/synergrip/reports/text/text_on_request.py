@@ -7,6 +7,7 @@ from shlex import quote
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.reports.text.tables import table, wrapped
 
@@ -51,7 +52,7 @@ def _row(of: str, number: DirectNumber) -> tuple[str, ...]:
 
 
 def _told(number: DirectNumber, value: float) -> str:
-    return f"{1e3 * value:.5g} mm" if number.unit == "m" else f"{value:.5g}"
+    return in_mm(value, 5) if number.unit == "m" else plain(value, 5)
 
 
 def _moved(displacement: tuple[float, ...]) -> str:

@@ -7,24 +7,22 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.conic.decide import Decision
-from synergrip.conic.limits.elastic_motion import ElasticMotion
 from synergrip.conic.limits.limit import Usage, first_largest
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.documents.quantities import SHOWN_IN, apart
+from synergrip.documents.quantities import both_apart, plain
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
-from synergrip.linalg import Array
-from synergrip.planning.in_cases import ALL_CASES
-from synergrip.planning.outcome import BETWEEN, Infeasible, Outcome, Plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.told import notes_together
 from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
 from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
+from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
+from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
 
@@ -32,41 +30,65 @@ _STYLES = {
     "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
 }  # fmt: skip
 _END = "\x1b[0m"
-ROUNDING = 1e-9
-"""A motion this small beside the length of the grasp is rounding."""
 
 
 def outcome_text(
-    problem: Problem, outcome: Outcome, folder: Path, written: Sequence[str] | None, color: bool = False
+    problem: Problem,
+    outcome: Outcome,
+    folder: Path,
+    written: Sequence[str] | None,
+    color: bool = False,
+    *,
+    details: bool = False,
 ) -> str:
     """Return the answer: what was read, asked, solved, checked; the verdict; what was written, None if that failed."""
+    lines = verdict_lines(problem, outcome, color, details=details)
     if written is None:
-        return "\n".join(verdict_lines(problem, outcome, color))
+        return "\n".join(lines)
     number = outcome.exit_code if isinstance(outcome, Plan) else outcome.explanation.exit_code(outcome.exit_code)
     code = f"      exit code {number}" if number else ""
     wrote = (f"wrote {folder}/  " + "  ".join(written) if written else "wrote nothing") + code
-    return "\n".join([*verdict_lines(problem, outcome, color), "", wrote])
+    return "\n".join([*lines, "", wrote])
 
 
-def explanation_text(problem: Problem, outcome: Outcome, known: Explanation | None, color: bool = False) -> str:
+def explanation_text(
+    problem: Problem, outcome: Outcome, known: Explanation | None, color: bool = False, *, details: bool = False
+) -> str:
     """Return why there is no plan, all that is known of it; of a plan that there is one."""
     if isinstance(outcome, Plan):
         word = verdict_word(outcome.verdict, color)
         return "\n".join([*problem_lines(problem), "", f"{word}  there is a plan; nothing is to be explained"])
-    return "\n".join(verdict_lines(problem, outcome, color, known))
+    return "\n".join(verdict_lines(problem, outcome, color, known, details=details))
 
 
 def verdict_lines(
-    problem: Problem, outcome: Outcome, color: bool = False, known: Explanation | None = None
+    problem: Problem,
+    outcome: Outcome,
+    color: bool = False,
+    known: Explanation | None = None,
+    *,
+    details: bool = False,
 ) -> list[str]:
-    """Return what was read, asked, solved and checked, the verdict and its notes; of a no what is known of it."""
+    """Return what was read, asked, solved and checked, the verdict and its notes; of a no what is known of it.
+
+    Args:
+        problem: what was asked.
+        outcome: what came of it.
+        color: whether the verdict has its colour.
+        known: of a no, where more is known than it says by itself.
+        details: whether every program and every check has a line.
+    """
     word = verdict_word(outcome.verdict, color)
-    lines = [*problem_lines(problem), *_solved(outcome.decisions)]
+    lines = [*problem_lines(problem), *solved_lines(outcome.decisions, details=details)]
     if isinstance(outcome, Plan):
-        lines += [_checked(outcome), *_executed(outcome), *between_lines(outcome), *case_lines(outcome), ""]
-        lines += _feasible(outcome, word)
+        lines += [*checked_lines(outcome, details=details), *_executed(outcome), *between_lines(outcome)]
+        lines += [*case_lines(outcome), "", *_feasible(outcome, word)]
     elif isinstance(outcome, Infeasible):
-        lines += [*_proof(outcome), "", *_infeasible(problem, outcome, known or outcome.explanation, word)]
+        lines += [
+            *proof_lines(outcome, details=details),
+            "",
+            *_infeasible(problem, outcome, known or outcome.explanation, word),
+        ]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
         lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
@@ -75,33 +97,6 @@ def verdict_lines(
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
         lines += ["", "note     a singular value lies in the grey zone of the rank decision; see synergrip analyse"]
     return lines
-
-
-def _solved(decisions: Sequence[Decision]) -> Iterator[str]:
-    for i, decision in enumerate(decisions):
-        program, solution = decision.program, decision.solution
-        cones = sum(block.cones for block in program.blocks)
-        tries = f", {decision.attempts} attempts" if decision.attempts > 1 else ""
-        yield (
-            ("solve    " if i == 0 else "         ")
-            + f"{decision.goal}: {many(len(program.q), 'variable')}, {many(cones, 'cone')}, "
-            f"{solution.solver}: {solution.claim} in {many(solution.iterations, 'iteration')}, "
-            f"{1e3 * decision.seconds:.2g} ms{tries}"
-        )
-
-
-def _checked(plan: Plan) -> str:
-    certificates = [decision.certificate for decision in plan.decisions]
-    cones, gap = (max(getattr(each, name) for each in certificates) for name in ("primal_residual", "gap"))
-    missing = [decision.goal for decision in plan.decisions if not decision.optimal]
-    verified = f"not of {', '.join(missing)}" if missing else "✓"  # then a note says what that means
-    parts = [f"certificate {verified} (cones {cones:.0e}, gap {gap:.0e})"]
-    there = [check for check in plan.checks if plan.executed is not None and check.name.startswith(BETWEEN)]
-    cases = [check for check in plan.checks if check.name.startswith(ALL_CASES)]
-    parts += [f"{check.name} {check.error:.0e} ✓" for check in plan.checks if check not in (*there, *cases)]
-    named = ((BETWEEN, there), (ALL_CASES, cases))
-    parts += [f"{name} {many(len(each), 'check')} ✓" for name, each in named if each]
-    return "check    " + " · ".join(parts[:3]) + "\n         " + " · ".join(parts[3:])
 
 
 def _used(usages: Sequence[Usage]) -> Iterator[str]:
@@ -120,7 +115,7 @@ def _executed(plan: Plan) -> Iterator[str]:
             how += f", after {many(first.passes, 'time')} at {first.knots} of its knots"
         told = (
             f"the figures are those of the hand that moves, {how}; {_model(plan.executed, plan.fixed)}; "
-            f"the object is held with {1e-3 * float(plan.executed.stiffness.min()):.3g} N/mm at least"
+            f"the object is held with {plain(1e-3 * float(plan.executed.stiffness.min()), 3)} N/mm at least"
         )
     yield from wrapped("true     ", told)
 
@@ -131,7 +126,7 @@ def _model(executed: Execution, fixed: Execution | None) -> str:
         return "contacts stay where they are on link and object"
     radii = sorted(1e3 * radius for touch in executed.setting.held.touches if (radius := touch.pad.radius))
     size = f"{radii[0]:.3g}" if radii[0] == radii[-1] else f"{radii[0]:.3g} to {radii[-1]:.3g}"
-    other = f"it would keep {fixed.margins.min():.4g} N" if fixed.whole else "it would not get through"
+    other = f"it would keep {plain(fixed.margins.min())} N" if fixed.whole else "it would not get through"
     return f"pads of {size} mm radius roll (if they stayed where they are {other})"
 
 
@@ -140,7 +135,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
-    head = f"{word}  smallest slip margin {worst:.4g} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
+    head = f"{word}  smallest slip margin {plain(worst)} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
     yield f"{head}{best}"
     rows = [row for usage in plan.usages for row in usage_rows(usage)]
     limits = plan.task.limits
@@ -149,11 +144,8 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     if not any(isinstance(limit, SynergyReference) for limit in limits):
         names = plan.analysis.grasp.synergies
         rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
-    scale = plan.analysis.response.scale
-    motions = [("elastic motion", plan.elastic_motion), ("sag under load", plan.motion.sag)]
-    for name, motion in motions[any(isinstance(limit, ElasticMotion) for limit in limits) :]:
-        rows.append(_largest_motion(name, np.linalg.norm(scale.twist(motion), axis=1), plan))
     yield table(("", "worst", "at", "limit"), rows)
+    yield from moved_lines(plan)
 
 
 def _largest_of(plan: Plan) -> str:
@@ -166,14 +158,6 @@ def _largest_of(plan: Plan) -> str:
     return "there is with the reserve" if held else "there is"  # the program asks for more where a load is curved
 
 
-def _largest_motion(name: str, sizes: Array, plan: Plan) -> tuple[str, ...]:
-    """Return a row for the largest of motions (T,) [m]; one that is rounding has no time at which it is largest."""
-    if sizes.max(initial=0.0) < ROUNDING * plan.analysis.response.scale.length:
-        return name, "0 mm", "", ""
-    at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
-    return name, f"{1e3 * sizes[at]:.3g} mm", f"t = {plan.motion.times[at]:.2f} s", ""
-
-
 def _largest_normal(plan: Plan) -> tuple[str, ...]:
     grasp = plan.analysis.grasp
     normal = plan.motion.forces[:, grasp.normal_rows]
@@ -184,7 +168,7 @@ def _largest_normal(plan: Plan) -> tuple[str, ...]:
 def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
     size = np.abs(values)
     k, i = first_largest(size, 1e-6 * float(size.max()))
-    return title, f"{values[k, i]:.4g} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
+    return title, f"{plain(values[k, i])} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
 def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
@@ -195,7 +179,6 @@ def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
 
 def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
     """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
-    factor, unit = SHOWN_IN.get(usage.unit, (1.0, ""))
     two_sided = np.all(usage.lower == -usage.upper)
     bounds = {"largest ": usage.upper, "smallest ": usage.lower}
     sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
@@ -205,23 +188,12 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
         value = on_bound(usage, k, i, bound)
-        shown, limit = apart(factor * value, factor * bound)
+        shown, limit = both_apart(value, bound, usage.unit)
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
         where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
         limit = limit.lstrip("-") if two_sided else limit
         title = f"{side if len(sides) > 1 else ''}{usage.title}"
-        yield title, f"{shown} {unit}".rstrip(), where, f"{sign}{limit} {unit}".rstrip()
-
-
-def _proof(outcome: Infeasible) -> Iterator[str]:
-    """Yield that the proof was re-checked, and on a hand what it is about."""
-    c = outcome.certificate
-    told = f"proof re-checked: ‖Aᵀy‖ {c.primal_residual:.0e}, bᵀy + |Aᵀy|·box = {c.gap:.3g} < 0, y in the dual cone"
-    if outcome.refusal is not None:
-        told = f"proof re-checked from the grasp's matrices (leak {c.primal_residual:.0e})"
-    yield f"check    {told}"
-    if outcome.grasp.held is not None:
-        yield "         it is about the linear model at the start posture: contacts, G and J stay as they are there"
+        yield title, shown, where, f"{sign}{limit}"
 
 
 def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:

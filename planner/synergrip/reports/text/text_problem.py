@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.documents.quantities import in_g, in_mm, plain
 from synergrip.problems.problem import Problem
 from synergrip.tasks.timed_task import TimedTask
 
@@ -20,7 +21,7 @@ def problem_lines(problem: Problem) -> Iterator[str]:
     contacts = " and ".join(many(n, f"{kind} contact") for kind, n in kinds.items())
     parts = [hand, f"{many(grasp.n_q, 'joint')}, {many(grasp.n_z, 'synergy')}"]
     if held is not None:
-        mass = f", {1e3 * held.body.mass:.4g} g" if held.body.mass else ""
+        mass = f", {in_g(held.body.mass)}" if held.body.mass else ""
         parts.append((held.body.shape.title if held.body.shape else held.body.title) + mass)
     yield "read     " + " · ".join([*parts, contacts])
     yield "task     " + " · ".join(_task(problem))
@@ -29,11 +30,11 @@ def problem_lines(problem: Problem) -> Iterator[str]:
 def _task(problem: Problem) -> Iterator[str]:
     task = problem.timed
     knots = len(task.times)
-    span = f" in {task.times[-1]:.3g} s" if knots > 1 else ""
+    span = f" in {plain(task.times[-1], 3)} s" if knots > 1 else ""
     yield _wanted(task) + span
     yield many(knots, "knot")
-    yield f"load up to {_load(task):.3g} N"
-    yield f"slip margin ≥ {task.margin:.4g} N"
+    yield f"load up to {plain(_load(task), 3)} N"
+    yield f"slip margin ≥ {plain(task.margin)} N"
     yield ", then ".join(goal.name for goal in task.goals)
 
 
@@ -54,9 +55,9 @@ def _wanted(task: TimedTask) -> str:
     if task.target.kind == "hold":
         return "hold the object"
     if task.target.kind != "motion":
-        return f"move along Γ_ucs by up to {1e3 * np.linalg.norm(values, axis=1).max():.3g} mm"
+        return f"move along Γ_ucs by up to {in_mm(np.linalg.norm(values, axis=1).max())}"
     shift, turn = (np.linalg.norm(part, axis=1).max() for part in (values[:, :3], values[:, 3:]))
-    sizes = [f"{1e3 * shift:.3g} mm"] * bool(shift) + [f"{np.degrees(turn):.3g} deg"] * bool(turn)
+    sizes = [in_mm(shift)] * bool(shift) + [f"{plain(np.degrees(turn), 3)} deg"] * bool(turn)
     return "move the object" + f" by up to {' and '.join(sizes)}" * bool(sizes)
 
 

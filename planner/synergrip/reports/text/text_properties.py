@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from synergrip.documents.quantities import plain
 from synergrip.documents.words import listed
 from synergrip.linalg import GREY_CEILING, GREY_FLOOR, Array
 from synergrip.planning.free import free_dimensions
@@ -62,9 +63,9 @@ def _columns(found: GraspProperties, effect: ReferenceEffect) -> Iterator[str]:
     for i, (references, motion) in enumerate(shown):
         text = combination(references, analysis.grasp.synergies)
         if np.any(motion):
-            size = 1e3 * np.linalg.norm(analysis.response.scale.twist(motion))
+            size = 1e3 * float(np.linalg.norm(analysis.response.scale.twist(motion)))
             moved = describe_twist(motion, analysis.grasp.contacts, analysis.response.scale.length)
-            text += f": {size:.3g} mm per newton, {moved}"
+            text += f": {plain(size, 3)} mm per newton, {moved}"
         yield from wrapped(f"{effect.name.removesuffix(' squeeze')} {i + 1}  ", text, WIDTH)
     if effect.dimension > FEW:
         yield f"and {effect.dimension - FEW} more, in the JSON document"
@@ -78,7 +79,7 @@ def _ellipsoids(found: GraspProperties) -> Iterator[str]:
         yield from wrapped(f"{name:9}", _direction(found, ellipsoid), WIDTH)
     length = 1e3 * found.analysis.response.scale.length
     text = (
-        f"what has translations and rotations in one compares them by the length of the grasp, {length:.4g} mm; "
+        f"what has translations and rotations in one compares them by the length of the grasp, {plain(length)} mm; "
         "F is the force map and U the motion map of the references, and their unit that of the synergies"
     )
     yield from wrapped("         ", text, WIDTH)
@@ -87,7 +88,7 @@ def _ellipsoids(found: GraspProperties) -> Iterator[str]:
 def _direction(found: GraspProperties, ellipsoid: Ellipsoid) -> str:
     """Return the direction of the largest value; where several are as large, how many there are."""
     value, analysis = ellipsoid.values[0], found.analysis
-    size = "not resisted at all" if np.isinf(value) else f"{value:.4g} {ellipsoid.unit}"
+    size = "not resisted at all" if np.isinf(value) else f"{plain(value)} {ellipsoid.unit}"
     alike = int(np.sum(ellipsoid.values >= value * (1 - ALIKE)))
     if alike > 1:
         return f"{alike} directions alike: {size}"
@@ -95,12 +96,12 @@ def _direction(found: GraspProperties, ellipsoid: Ellipsoid) -> str:
 
 
 def _values(values: Array) -> str:
-    shown = [f"{value:.4g}" for value in values[:MOST]]
+    shown = [plain(value) for value in values[:MOST]]
     return "  ".join([*shown, *([f"and {len(values) - MOST} more"] if len(values) > MOST else [])])
 
 
 def _distances(found: GraspProperties) -> Iterator[str]:
-    rows = [(each.name, f"{each.smallest:.4g}", each.unit, f"{each.relative:.3g}",
+    rows = [(each.name, plain(each.smallest), each.unit, f"{each.relative:.3g}",
              f"{each.decision.rank} of {each.full}", each.formula, each.meaning)
             for each in found.singularity.values()]  # fmt: skip
     yield "distance to singularity: smallest singular value, and through the largest"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from synergrip.documents.quantities import apart
+from synergrip.documents.quantities import apart, plain
 from synergrip.planning.pyramids import Answer, Comparison
 from synergrip.reports.text.tables import wrapped
 
@@ -70,10 +70,9 @@ def _percent(ratio: float) -> str:
 
 
 def _answered(comparison: Comparison, answer: Answer) -> str:
-    times = "" if comparison.time_ratio is None else f", {comparison.time_ratio:.2g} times as long as the cones took"
-    return (
-        f"{answer.solver} says '{answer.status}': {_judged(comparison, answer)}; {1e3 * answer.seconds:.2g} ms{times}"
-    )
+    ratio, took = comparison.time_ratio, f"{plain(1e3 * answer.seconds, 2)} ms"
+    times = "" if ratio is None else f", {plain(ratio, 2)} times as long as the cones took"
+    return f"{answer.solver} says '{answer.status}': {_judged(comparison, answer)}; {took}{times}"
 
 
 def _judged(comparison: Comparison, answer: Answer) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from synergrip.documents.quantities import plain
 from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.reports.text.tables import table, wrapped
 
@@ -21,7 +22,7 @@ def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[
             yield from wrapped("         ", f"what changes are worth {head.format('')}: {found.left_out[kind]}")
             continue
         chosen: Sequence[Sensitivity] = found.of(kind) if whole else found.worth_most(kind)
-        of = head.format(f"{margin:.4g} N")
+        of = head.format(f"{plain(margin)} N")
         yield "" if kind == FIXED else f"What changes are worth most, {MEANT}" if not whole else f"Changes, {MEANT}"
         if not chosen:
             yield f"{of}: {'interrupted before it was found' if found.interrupted else 'no such change adds to it'}"
@@ -46,7 +47,7 @@ def change_of(each: Sensitivity) -> str:
 def _row(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
     change = change_of(each)
     model = "linear model" if each.model == START else "hand that moves"
-    gain = f"{each.gain:.3g} N" if each.gain else "-"
+    gain = f"{plain(each.gain, 3)} N" if each.gain else "-"
     if not whole:
         return change, gain, model
     return change, gain, _side(each.left), _side(each.right), model, each.why

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.simulation.simulation import SLIPPED, SPUN, Simulation
@@ -14,20 +15,22 @@ def simulation_text(simulation: Simulation, color: bool = False) -> str:
     how = "so slowly that inertia does not count" if simulation.speed == "slow" else "at the speed of the plan"
     lines = [simulation.title, f"played in MuJoCo {how}, {simulation.step:g} s a step", "", _contacts(simulation), ""]
     worst, contact, time = simulation.worst
-    promised = f"{simulation.promised_worst:.4g} N promised"
+    promised = f"{plain(simulation.promised_worst)} N promised"
     if simulation.true_worst is not None:
-        promised += f", {simulation.true_worst:.4g} N at the true equilibrium"
-    lines += wrapped("margin   ", f"{worst:.4g} N at least, {contact} at {time:.4g} s ({promised})")
+        promised += f", {plain(simulation.true_worst)} N at the true equilibrium"
+    lines += wrapped("margin   ", f"{plain(worst)} N at least, {contact} at {plain(time)} s ({promised})")
     shift, turn = simulation.motion_error
-    moved = np.linalg.norm(simulation.du[-1, :3]), np.linalg.norm(simulation.du[-1, 3:])
+    moved = [float(np.linalg.norm(part)) for part in np.split(simulation.du[-1], 2)]
     said = (
-        f"{1e3 * moved[0]:.4g} mm and {np.degrees(moved[1]):.3g} deg at the end; "
-        f"from the plan's motion at most {1e3 * shift:.3g} mm and {np.degrees(turn):.3g} deg"
+        f"{in_mm(moved[0], 4)} and {plain(np.degrees(moved[1]), 3)} deg at the end; "
+        f"from the plan's motion at most {in_mm(shift)} and {plain(np.degrees(turn), 3)} deg"
     )
     lines += wrapped("motion   ", said)
     if simulation.half_step is not None:
         margins, motion = simulation.half_step
-        said = f"with half the step margins differ by {margins:.2g} N and the motion by {1e3 * motion:.2g} mm at most"
+        said = (
+            f"with half the step margins differ by {plain(margins, 2)} N and the motion by {in_mm(motion, 2)} at most"
+        )
         lines += wrapped("step     ", said)
     if simulation.differences:
         lines += wrapped("differs  ", _differs(simulation))
@@ -45,9 +48,9 @@ def _said(simulation: Simulation) -> str:
         return f"the object slipped at {', '.join(simulation.slipped)}"
     if simulation.at_cone:
         parts = "; ".join(_creeping(simulation, name) for name in simulation.at_cone)
-        return f"{parts}; slipped is from {1e3 * SLIPPED:g} mm or {np.degrees(SPUN):.2g} deg on"
+        return f"{parts}; slipped is from {1e3 * SLIPPED:g} mm or {plain(np.degrees(SPUN), 2)} deg on"
     moments = ", ".join(
-        f"{name} for {1e3 * time:.2g} ms"
+        f"{name} for {plain(1e3 * time, 2)} ms"
         for name, time in zip(simulation.contacts, simulation.on_cone, strict=True)
         if time
     )
@@ -60,29 +63,30 @@ def _creeping(simulation: Simulation, name: str) -> str:
     slid, spun = (float(each[i]) for each in simulation.crept)
     promised = simulation.promised_least[i]
     return (
-        f"{name} had no margin from {start:.3g} s to {end:.3g} s ({promised:.4g} N promised) and "
-        f"crept {1e3 * slid:.2g} mm and {np.degrees(spun):.2g} deg"
+        f"{name} had no margin from {plain(start, 3)} s to {plain(end, 3)} s ({plain(promised)} N promised) and "
+        f"crept {in_mm(slid, 2)} and {plain(np.degrees(spun), 2)} deg"
     )
 
 
 def _differs(simulation: Simulation) -> str:
     parts = ", ".join(
-        f"{each.contact} has {each.played:.4g} N of {each.promised:.4g} N promised" for each in simulation.differences
+        f"{each.contact} has {plain(each.played)} N of {plain(each.promised)} N promised"
+        for each in simulation.differences
     )
-    return f"{parts}: more than {simulation.within:.2g} N apart; likely cause: {simulation.likely_cause}"
+    return f"{parts}: more than {plain(simulation.within, 2)} N apart; likely cause: {simulation.likely_cause}"
 
 
 def _contacts(simulation: Simulation) -> str:
     header: tuple[str, ...] = ("contact", "margin", "promised", "true", "at", "slip", "spin", "")
     rows, (slid, spun) = list[tuple[str, ...]](), simulation.crept
     for i, name in enumerate(simulation.contacts):
-        true = "" if simulation.true is None else f"{simulation.true[:, i].min():.4g} N"
+        true = "" if simulation.true is None else f"{plain(simulation.true[:, i].min())} N"
         words = {"lost": simulation.lost, "slipped": simulation.slipped, "at its cone": simulation.at_cone}
         word = next((word for word, names in words.items() if name in names), "held")
         rows.append(
             (
-                name, f"{simulation.least[i]:.4g} N", f"{simulation.promised_least[i]:.4g} N", true,
-                f"{simulation.least_at[i]:.4g} s", f"{1e3 * slid[i]:.2g} mm", f"{np.degrees(spun[i]):.2g} deg", word,
+                name, f"{plain(simulation.least[i])} N", f"{plain(simulation.promised_least[i])} N", true,
+                f"{plain(simulation.least_at[i])} s", in_mm(slid[i], 2), f"{plain(np.degrees(spun[i]), 2)} deg", word,
             )
         )  # fmt: skip
     if simulation.true is None:

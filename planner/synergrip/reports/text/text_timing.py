@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from shlex import quote
 
+from synergrip.documents.quantities import plain
 from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import wrapped
@@ -16,8 +17,9 @@ def timing_lines(problem: Problem, found: FastestTiming, written: Path | None) -
     if found.value is None:
         yield from wrapped("         ", f"fastest timing: {found.why}")
         return
-    below = "" if found.lower is None else f", not below {found.lower:.5g} s"
-    yield f"Fastest timing along the path of the palm: {found.value:.5g} s instead of {found.given_s:.5g} s{below}"
+    below = "" if found.lower is None else f", not below {plain(found.lower, 5)} s"
+    instead = f"instead of {plain(found.given_s, 5)} s{below}"
+    yield f"Fastest timing along the path of the palm: {plain(found.value, 5)} s {instead}"
     yield from wrapped("         ", found.why)
     if written is None:
         yield "         -o DIR writes it as the path of the palm"

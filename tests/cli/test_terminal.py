@@ -1,0 +1,95 @@
+"""What every verb prints fits the terminal, with no word and no number split, and has colours only where wanted."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from command_line import run
+from pseudo_terminal import WIDE, apart, broken, plain, run_in_terminal, shown, too_long
+
+WIDTHS = (60, 80, 120)
+PROBLEMS = {
+    "gripper-box": ("--set", "task.knots=3"),
+    "human-ball": ("--set", "task.knots=3"),
+    "robonaut-handle": ("--set", "task.knots=2"),
+    "barrett-ball-lift": ("--set", "task.knots=3"),
+    "tripod": (),
+    "dlr-ball-turn": ("--set", "task.knots=5"),
+}
+"""Bundled problems, with knots that take little time: the words are the same."""
+TOO_MUCH = ("--set", "limits.margin=100 N")
+ON_EACH = (("plan", "-v"), ("validate",), ("analyse",), ("synergies", "needed", "--up-to", "1", "--most", "1"))
+COMMANDS = [(*verb, name, *few) for verb in ON_EACH for name, few in PROBLEMS.items()]
+COMMANDS += [("margins", name, "--only", "fastest_timing_s", *few) for name, few in PROBLEMS.items() if few]
+COMMANDS += [("analyse", "--quality", name, *PROBLEMS[name]) for name in ("tripod", "gripper-box", "robonaut-handle")]
+COMMANDS += [
+    ("analyse", "--table", "human-ball"), ("explain", "tripod", *TOO_MUCH), ("explain", "tripod"),
+    ("plan", "gripper-box", *PROBLEMS["gripper-box"]), ("plan", "pinch-hard"), ("plan", "tripod", *TOO_MUCH),
+    ("plan", "tripod", "--pyramids", "8"),
+    ("margins", "tripod", "--only", "least_peak_N", "--only", "sensitivities", "--only", "disturbance", "--all"),
+    ("margins", "pinch-soft", "--only", "heaviest_kg", "--only", "quality"),
+    ("front", "tripod", "-n", "3"), ("front", "tripod", "-n", "2", "--against", "friction"),
+    ("problems",), ("hands",), ("synergies", "list"), ("synergies", "show", "human", "--posture", "ball"),
+    ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
+]  # fmt: skip
+"""Each verb; those that take seconds on hands are asked for little of them, and for all of smaller grasps."""
+
+
+@pytest.fixture(autouse=True)
+def _terminal_with_colours(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.delenv("COLUMNS", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+
+
+def holds(arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    told = shown(arguments, (*WIDTHS, WIDE), monkeypatch)
+    for width in WIDTHS:
+        assert not too_long(told[width], width)
+        assert not broken(told[width], told[WIDE]), told[width]
+        assert not apart(told[width]), told[width]
+
+
+@pytest.mark.parametrize("arguments", COMMANDS, ids=" ".join)
+def test_lines_fit_and_nothing_is_split(arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    holds(arguments, monkeypatch)
+
+
+@pytest.mark.parametrize("name", ["gripper-box", "tripod", "dlr-ball-turn"])
+def test_a_plan_that_is_checked_fits(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    run("plan", name, "-o", "there", *PROBLEMS[name])
+    holds(("check", "there", name, *PROBLEMS[name]), monkeypatch)
+
+
+def test_a_plan_that_is_played_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    run("plan", "gripper-box", "-o", "there", "--set", "task.knots=2", "--set", "task.move=[]")
+    holds(("simulate", "there", "--once", "--step", "1e-3"), monkeypatch)
+
+
+def test_colours_are_there_unless_nobody_wants_them(tmp_path: Path) -> None:
+    colored = run_in_terminal(("plan", "tripod"), 80, tmp_path)
+    bare = run_in_terminal(("plan", "tripod"), 80, tmp_path, NO_COLOR="1")
+    piped = run("plan", "tripod").output
+    assert "\x1b[1;32mfeasible" in colored
+    assert "\x1b" not in bare + piped
+    assert not too_long(bare, 80)
+    for line, other, third in zip(plain(colored).split("\n"), bare.split("\n"), piped.split("\n"), strict=True):
+        assert line.startswith("solve") or line == other == third
+
+
+def test_what_is_wrong_fits_the_terminal_and_is_one_line_in_a_pipe(tmp_path: Path) -> None:
+    wrong = ("plan", "tripod", "--set", 'limits.margin="a number in many words, none of which has a meaning"')
+    told = run_in_terminal(wrong, 60, tmp_path, NO_COLOR="1")
+    assert told.startswith("error limits.margin: ")
+    assert "\x1b" not in told
+    assert not too_long(told, 60)
+    assert not apart(told)
+    (line, *_) = run(*wrong).stderr.splitlines()
+    assert " ".join(told.split()).startswith(line)
+
+
+def test_a_document_is_all_that_is_printed(tmp_path: Path) -> None:
+    told = run_in_terminal(("plan", "pinch-hard", "--picture", "none.svg", "--format", "json"), 80, tmp_path)
+    assert "'none.svg' was not drawn" in json.loads(told)["notes"][-1]
