@@ -95,3 +95,17 @@ def test_all_values_of_every_limit_are_told() -> None:
         assert np.array_equal(values, usage.value)
         k, i = list(document["time_s"]).index(told["time_s"]), series["items"].index(told["item"])
         assert (values[k, i], series["lower"][i], series["upper"][i]) == (told["value"], told["lower"], told["upper"])
+
+
+@pytest.mark.parametrize("name", ["tripod", "dlr-ball-turn"])
+def test_the_elastic_motion_of_the_file_is_that_of_the_answer(name: str) -> None:
+    problem = load_problem(name)
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    told = outcome_document(problem.title, problem.grasp, answer)
+    assert np.array_equal(told["elastic_motion"], answer.elastic_motion)
+    rigid = answer.motion.du - answer.elastic_motion - answer.motion.sag
+    if answer.executed is None:
+        assert np.allclose(rigid, answer.beta @ answer.analysis.spaces.Gamma_ucs.T, atol=1e-9)
+    else:  # a motion that nothing squeezes is not elastic, however far it goes
+        assert np.abs(rigid - answer.formulation.target)[:, :3].max() < 1e-3 * np.abs(answer.formulation.target).max()

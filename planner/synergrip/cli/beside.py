@@ -48,7 +48,7 @@ def aside(message: str) -> None:
 def over(message: str) -> None:
     """Write over the last line of a terminal that this wrote, and wipe it with ""; without escapes."""
     global _line
-    if ending.asks_document() or not sys.stderr.isatty():
+    if ending.asks_document() or not (message or _line) or not sys.stderr.isatty():
         return
     shown = message[: columns(sys.stderr) - 1]
     wiped = " " * (len(_line) - len(shown))

@@ -45,6 +45,8 @@ def hands(form: FormatOption = Format.TEXT) -> None:
 
 def _text(hand: Hand) -> str:
     """Return a hand with all the names that a problem file may use of it."""
+    from synergrip.reports.text.tables import wrapped
+
     sets = hand.synergy_sets.values()
     parts = {
         "joints": hand.joint_names,
@@ -52,7 +54,8 @@ def _text(hand: Hand) -> str:
         "postures": hand.postures,
         "pads": hand.pads,
     }
-    return "\n".join([f"{hand.name}  {hand.title}", *(f"  {key:14}{', '.join(names)}" for key, names in parts.items())])
+    named = [line for key, names in parts.items() for line in wrapped(f"  {key:14}", ", ".join(names))]
+    return "\n".join([*wrapped(f"{hand.name}  ", hand.title), *named])
 
 
 def schema() -> None:

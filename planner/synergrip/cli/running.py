@@ -189,6 +189,7 @@ def _fitting(text: Callable[[], str]) -> str:
 
 def say(text: str) -> None:
     """Print on standard output."""
+    beside.over("")  # how far it is counts no longer
     ending.printing()
     print(text, flush=True)
 

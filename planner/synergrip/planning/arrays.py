@@ -44,6 +44,7 @@ class Moved(Value):
     alpha: Array
     beta: Array
     gamma: Array
+    elastic_motion: Array
     margins: Array
 
 
@@ -86,10 +87,8 @@ def _forces(grasp: Grasp) -> Sequence[str]:
     return [f"lambda_{name}_{c}_{'Nm' if is_moment(c) else 'N'}" for name, c in grasp.components]
 
 
-def _elastic(moved: Moved) -> Array:
-    rigid = moved.beta @ moved.analysis.spaces.Gamma_ucs.T
-    return np.asarray(moved.motion.du - moved.motion.sag - rigid)
-
+START = " that the references ask for at the start posture (33)"
+"""Of the coordinates: along the motion the grasp is another one, whose forces and rigid motion are not of these."""
 
 SYNERGIES = Columns("zr_SYNERGY_rad", _synergies)
 FORCES = Columns("lambda_CONTACT_n_N", _forces)
@@ -101,9 +100,9 @@ ARRAYS = (
     PlanArray("time_s", ("T",), "s", "knots", lambda p: p.motion.times, "exact", Columns("t_s", lambda _: ["t_s"])),
     PlanArray("dz_r", ("T", "n_z"), "rad or m", "synergy references from those at the start: what to send to the hand",
               lambda p: p.motion.dz_r, "references", SYNERGIES),
-    PlanArray("alpha", ("T", "dim E_s"), "N", "coordinates of the internal force", lambda p: p.alpha, "force"),
-    PlanArray("beta", ("T", "dim Gamma_ucs"), "m", "coordinates of the rigid motion", lambda p: p.beta, "path"),
-    PlanArray("gamma", ("T", "dim Gamma_zr"), "rad or m", "coordinates of the redundancy",
+    PlanArray("alpha", ("T", "dim E_s"), "N", f"coordinates of the internal force{START}", lambda p: p.alpha, "force"),
+    PlanArray("beta", ("T", "dim Gamma_ucs"), "m", f"coordinates of the rigid motion{START}", lambda p: p.beta, "path"),
+    PlanArray("gamma", ("T", "dim Gamma_zr"), "rad or m", f"coordinates of the redundancy{START}",
               lambda p: p.gamma, "references"),
     PlanArray("lambda", ("T", "n_l"), "N, N m",
               "contact forces of the hand on the object, rows (n, t, o [, moments]) of each contact",
@@ -113,10 +112,10 @@ ARRAYS = (
     PlanArray("tau", ("T", "n_q"), "N m or N", "joint torques J' lambda",
               lambda p: p.motion.torques, "torque", TORQUES),
     PlanArray("sigma", ("T", "n_z"), "N m or N", "actuator efforts S' tau", lambda p: p.motion.efforts, "effort"),
-    PlanArray("du", ("T", "6"), "m, rad", "object displacement about B: Gamma_ucs beta + `elastic_motion` + `sag`",
+    PlanArray("du", ("T", "6"), "m, rad", "object displacement about B: rigid motion + `elastic_motion` + `sag`",
               lambda p: p.motion.du, "du", DISPLACEMENT),
     PlanArray("elastic_motion", ("T", "6"), "m, rad", "the part of `du` that the grip makes beyond the rigid motion",
-              _elastic, "du"),
+              lambda p: p.elastic_motion, "du"),
     PlanArray("sag", ("T", "6"), "m, rad", "the part of `du` that the change of the load makes",
               lambda p: p.motion.sag, "du"),
     PlanArray("dq", ("T", "n_q"), "rad or m", "joint displacement", lambda p: p.motion.dq, "dq"),

@@ -48,6 +48,7 @@ class Judgement(Value):
     analysis: Analysis
     formulation: Formulation
     motion: Motion
+    elastic_motion: Array  # (T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     checks: tuple[Check, ...]
@@ -148,8 +149,15 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     found = between(there, analysis, formulation, motion)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
-    margins = frozen(usages[0].value)
-    return Judgement(there, analysis, formulation, motion, margins, usages, checks, found, cases=cases, off=off)
+    elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)
+    return Judgement(
+        there, analysis, formulation, motion, elastic, margins, usages, checks, found, cases=cases, off=off
+    )  # fmt: skip
+
+
+def _elastic(formulation: Formulation, motion: Motion) -> Array:
+    """Return the elastic motion (T, 6) in the linear model of the start posture."""
+    return frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
 
 
 def _linear(
@@ -183,7 +191,8 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         # what the linear model keeps says nothing of a hand that is at no equilibrium: only what it breaks is a check
         broken = (replace(c, name=f"{LINEAR}{c.name}") for c in limit_checks(usages) if not c.passed)
         checks = (Check("equilibrium", float("inf"), BALANCED), *broken)
-        return Judgement(task, analysis, formulation, linear, frozen(usages[0].value), usages, checks, lost=lost)
+        elastic, margins = _elastic(formulation, linear), frozen(usages[0].value)
+        return Judgement(task, analysis, formulation, linear, elastic, margins, usages, checks, lost=lost)
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     far = off(walk, walker)
     followed = Check(RIGID, float(far.max()), walker.allowed)
@@ -194,9 +203,9 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     samples = in_scenarios(walk, walker, formulation, unseen(LOOKS))  # others than those that a plan was judged by
     checks = (followed, *found.checks, *cases.checks, *samples.checks)
     return Judgement(
-        task, analysis, formulation, found.motion, margins, found.usages, checks, found.between, walk.executed,
-        walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh, off=far,
-        lost=lost, missed_in_cases=cases.missed,
+        task, analysis, formulation, found.motion, found.elastic_motion, margins, found.usages, checks, found.between,
+        walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh,
+        off=far, lost=lost, missed_in_cases=cases.missed,
     )  # fmt: skip
 
 

@@ -69,7 +69,9 @@ class Plan(Tabled):
     alpha: Array  # (T, dim E_s) [N]
     beta: Array  # (T, dim Gamma_ucs) [m]
     gamma: Array  # (T, dim Gamma_zr)
-    elastic_motion: Array  # (T, 6) what the references move beyond Gamma_ucs beta, sag excluded
+    elastic_motion: Array
+    """(T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]: of Gamma_ucs beta at the
+    start posture, and on the hand that moves of what the contacts of each instant make of it."""
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     """What the plan uses of every limit, friction cones first; `usages["joint torque"]` finds one by its title."""
@@ -119,7 +121,9 @@ class Plan(Tabled):
     @property
     def moved(self) -> Moved:
         """What all arrays are made of."""
-        return Moved(self.analysis, self.motion, self.alpha, self.beta, self.gamma, self.margins)
+        return Moved(
+            self.analysis, self.motion, self.alpha, self.beta, self.gamma, self.elastic_motion, self.margins
+        )  # fmt: skip
 
     @property
     def time(self) -> Array:

@@ -73,6 +73,7 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
         "margin": {"worst_N": force, "per_contact_N": force}, "force_unit_N": force, "limits": limits,
         "structure": {"singular_values": 1.0}, "true": {
             "margin": {"worst_N": force, "per_contact_N": force}, "lambda": forces, "du": du, "q": dq,
+            "place_m": path + scale.length, "normal": 1.0 + path / scale.length, "force_N": force,
             "smallest_stiffness_N_m": float(np.linalg.norm(response.K, 2)),
         }, "between": looks, "largest_margin_N": GIVEN_UP / EXACT * force,
     }  # fmt: skip

@@ -39,7 +39,7 @@ def stated(judged: Judgement, claimed: Mapping[str, Any], verdict: str, knots: A
     """
     analysis, motion, task, grasp = judged.analysis, judged.motion, judged.task, judged.analysis.grasp
     parts = analysis.coordinates.coordinates(motion.dz_r)
-    arrays = arrays_of(Moved(analysis, motion, *parts, judged.margins))
+    arrays = arrays_of(Moved(analysis, motion, *parts, judged.elastic_motion, judged.margins))
     code, executed = claimed.get("exit_code"), judged.executed
     true = {} if executed is None else {"true": true_document(executed, judged.usages[0], judged.fixed)}
     return arrays | true | {

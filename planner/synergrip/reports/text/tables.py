@@ -135,7 +135,7 @@ def _below(header: Sequence[str], row: Sequence[str], width: int) -> list[str]:
         text = cell.strip(f" {TIED}")
         if not text:
             continue
-        first, *more = parted(f"{name}:{TIED}{text}" if name else text, width - BELOW)
+        first, *more = parted(f"{name}: {text}" if name else text, width - BELOW)
         if lines and cells(lines[-1]) + GAP + cells(first) <= width:
             lines[-1] += " " * GAP + first
         else:

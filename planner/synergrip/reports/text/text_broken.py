@@ -16,7 +16,7 @@ from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.verified import LIMIT
 
-EQUILIBRIUM = "equilibrium"
+EQUILIBRIUM, STABILITY = "equilibrium", "stability"
 PULLED = 1e-6
 """Share of the largest force below which a pull, or a slip, is rounding."""
 
@@ -91,6 +91,8 @@ def _of(judgement: Judgement, check: Check, name: str, also: Check | None) -> It
         worst = next((each for each in between if each.title == name), usage)
         allowed = room if worst is usage else np.full(worst.value.shape, check.tolerance)
         yield from _sides(worst, allowed, None if place == f"{BETWEEN}: " else (usage, room), place)
+    elif name == STABILITY:
+        yield f"{check.name}: the equilibrium gives way, its least stiffness is {_size(-check.error, 'N/m')}"
     else:
         yield f"{check.name}: off by {check.error:.2g}, {check.tolerance:.0e} allowed"
 

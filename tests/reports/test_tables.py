@@ -1,0 +1,89 @@
+"""Tables and paragraphs fit their place; numbers stand with their points below each other."""
+
+from __future__ import annotations
+
+import pytest
+
+from synergrip import ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip.reports.text.screen import Screen, shown_on
+from synergrip.reports.text.tables import fitted, table, wrapped
+from synergrip.reports.text.text_plan import verdict_lines
+
+ROWS = [("slip margin", "0.49999 N", "≥ 0.5 N"), ("angle", "-58.84 deg", "≤ 10 deg"), ("torque", "1 N m", "±2 N m")]
+
+
+def test_points_stand_below_each_other() -> None:
+    lines = table(("", "worst", "limit"), ROWS).split("\n")
+    assert lines == [
+        "             worst        limit",
+        "slip margin    0.49999 N  ≥  0.5 N",
+        "angle        -58.84 deg   ≤ 10 deg",
+        "torque         1 N m      ±  2 N m",
+    ]
+
+
+@pytest.mark.parametrize("width", [40, 50, 64, 80])
+def test_what_is_too_wide_stands_below_its_row_and_is_whole(width: int) -> None:
+    setting = """--set 'object.mass="1.9285 kg"'"""
+    rows = [("how heavy a thing may be held like this", "1.9285 kg", "below 1.958 kg", setting)]
+    with shown_on(Screen(width)):
+        lines = table(("", "attained", "end", "with"), rows).split("\n")
+    assert max(map(len, lines)) <= width
+    assert any(line.endswith(setting) for line in lines)
+    assert "1.9285 kg" in "\n".join(lines).replace(setting, "")
+
+
+def test_lists_of_a_command_break_after_commas_alone() -> None:
+    names = ", ".join(f'"finger{i} inner"' for i in range(9))
+    with shown_on(Screen(60)):
+        lines = wrapped("with ", f"--set 'hand.synergies=[{names}]'")
+    assert max(map(len, lines)) <= 60
+    assert [line[-1] for line in lines[:-1]] == [","] * (len(lines) - 1)
+
+
+def test_a_word_that_is_too_long_is_whole() -> None:
+    path = "/" + "long/" * 30
+    with shown_on(Screen(60)):
+        assert fitted(f"wrote {path} and more than that in many words") == (
+            f"wrote\n  {path}\n  and more than that in many words"
+        )
+
+
+def test_letters_that_are_wide_count_as_two() -> None:
+    with shown_on(Screen(40)):
+        lines = wrapped("", "手" * 15 + " " + "手" * 15)
+        assert len(lines) == 2
+        assert table(("a", "b"), [("手手", "x"), ("abcd", "y")]).split("\n")[1:] == ["手手  x", "abcd  y"]
+
+
+def test_a_place_with_colours_has_bold_heads() -> None:
+    with shown_on(Screen(80, color=True)):
+        assert table(("a",), [("b",)]) == "\x1b[1ma\x1b[0m\nb"
+
+
+def test_a_hold_is_told_as_one() -> None:
+    problem = load_problem("pinch-soft")
+    told = " ".join(" ".join(verdict_lines(problem, plan(problem.grasp, problem.task))).split())
+    assert "the squeeze moves the object by " in told or "the squeeze does not move the object by itself" in told
+    assert "sag since the start, by change of load: " in told
+    limited = load_problem("pinch-soft", ['limits.elastic_motion="5 mm"', "limits.safety_factor=1.2"])
+    answer = plan(limited.grasp, limited.task)
+    assert isinstance(answer, Plan)
+    told = "\n".join(verdict_lines(limited, answer))
+    assert "slip margin at friction / 1.2" in told
+    assert "the squeeze" not in told  # a row tells it, beside its limit
+    assert any(isinstance(limit, ElasticMotion) for limit in limited.task.limits)
+    assert FrictionReserve(angle=0.1745329252).title == "slip margin 10 deg inside the cone"
+
+
+def test_details_are_told_to_those_who_ask() -> None:
+    problem = load_problem("pinch-soft")
+    answer = plan(problem.grasp, problem.task)
+    short, long = ("\n".join(verdict_lines(problem, answer, details=details)) for details in (False, True))
+    (check,) = (line for line in short.splitlines() if line.startswith("check"))
+    assert check.count("✓") >= 2
+    assert len(short.splitlines()) < len(long.splitlines())
+    for each in answer.checks:
+        assert f"\n{each.name} " in long
+    assert "certificate: gap" in long
+    assert "certificate: gap" not in short
