@@ -159,6 +159,28 @@ def test_torques_are_kept_to_the_forces_times_the_size_of_the_grasp_as_the_page_
     assert "the same times the length of the grasp for torques, 10 um, 0.1 mrad, a thousandth of a limit" in page
 
 
+def test_what_is_missed_in_what_is_allowed_for_is_told_with_the_case() -> None:
+    problem, outcome = planned()
+    allowing = load_problem("gripper-box", ["task.knots=3", "allow.friction=[0.3, 0.9]"])
+    references = References(outcome.motion.times, outcome.dz_r, {})
+    text = text_of(judge_references(problem.grasp, allowing.timed, references))
+    assert "this plan fails  it breaks: slip margin in what is allowed for" in text
+    assert re.search(r"breaks   what is allowed: least friction: slip margin -0\.2\d* N \(left/tip, t = ", text)
+
+
+def test_matrices_are_told_once_of_a_limit_that_is_missed_at_knots_and_between_them() -> None:
+    problem = load_problem("tripod", ["task.between=hold"])
+    outcome = plan(problem.grasp, problem.task)
+    assert isinstance(outcome, Plan)
+    asked = load_problem("tripod", ["task.between=hold", "limits.margin=8 N"])
+    judgement = judge_references(asked.grasp, asked.timed, References(outcome.motion.times, outcome.dz_r, {}))
+    assert [check.name for check in judgement.checks if not check.passed] == ["slip margin", "between the knots"]
+    text = text_of(judgement)
+    assert "this plan fails  it breaks: slip margin\n" in text
+    assert text.count("breaks   ") == 1
+    assert "is 7 N at t = 0 s, 1 N below its limit of 8 N; at 11 of 11 knots" in text
+
+
 @pytest.mark.parametrize("unit", ["N m", "N mm", "mN m"])
 def test_units_of_several_words_are_not_split_within_a_sentence(unit: str) -> None:
     for width in range(20, 60):

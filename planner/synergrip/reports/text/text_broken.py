@@ -23,13 +23,15 @@ PULLED = 1e-6
 
 def names_of(judgement: Judgement) -> tuple[str, ...]:
     """Return what is broken by its names, each once, wherever it is."""
-    places = (f"{BETWEEN}: ", f"{ALL_CASES}: ", LINEAR)
+    places = {f"{BETWEEN}: ": " between the knots", f"{ALL_CASES}: ": " in what is allowed for", LINEAR: ""}
     names = dict[str, None]()
     for check in _failed(judgement):
+        if check.name == BETWEEN and not _between_alone(judgement):
+            continue
         place = next((each for each in places if check.name.startswith(each)), "")
         name = check.name.removeprefix(place).removesuffix(" [m]")
         if name not in names:
-            names[f"{name} {place.removesuffix(': ')}".rstrip()] = None
+            names[f"{name}{places.get(place, '')}"] = None
     return tuple(names)
 
 
@@ -73,6 +75,13 @@ def _failed(judgement: Judgement) -> list[Check]:
     return [check for check in judgement.checks if not check.passed and check not in judgement.claims.checks]
 
 
+def _between_alone(judgement: Judgement) -> list[Usage]:
+    """Return what is used, between the knots, of the limits that are broken there and kept at the knots."""
+    there = () if judgement.between is None else judgement.between.broken
+    at_knots = {check.name for check in _failed(judgement)}
+    return [usage for usage in there if usage.title not in at_knots]
+
+
 def _of(judgement: Judgement, check: Check, name: str, also: Check | None) -> Iterator[str]:
     """Yield what is to be said of one that failed, and failed between the knots as well."""
     usage = next((each for each in judgement.usages if each.title == name), None)
@@ -82,7 +91,7 @@ def _of(judgement: Judgement, check: Check, name: str, also: Check | None) -> It
     elif name == RIGID and judgement.off is not None:
         yield _behind(judgement.off, judgement.motion.times, check.tolerance)
     elif name == BETWEEN and judgement.between is not None:  # one check of all limits, of the linear model
-        for each in judgement.between.usages:
+        for each in _between_alone(judgement):
             yield from _sides(each, LIMIT * each.size, None, f"{BETWEEN}: ")
     elif usage is not None:
         place = LINEAR if check.name.startswith(LINEAR) else f"{BETWEEN}: " if check.name != name else ""
