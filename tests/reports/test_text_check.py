@@ -15,6 +15,7 @@ import pytest
 from synergrip import Plan, load_problem, plan
 from synergrip.linalg import frozen
 from synergrip.planning.check import LINEAR, Judgement, judge_references
+from synergrip.planning.outcome import Check
 from synergrip.planning.references import References, read_references
 from synergrip.problems.problem import Problem
 from synergrip.reports.data.json_plan import outcome_document
@@ -166,6 +167,17 @@ def test_what_is_missed_in_what_is_allowed_for_is_told_with_the_case() -> None:
     text = text_of(judge_references(problem.grasp, allowing.timed, references))
     assert "this plan fails  it breaks: slip margin in what is allowed for" in text
     assert re.search(r"breaks   what is allowed: least friction: slip margin -0\.2\d* N \(left/tip, t = ", text)
+
+
+def test_an_end_between_two_knots_is_a_check_with_a_short_name_and_its_reason_a_sentence() -> None:
+    """Loads and references where the knots are kept, and the hand has no equilibrium halfway."""
+    whole = judged()
+    why = "between the knots: no equilibrium is near: the hand does not follow there"
+    missed = Check("between the knots: equilibrium", float("inf"), 1e-8)
+    text = text_of(replace(whole, checks=(*whole.checks[:4], missed), between=None, lost=why), details=True)
+    assert "this plan fails  it breaks: equilibrium between the knots\n" in text
+    assert f"breaks   {why}\n" in text
+    assert re.search(r"^between the knots: equilibrium +1e-08 +FAILS$", text, re.MULTILINE)
 
 
 def test_matrices_are_told_once_of_a_limit_that_is_missed_at_knots_and_between_them() -> None:
