@@ -60,7 +60,7 @@ from synergrip.conic.limits.synergy_rate import SynergyRate as SynergyRate
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration as SynergyAcceleration
 from synergrip.conic.limits.elastic_motion import ElasticMotion as ElasticMotion
 from synergrip.conic.limits.object_error import ObjectError as ObjectError
-from synergrip.conic.rows import within as within
+from synergrip.conic.bounds import within as within
 from synergrip.conic.rows import norm_within as norm_within
 from synergrip.conic.goals.goal import Goal as Goal
 from synergrip.conic.goals.goal import Objective as Objective

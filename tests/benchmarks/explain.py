@@ -27,6 +27,12 @@ NOES = (
     ("dlr-ball-move", "limits.normal_force=1 N"),
     ("gripper-box", "contacts.friction_factor=0.1"),
     ("robonaut-handle", "limits.normal_force=0.5 N"),
+    ("robonaut-handle", "limits.normal_force=12 N"),
+    ("robonaut-handle", "limits.margin=20 N"),
+    ("robonaut-handle", "limits.actuator_effort=0.1"),
+    ("robonaut-handle", "contacts.friction_factor=0.2"),
+    ("robonaut-handle-eigengrasps", "limits.synergy_acceleration=0.01"),
+    ("barrett-ball-lift", "limits.actuator_effort=0.1"),
 )
 """Problems without a plan, by a change of one value."""
 RUNS = 3

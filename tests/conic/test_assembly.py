@@ -53,9 +53,33 @@ def test_stacked_bands_are_what_they_are_entry_by_entry(seed: int) -> None:
     assert found.indices.dtype == np.int32
 
 
-def test_what_rounding_left_of_zeros_is_dropped_and_small_entries_are_kept() -> None:
-    band = Band(np.array([[1.0, 2e-16], [1e-14, 1.0], [1e-30, 1e-30]]), (), np.zeros(3), 2)
-    found = stacked([band], 2, 2, 0)
+@pytest.mark.parametrize("seed", range(10))
+def test_bands_of_one_knot_are_what_they_are_entry_by_entry(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n_v, extra = int(rng.integers(1, 4)), int(rng.integers(0, 2))
+    bands = []
+    for height in rng.integers(1, 5, size=3):
+        matrix = rng.normal(size=(height, n_v)) * (rng.random((height, n_v)) < 0.7)
+        bands.append(Band(matrix, (), rng.normal(size=height) * (rng.random(height) < 0.5) * extra, 1))
+    found = stacked(bands, 1, n_v, extra)
+    assert np.array_equal(found.toarray(), dense(bands, 1, n_v, extra))
+    assert np.all(found.data != 0)
+    assert found.has_canonical_format
+    assert found.indices.dtype == np.int32
+    own = [Band(band.matrix[None], (), band.scalar, 1) for band in bands]  # with one matrix for each knot
+    assert np.array_equal(stacked(own, 1, n_v, extra).toarray(), found.toarray())
+
+
+@pytest.mark.parametrize("knots", [1, 2])
+def test_entries_that_are_no_rounding_stay(knots: int) -> None:
+    band = Band(np.array([[1.0, 2e-16], [2e-16, 1e-20]]), (), np.zeros(2), knots, exact=True)
+    assert np.array_equal(stacked([band], knots, 2, 0).toarray()[:2, :2], band.matrix)
+
+
+@pytest.mark.parametrize("knots", [1, 2])
+def test_what_rounding_left_of_zeros_is_dropped_and_small_entries_are_kept(knots: int) -> None:
+    band = Band(np.array([[1.0, 2e-16], [1e-14, 1.0], [1e-30, 1e-30]]), (), np.zeros(3), knots)
+    found = stacked([band], knots, 2, 0)
     assert np.array_equal(found.toarray()[:3, :2], [[1.0, 0.0], [1e-14, 1.0], [1e-30, 1e-30]])
 
 

@@ -12,12 +12,13 @@ from named_goals import goals
 from scipy.interpolate import CubicSpline
 from small_grasps import pinch
 
+from synergrip.conic.bounds import within
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.conic.rows import Rows, within
+from synergrip.conic.rows import Rows
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.planning import plan

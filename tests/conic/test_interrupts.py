@@ -59,7 +59,7 @@ def test_another_thread_solves_as_ever() -> None:
 
 def test_clarabel_stops_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     problem, iterations = load_problem("barrett-ball-hold"), []
-    cones = clarabel_._cones
+    cones = clarabel_.cones_of
 
     def interrupted(program):
         signal.raise_signal(signal.SIGINT)
@@ -85,7 +85,7 @@ def test_clarabel_stops_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert answer.claim is Claim.OPTIMAL
     assert len(iterations) > 5
     iterations.clear()
-    monkeypatch.setattr(clarabel_, "_cones", interrupted)
+    monkeypatch.setattr(clarabel_, "cones_of", interrupted)
     with pytest.raises(KeyboardInterrupt):
         first_answer(problem)
     assert len(iterations) <= 1

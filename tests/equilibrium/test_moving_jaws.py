@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from synergrip.equilibrium.execute import execute
 from synergrip.equilibrium.execution import Execution
+from synergrip.equilibrium.setting import setting
 from synergrip.equilibrium.states import Loads
 from synergrip.grasps.contacts.frictionless import Frictionless
 from synergrip.grasps.contacts.patch_contact import PatchContact
@@ -125,6 +126,34 @@ def test_a_ball_rolls_between_tips_that_part() -> None:
     assert found.states.forces[-1] == pytest.approx([normal, 0, 0, 0] * 2, abs=1e-5)
     stuck = led(grasp, *steps, model="fixed")
     assert stuck.du[-1, 5] == pytest.approx(-np.arcsin(aside / ball), abs=1e-9)  # points that stuck stay opposite
+
+
+@MODELS
+def test_a_patch_lies_flat_on_a_ball_between_round_pads_that_part(model: str) -> None:
+    """Points that stick stay opposite; what the ball turns against the jaws bends the patches about the tangents."""
+    ball, tip, k, squeeze, aside, tilt = 0.03, 0.01, 2e-4, 0.01, 0.012, 0.4
+    kind = PatchContact(friction=9, spin_friction=9, patch_radius=9)
+    C_s = [0, 1e-9, 1e-9, 1.0, tilt, tilt]
+    grasp = jaws(Sphere(radius=ball), ball, tip, C_s=C_s, C_q=[k, 0, 0] * 2, kind=kind)
+    found = led(grasp, *([squeeze, share * aside, 0] * 2 for share in np.linspace(0, 1, 11)), model=model)
+    assert found.whole, found.why
+    assert not any(found.setting.rolls)
+    angle = np.arcsin(aside / ball)
+    assert found.du[-1] == pytest.approx([0, 0, 0, 0, 0, -angle], abs=1e-5)  # springs along t give by 35 nm
+    about_z = found.balance.frames[-1][:, 2]  # of axes n, t, o of each contact the part along z
+    moments = found.states.forces[-1].reshape(2, 6)[:, 3:]
+    along_z = (about_z * moments).sum(axis=1)
+    assert np.abs(along_z) == pytest.approx([angle / tilt] * 2, rel=1e-5)
+    normal = (squeeze - ball * (1 - np.cos(angle))) / k  # what the slides give way by
+    assert found.balance.torques[-1][[0, 3]] == pytest.approx([normal] * 2, rel=1e-5)
+
+
+def test_round_pads_roll_beside_a_patch_that_lies_flat() -> None:
+    kind = PatchContact(friction=9, spin_friction=9, patch_radius=9)
+    soft = jaws(CUBE, HALF, TIP, C_s=[1e-4] * 3 + [1.0], C_q=[0.0] * 6)
+    flat = jaws(CUBE, HALF, TIP, C_s=[1e-4] * 3 + [1.0] * 3, C_q=[0.0] * 6, kind=kind)
+    assert setting(_one_of_each(soft, flat)).rolls == (True, False)
+    assert setting(_one_of_each(soft, flat), "fixed").rolls == (False, False)
 
 
 @MODELS

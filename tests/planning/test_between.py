@@ -7,20 +7,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from named_goals import goals
+from random_cone_problems import grasp_like, random_wrenches
 from random_tasks import random_task_on_grasp
 from scipy.interpolate import CubicSpline
 
 from synergrip.conic.limits.friction_cone import FrictionCone
+from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.object_error import ObjectError
+from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
+from synergrip.planning.between import between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.solvers import SOLVERS
 from synergrip.problems.problem import load_problem
 from synergrip.statics.motion import forward
 from synergrip.tasks.marks import Marks
+from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask, still
+from synergrip.tasks.wrenches import WrenchTable
 
 
 @dataclass(frozen=True)
@@ -112,6 +118,25 @@ def test_the_departure_of_a_turning_weight_is_known() -> None:
     weight = 0.2 * 9.81 * np.column_stack([0 * middle, -np.sin(middle), -np.cos(middle), *np.zeros((3, 6))])
     size = np.linalg.norm(outcome.analysis.response.scale.wrench(weight), axis=1).max()
     assert outcome.between.load_departure == pytest.approx(size * (1 - np.cos(np.pi / 24)), rel=0.01)
+
+
+@pytest.mark.parametrize("bend", [0.5, 0.6])
+def test_where_only_knots_are_looked_at_looking_again_sees_the_same(bend: float) -> None:
+    """A load that bends at a knot alone is straight between them; one that bends elsewhere is looked at there."""
+    rng = np.random.default_rng(1)
+    table = WrenchTable([0.0, bend, 1.0], random_wrenches(rng, 3, 0.3))
+    task = Task(knots=5, loads=[table], limits=[NormalForce(upper=10.0), SynergyRate(100.0)])
+    outcome = plan(grasp_like(rng, ["hard"] * 3), task)
+    assert isinstance(outcome, Plan)
+    found, again = outcome.between, between(outcome.task, outcome.analysis, outcome.formulation, outcome.motion)
+    assert found is not None
+    assert again is not None
+    assert found.corners == again.corners == (() if bend == 0.5 else (bend,))
+    assert [usage.title for usage in found.usages] == ["slip margin", "normal force"]
+    for one, other in zip(found.usages, again.usages, strict=True):
+        np.testing.assert_allclose(one.value, other.value, atol=1e-12)
+        assert len(one.times) == (5 if bend == 0.5 else 6)
+    assert (found.load_departure > 0.0) == (bend == 0.6)
 
 
 @pytest.mark.parametrize("goal", ["margin", "effort", "peak_force"])

@@ -128,20 +128,30 @@ def test_no_more_is_asked_for_where_the_task_counts_its_knots_only() -> None:
 
 
 def test_a_way_that_no_program_goes_shortens_the_way_alone() -> None:
-    pace = Pace().back(None)
-    assert pace.step == 1
-    assert pace.way < 1
     _, begun, _ = started("dlr-ball-move", "task.knots=9")
+    assert not begun.there
+    pace = Pace(step=0.1).back(begun, None)
+    assert pace.step == 0.1
+    assert pace.way < 1
     assert not pace.ends(begun)
-    assert pace.back(None).ends(begun)
+    assert pace.back(begun, None).ends(begun)
     assert pace.ends(replace(begun, gap=begun.largest))  # what it promised is nothing like what happens
     assert not Pace().ends(replace(begun, gap=begun.largest))
     far = replace(begun, gap=4 * begun.room)
-    after = Pace().back(far)
+    after = Pace().back(begun, far)
     assert after.way == 1
     assert after.step < 1
     assert Pace(step=0.1).on(begun, replace(begun, gap=0.1 * begun.room), 1.0).step > 0.1
     assert Pace(step=0.1).on(begun, far, 1.0).step < 0.1  # a step as long would be as far off again
+
+
+def test_what_no_program_has_where_nothing_of_the_way_is_left_takes_a_longer_step() -> None:
+    _, begun, _ = started("utah-mit-ball", "task.knots=9")
+    assert begun.there
+    pace = Pace(step=0.1).back(begun, None)
+    assert pace.step > 0.1
+    assert pace.way == 1
+    assert Pace().back(begun, None).way < 1  # a step as long as there is does not do
 
 
 def test_what_is_left_of_the_way_falls_as_its_square() -> None:

@@ -156,6 +156,30 @@ def test_straight_lines_follow_a_curved_load() -> None:
     assert np.abs(told - true).max() < 0.08 * np.abs(coarse - true).max()  # four parts: a sixteenth of the distance
 
 
+@pytest.mark.parametrize("start", ["", 'start="0 s", end="2 s", '])
+def test_a_push_of_the_whole_task_is_on_from_its_first_line_to_its_last(start: str) -> None:
+    problem = load_problem("barrett-ball-hold", [f'task.push=[{{{start}force="2 N", direction="x"}}]', "task.knots=5"])
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    load = load_of(problem, answer)
+    assert load["wrench"][:, 0] == pytest.approx(2.0)
+    assert load["forces"][0]["force"][:, 0] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(("knots", "turn"), [(2, 90), (2, 720), (3, -400)])
+def test_a_load_that_turns_far_from_knot_to_knot_is_told_in_as_many_lines_as_it_takes(knots: int, turn: float) -> None:
+    changes = [f"task.knots={knots}", f'task.palm={{axis="x", turn="{turn} deg"}}', "task.move=[]"]
+    problem = load_problem("gripper-box", changes)
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    load, times = load_of(problem, answer), np.linspace(0, 2, 1001)
+    assert problem.timed.course is not None
+    true = problem.timed.course.load_at(times)
+    assert true is not None
+    told = np.array([np.interp(times, load["times_s"], column) for column in load["wrench"].T]).T
+    assert np.abs(told - true).max() < 2e-3 * np.abs(true).max()
+
+
 def test_a_load_that_stays_is_not_curved_because_the_object_moves_on_a_curve() -> None:
     assert document_of("gripper-peg")["execution"]["load"]["curved_s"] == []
     assert document_of("barrett-ball-carry")["execution"]["load"]["curved_s"] == [[0.0, 0.8]]

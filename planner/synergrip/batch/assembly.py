@@ -14,12 +14,13 @@ import numpy as np
 from synergrip.batch.cone_problems import ConeProblems
 from synergrip.batch.stacked_cones import Cones, most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
+from synergrip.conic.bounds import within
 from synergrip.conic.goals.least_effort import Effort
 from synergrip.conic.limits.joint_range import JointRange
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
 from synergrip.conic.limits.slip_margin import SlipMargin
-from synergrip.conic.rows import Rows, within
+from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import LARGEST, variable_bounds
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value

@@ -40,6 +40,9 @@ class Asked(Value):
 
     grasp: Grasp
     task: Task | TimedTask
+    at_corners: bool = False
+    """Whether its program asks between the knots at the corners of loads and wishes alone, without any reserve: then
+    there is none of the task where that has no answer."""
 
     @classmethod
     def of(cls, grasp: Grasp, task: Task | TimedTask, timed: TimedTask, *, scenarios: bool = False) -> Asked:
@@ -67,6 +70,11 @@ class Asked(Value):
     def with_task(self, **changes: Any) -> Asked:
         """Return the same with other arguments of the task."""
         return replace(self, task=replace(self.task, **changes))
+
+    @property
+    def sharp(self) -> Asked:
+        """The same as a program that asks for no more than what is needed, if not for all of it."""
+        return replace(self, at_corners=True)
 
     @property
     def timed(self) -> TimedTask:
@@ -111,8 +119,10 @@ class Asked(Value):
         except SynergripError:
             return None
         held = intersample_of(timed, analysis) if timed.between == "hold" else None
-        formulation = replace(formulation, intersample=held.every() if held is not None and every else held)
-        if every and formulation.allowed is not None:
+        if held is not None and (every or self.at_corners):
+            held = held.at_corners() if self.at_corners else held.every()
+        formulation = replace(formulation, intersample=held)
+        if (every or self.at_corners) and formulation.allowed is not None:
             formulation = replace(formulation, allowed=formulation.allowed.exact)
         formulation = formulation if units is None else formulation.in_units(units)
         return Posed(analysis, timed, formulation)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from logging import DEBUG, INFO
 
 import numpy as np
@@ -82,23 +82,6 @@ def first_plan(dial: Dial[Asked], values: Iterable[float], effort: Effort = WHOL
         if isinstance(outcome, Plan):
             return value, outcome
     return None
-
-
-def least_with_plan(dial: Dial[Asked], values: Sequence[float], effort: Effort = WHOLE) -> tuple[float, Plan] | None:
-    """Return the first of some values, each with more room than the one before, with which planning has a plan.
-
-    They are halved, which takes few plans; where the hand that moves has none with more room than with less, it may be
-    a later one.
-    """
-    found, without, beyond = None, -1, len(values)
-    while beyond - without > 1:
-        middle = (without + beyond) // 2
-        outcome = outcome_at(dial, values[middle], effort)
-        if isinstance(outcome, Plan):
-            found, beyond = (values[middle], outcome), middle
-        else:
-            without = middle
-    return found
 
 
 def with_room(dial: Dial[Asked], value: float, more: float = 0.0) -> float:

@@ -40,8 +40,8 @@ class Extreme(Value):
     value: float | None
     """The last value with a plan; None where none was found, as far as the number is followed, without one."""
     past: float | None
-    """The nearest value of which it is certified that there is none: 0.1 % farther, or 1 or 10 % where between the
-    knots a reserve asks for more than is needed. None where nothing is proven."""
+    """The nearest value of which it is certified that there is none: 0.1 % farther; where a reserve asks for more than
+    is needed 0.1 % farther than without it, or 1 or 10 %. None where nothing is proven."""
 
 
 def extreme(dial: Dial[Asked], posed: Posed, program: Program) -> Extreme:
@@ -113,8 +113,8 @@ def _guessed(
 ) -> tuple[float, float]:
     """Return values nearer each other, one with a plan and one without, around a zero of what is missing.
 
-    What is missing is convex in many numbers: a line through two values without a plan then ends short of the zero, one
-    through a value with and one without beyond it. So guesses close in from both sides.
+    What is missing bends one way in many numbers: a line through two values on one side of the zero then ends short of
+    it, one through a value with and one without beyond it. So guesses close in from both sides.
     """
     known: dict[float, float] = {}
     goods, bads, value = [good], [bad], bad
@@ -127,11 +127,11 @@ def _guessed(
         good, bad = goods[-1], bads[-1]
         if abs(good - bad) <= 2 * ABOUT * abs(good):
             break
-        value = _zero(known, (bad, good) if count % 2 and good in known else tuple(bads[-2:]))
-        if not min(good, bad) < value < max(good, bad):
-            value = between(good, bad)
-        inside = np.sign(good - bad) * ABOUT * abs(good)  # past the zero, where a guess is next to one of them
-        value = float(np.clip(value, *sorted((bad + inside, good - inside))))
+        pairs = [(bad, good)] if count % 2 and good in known else [bads[-2:], goods[-2:]]
+        inside = (zero for zero in (_zero(known, pair) for pair in pairs) if min(good, bad) < zero < max(good, bad))
+        value = next(inside, between(good, bad))
+        past = np.sign(good - bad) * ABOUT * abs(good)  # past the zero, where a guess is next to one of them
+        value = float(np.clip(value, *sorted((bad + past, good - past))))
     good = next((each for each in reversed(goods[1:]) if has_plan(each)), goods[0])
     bad = next((each for each in reversed(bads[1:]) if not has_plan(each)), bads[0])
     return good, bad
@@ -148,9 +148,32 @@ def _zero(known: Mapping[float, float], pair: Sequence[float]) -> float:
 def _past(dial: Dial[Asked], value: float, posed: Posed, rays: Sequence[Array]) -> float | None:
     """Return the nearest of some values farther on of which it is certified that there is no plan.
 
+    Where a reserve asks for more than is needed, it is what is asked without one that ends there.
+    """
+    if not dial.nested:
+        return None
+    if posed.strict:
+        return _proven_past(dial, value, posed, rays, BEYOND[:1])
+    sharp = replace(dial, turned=lambda other: dial.turned(other).sharp)
+    own = posed_at(sharp, dial.value, posed)
+    if own is not None and dial.smooth:
+        end, rays = _by_one_program(sharp, own, own.program())
+        if end is not None:
+            farthest = min(end, value) if dial.eased == "up" else max(end, value)
+            if (past := _proven_past(sharp, farthest, own, rays, BEYOND[:1])) is not None:
+                return past
+    past = None if own is None else _proven_past(sharp, value, own, (), BEYOND)
+    return _proven_past(dial, value, posed, (), BEYOND) if past is None else past
+
+
+def _proven_past(
+    dial: Dial[Asked], value: float, posed: Posed, rays: Sequence[Array], shares: Sequence[float]
+) -> float | None:
+    """Return the first value farther on by one of some shares of it of which it is certified that there is no plan.
+
     Where it is the same program that is asked there, the multipliers at the extreme are tried as proofs first.
     """
-    for share in () if not dial.nested else BEYOND[:1] if posed.strict else BEYOND:
+    for share in shares:
         farther = dial.easier(value, -share * abs(value))
         there = posed_at(dial, farther, posed, every=True)
         if _proven_by(rays, there, posed) or no_plan(there):

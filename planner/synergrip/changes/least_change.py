@@ -184,8 +184,12 @@ def _by_bisection(dial: Dial[Asked], posed: Posed, rough: float) -> LeastChange:
         decided[value] = found = decided_at(dial, value, posed)
         return found is not None and found.acceptable
 
-    low, high = dial.value, None
-    for value in _tries(dial):
+    low, high, tries = dial.value, None, _tries(dial)
+    if dial.nested and len(tries) > 1 and not has_plan(tries[-1]):
+        last = decided[tries[-1]]
+        if last is not None and last.infeasible:  # so has every value before it none
+            return LeastChange(dial, None, posed.strict)
+    for value in tries:
         if has_plan(value):
             high, low = narrowed(value, low, has_plan, _close(dial, rough))
             break

@@ -27,6 +27,8 @@ class Band:
     """(h,) entries in the last column, that of the goal's scalar."""
     count: int
     """How often it repeats; the last copy belongs to the last knot."""
+    exact: bool = False
+    """Whether small entries are no rounding, and stay."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,8 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
         n_v: unknowns of a knot.
         extra: columns beyond those of the knots: 1 with a scalar, else 0.
     """
+    if knots == 1 and not any(band.earlier for band in bands):
+        return _of_one_knot(bands, n_v, extra)
     tops = np.cumsum([0, *(band.matrix.shape[-2] * band.count for band in bands)])
     placed = list(zip(bands, tops.tolist(), strict=False))
     parts = [part for band, top in placed for part in _parts(band, top, knots)]
@@ -82,12 +86,27 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
     return sparse.csc_matrix((data, indices, ends), shape=(int(tops[-1]), len(lengths)))
 
 
+def _of_one_knot(bands: Sequence[Band], n_v: int, extra: int) -> sparse.csc_matrix:
+    """Return the bands below one another where there is nothing to repeat."""
+    whole = np.zeros((sum(len(band.scalar) for band in bands), n_v + extra))
+    top = 0
+    for band in bands:
+        here = slice(top, top + len(band.scalar))
+        whole[here, :n_v] = band.matrix if band.exact else without_rounding(band.matrix)
+        if extra:
+            whole[here, -1] = band.scalar
+        top = here.stop
+    column, row = np.nonzero(whole.T)
+    ends = np.searchsorted(column, np.arange(n_v + extra + 1)).astype(np.int32)
+    return sparse.csc_matrix((whole[row, column], row.astype(np.int32), ends), shape=whole.shape)
+
+
 def _parts(band: Band, top: int, knots: int) -> list[_Part]:
     """Return what a band says of its own knots, and of those before them."""
     height, first = band.matrix.shape[-2], knots - band.count
     result = []
     for part in (Earlier(0, band.matrix, np.ones(band.count)), *sorted(band.earlier, key=lambda part: part.lag)):
-        entries = without_rounding(part.matrix)
+        entries = part.matrix if band.exact else without_rounding(part.matrix)
         row, column = np.nonzero(entries if entries.ndim == 2 else entries.any(axis=0))
         value = entries[..., row, column]
         if value.ndim > 1:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
+from synergrip.conic.affine import times
 from synergrip.conic.allowed import in_all_cases
 from synergrip.conic.assembly import Band, stacked, without_rounding
 from synergrip.conic.basis import in_basis, inverse
@@ -18,7 +19,7 @@ from synergrip.conic.program import Block, Program
 from synergrip.conic.reserve import Reserve
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import farthest, variable_bounds
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, gram
 from synergrip.values import Value
 
 
@@ -27,9 +28,9 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
 
     Sums of squares are divided by `worth`.
     """
-    asked = constraints(formulation, limits, goal)
     cost = goal.objective(formulation)
     extra = 0 if cost.epigraph is None else 1
+    asked = _constraints(formulation, limits, goal, extra)
     T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
     worth = worth if extra else worth * formulation.divisor
     P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
@@ -38,7 +39,8 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
-    bounds = np.concatenate([bounds, np.full(extra, farthest(formulation))])
+    if extra:
+        bounds = np.append(bounds, farthest(formulation))
     constant = _constant(cost) / worth
     return Program(P, frozen(q), asked.A, asked.b, asked.blocks, T, n_v, frozen(bounds), basis, constant)
 
@@ -54,8 +56,11 @@ class Constraints(Value):
 
 def constraints(formulation: Formulation, limits: Sequence[Limit], goal: Goal) -> Constraints:
     """Return the rows of the program that looks for the best plan by `goal` among those that keep all `limits`."""
+    return _constraints(formulation, limits, goal, 0 if goal.objective(formulation).epigraph is None else 1)
+
+
+def _constraints(formulation: Formulation, limits: Sequence[Limit], goal: Goal, extra: int) -> Constraints:
     rows, T = _rows(formulation, limits, goal), formulation.knots
-    extra = 0 if goal.objective(formulation).epigraph is None else 1
     A = in_basis(_matrix(rows, T, formulation.n_v, extra), formulation.free_basis, extra)
     np.negative(A.data, out=A.data)  # the value of a row is b - A x
     b = np.concatenate([np.zeros(0), *(_constants(part) for part in rows)])
@@ -154,9 +159,20 @@ def _quadratic(
 ) -> tuple[sparse.csc_matrix, Array]:
     """Return P (n, n) and q (n,) of half the sum of squares, constants left out."""
     n = (knots * n_v if basis is None else basis.shape[1]) + extra
-    P, q = sparse.csc_matrix((n, n)), np.zeros(n)
+    P, q = None, np.zeros(n)
     for part in squares:
-        band = Band(part.matrix, part.earlier, np.zeros(part.matrix.shape[-2]), len(part.constant))
-        B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
-        P, q = P + sparse.csc_matrix(B.T @ B), q + B.T @ part.constant.ravel()
-    return P, q
+        if basis is None and not extra and not part.earlier and len(part.constant) == knots:
+            own, linear = _of_each_knot(part, knots, n_v)
+        else:
+            band = Band(part.matrix, part.earlier, np.zeros(part.matrix.shape[-2]), len(part.constant))
+            B = in_basis(stacked([band], knots, n_v, extra), basis, extra)
+            own, linear = sparse.csc_matrix(B.T @ B), B.T @ part.constant.ravel()
+        P, q = own if P is None else P + own, q + linear
+    return sparse.csc_matrix((n, n)) if P is None else P, q
+
+
+def _of_each_knot(part: Squares, knots: int, n_v: int) -> tuple[sparse.csc_matrix, Array]:
+    """Return P and q of squares none of which looks at two knots: one block after the other."""
+    matrix = without_rounding(part.matrix)
+    block = Band(gram(matrix), (), np.zeros(n_v), knots, exact=True)
+    return stacked([block], knots, n_v, 0), times(matrix.mT, part.constant).ravel()

@@ -58,7 +58,7 @@ class Certificate(Value):
     y: Array | None = None
     """(m,) the proof of infeasibility, scaled to b'y = -1."""
     rounding: float = 0.0
-    """Optimal: about how much of the gap is rounding of the sums that it is worked out from."""
+    """Optimal: about how much of the gap is rounding of the sums that it is worked out from; 0 where it verifies."""
 
     @property
     def acceptable(self) -> bool:
@@ -85,18 +85,19 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
         float((np.abs(x) - program.variable_bounds).max(initial=0.0)),
     )
     moved = project_on_dual(program, z)
-    stationarity = program.P @ x + program.q + program.A.T @ moved
-    size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(program.P @ x).max(initial=0.0)))
+    Px = program.P @ x
+    stationarity = Px + program.q + program.A.T @ moved
+    size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(Px).max(initial=0.0)))
     dual = float(np.abs(stationarity).max(initial=0.0)) / size
-    half, constant = float(x @ (program.P @ x)) / 2, program.constant
+    half, constant = float(x @ Px) / 2, program.constant
     value, bound = half + float(program.q @ x), -half - float(program.b @ moved)
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
     missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0))
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
-    rounding = float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
+    rounding = 0.0 if verified else float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding=rounding)
 
 

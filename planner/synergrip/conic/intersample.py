@@ -7,6 +7,7 @@ next a load is a straight line, and then nothing else can happen, or a smooth cu
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -63,6 +64,11 @@ class Intersample(Value):
         return self.grid.of(self.corner)
 
     @property
+    def only_knots(self) -> bool:
+        """True when there is nothing to look at but the knots."""
+        return self.exact and not self.corner.any()
+
+    @cached_property
     def all(self) -> Looks:
         """Every instant that is looked at, the knots too, in order."""
         return self.every().grid
@@ -98,11 +104,18 @@ class Intersample(Value):
 
     def every(self) -> Intersample:
         """Return the same instants, all of them in the grid: what happens at them is asked, and nothing between."""
+        if self.exact:
+            return self
         whole = self.grid.and_then(self.curved)
         order = np.argsort(whole.times, kind="stable")
         corner = np.concatenate([self.corner, np.ones(len(self.curved.times), dtype=bool)])[order]
         nothing = np.zeros(0, dtype=np.intp)
         return Intersample(whole.of(order), corner, nothing, 0, whole.of(nothing))
+
+    def at_corners(self) -> Intersample:
+        """Return the knots and the corners alone: nothing is asked of what is curved between them."""
+        nothing = np.zeros(0, dtype=np.intp)
+        return Intersample(self.grid, self.corner, nothing, 0, self.grid.of(nothing))
 
     def departures(self, times: Array, wrench: Array, target: Array) -> tuple[Array, Array]:
         """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""

@@ -99,9 +99,9 @@ class Rows(Value):
         judge.one("kind", self.kind, Kind, "Kind.NONNEGATIVE")
         items = judge.several("items", self.items, Item, 'Item("thumb")')
         height = len(items) * self.dim if is_number(self.dim) else 0
-        for name in ("matrix", "constant", "epigraph"):
-            given, found = getattr(self, name), as_numbers(getattr(self, name))
-            side = {"matrix": -2, "constant": -1, "epigraph": -1}[name]
+        for name, side in (("matrix", -2), ("constant", -1), ("epigraph", -1)):
+            given = getattr(self, name)
+            found = as_numbers(given)
             if found is None or not found.ndim >= -side or found.shape[side] != height:
                 shape = {"matrix": f"({height}, n_v)", "constant": f"(K, {height})", "epigraph": f"({height},)"}[name]
                 why = f"{len(items)} items with dim = {self.dim} have {height} rows"
@@ -188,69 +188,3 @@ def with_room(rows: Rows, room: float) -> Rows:
     heads = np.zeros(rows.constant.shape[1])
     heads[:: rows.dim] = room
     return replace(rows, constant=frozen(rows.constant + heads))
-
-
-@naming_arguments
-def within(
-    limit: str, names: Sequence[str], value: Affine, lower: Array | float, upper: Array | float, unit: Array | float
-) -> list[Rows]:
-    """Return rows ``lower <= value <= upper`` at every knot; infinite bounds add nothing.
-
-    Args:
-        limit: the limit's `key`, under which a proof names it.
-        names: (m) one for each quantity, for people: contacts, joints, synergies or any words.
-        value: m quantities, such as ``formulation.torque``.
-        lower: (m,) or (T, m), or a number for all, in the units of the value; ``-math.inf`` where there is none.
-        upper: likewise; ``math.inf`` where there is none.
-        unit: (m,) or a number: size of each quantity, by which its rows are divided, so that they are near 1 (such as
-            the bound itself); it changes no answer.
-
-    Raises:
-        InputError: names, bounds or units that are none, do not fit the quantities, or contradict each other.
-
-    Example:
-        >>> names = grasp.joints
-        >>> [rows.items[0] for rows in within("torque", names, formulation.torque, -2.0, math.inf, 2.0)]
-        [Item(name='finger1_inner', side='lowest')]
-    """
-    lower, upper, unit = _bounds(limit, names, value, lower=lower, upper=upper, unit=unit)
-    result = []
-    for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
-        keep = np.all(np.isfinite(np.atleast_2d(bound)), axis=0)
-        if not np.any(keep):
-            continue
-        slack = sign * (value.constant - bound) / unit
-        rows = Affine(frozen((sign * value.matrix / unit[:, None])[..., keep, :]), frozen(slack[:, keep]))
-        items = items_of((name for name, kept in zip(names, keep, strict=True) if kept), side)
-        result.append(nonnegative(limit, items, rows))
-    return result
-
-
-def _bounds(limit: object, names: object, value: object, **given: object) -> tuple[Array, ...]:
-    """Return lower bounds, upper bounds and units as arrays, one for each name (and knot), or refuse them."""
-    judge = Arguments("within")
-    judge.text("limit", limit, empty=False)
-    judge.one("value", value, Affine, "formulation.force.after(matrix)")
-    if not isinstance(value, Affine):
-        raise InputError(judge.issues)
-    T, m = value.constant.shape
-    judge.named("names", names, m, "quantity")
-    shapes = {"lower": ((m,), (T, m)), "upper": ((m,), (T, m)), "unit": ((m,),)}
-    found = {}
-    for name, each in given.items():
-        array = as_numbers(each)
-        if array is None or array.shape not in ((), *shapes[name]):
-            judge.refuse(name, f"expected a number, or {m} numbers, one for each quantity; got {described(each)}")
-        elif np.any(np.isnan(array)):
-            judge.refuse(name, "expected numbers, got nan; infinity stands for no bound")
-        else:
-            found[name] = array if array.ndim else np.full(m, float(array))
-    if np.any(~(found.get("unit", np.ones(1)) > 0) | np.isinf(found.get("unit", np.ones(1)))):
-        judge.refuse("unit", "expected sizes greater than 0, finite ones")
-    for name, side, no_bound in (("lower", np.inf, "-math.inf"), ("upper", -np.inf, "math.inf")):
-        if name in found and np.any(found[name] == side):
-            judge.refuse(name, f"no quantity is beyond {side:g}; {no_bound} stands for no bound")
-    judge.finish()
-    if np.any(found["lower"] > found["upper"]):
-        raise InputError.at("within.lower", "some lower bounds are above the upper ones; swap them")
-    return found["lower"], found["upper"], found["unit"]

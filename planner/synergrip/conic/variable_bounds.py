@@ -53,13 +53,12 @@ def _implied(value: Affine, limit: Array) -> Array:
     matrices = value.matrix[..., rows, :] if not rows.all() else value.matrix
     if not matrices.size:
         return np.full(value.matrix.shape[-1], np.inf)
-    if matrices.ndim == 2:
-        return _by_singular_values(matrices, room)
-    inverses, clear = _by_squares(matrices)
+    each = matrices.reshape(-1, *matrices.shape[-2:])
+    inverses, clear = _by_squares(each)
     result = np.abs(inverses) @ room
     if not clear.all():
-        result[~clear] = _by_singular_values(matrices[~clear], room)
-    return np.asarray(result)
+        result[~clear] = _by_singular_values(each[~clear], room)
+    return np.asarray(result if matrices.ndim > 2 else result[0])
 
 
 def _by_singular_values(matrices: Array, room: Array) -> Array:
@@ -71,8 +70,8 @@ def _by_singular_values(matrices: Array, room: Array) -> Array:
 def _by_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Return the pseudo-inverses (T, n, m) of matrices (T, m, n) by their squares, and where these do.
 
-    That is where columns are far from dependent; of one matrix for each knot it is several times as fast as singular
-    values. The ratio of the eigenvalues is at most the product of the sizes of the squares and of their inverse.
+    That is where columns are far from dependent; it is several times as fast as singular values. The ratio of the
+    eigenvalues is at most the product of the sizes of the squares and of their inverse.
     """
     squares = gram(matrices)
     try:
@@ -80,5 +79,5 @@ def _by_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     except np.linalg.LinAlgError:  # of one of them or more
         return np.zeros(matrices.mT.shape), np.zeros(len(matrices), dtype=bool)
     with np.errstate(over="ignore"):
-        ratio = np.linalg.norm(squares, axis=(-2, -1)) * np.linalg.norm(inverses, axis=(-2, -1))
-    return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT)
+        ratio = (squares**2).sum(axis=(-2, -1)) * (inverses**2).sum(axis=(-2, -1))
+    return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT**2)

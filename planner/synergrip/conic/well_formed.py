@@ -119,19 +119,21 @@ def usage_of(limit: Limit, formulation: Formulation, motion: Motion) -> Usage:
     key, usage = f"{type(limit).__name__}.usage", limit.usage(formulation, motion)
     if not isinstance(usage, Usage):
         raise InputError.at(key, f"expected a Usage, got {type(usage).__name__}")
-    value, size = np.asarray(usage.value, dtype=np.float64), np.asarray(usage.size, dtype=np.float64)
-    if not np.array_equal(usage.times, motion.times):
+    value = np.asarray(usage.value, dtype=np.float64)
+    if usage.times is not motion.times and not np.array_equal(usage.times, motion.times):
         raise InputError.at(key, "expected the motion's times; write motion.times")
     if not usage.items or value.shape != (len(motion.times), len(usage.items)):
         wanted = f"a value at each of {len(motion.times)} knots for each of its {len(usage.items)} items"
         raise InputError.at(key, f"expected {wanted} (one or more), got shape {value.shape}")
     if len(set(usage.items)) < len(usage.items):
         raise InputError.at(key, f"expected a name for each item, got {shown(usage.items)}")
-    for name, sizes in (("scale", usage.scale), ("allowance", size)):
+    for name, sizes in (("scale", usage.scale), ("allowance", usage.allowance)):
+        if sizes is None:
+            continue
         bad = ~((sizes > 0) & (sizes < np.inf))
-        if np.any(bad):
+        if bad.any():
             wanted = f"finite sizes greater than 0 as {name}"
             raise InputError.at(key, f"expected {wanted}, got {float(sizes[bad][0]):g}")
-    if np.any(np.isnan(value)) or np.any(np.isnan(usage.lower)) or np.any(np.isnan(usage.upper)):
+    if any(np.isnan(each).any() for each in (value, usage.lower, usage.upper)):
         raise InputError.at(key, "expected numbers as value, lower and upper, got nan")
     return usage

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
-from synergrip.documents.judging import place_of
+from synergrip.documents.places import place_of
 from synergrip.errors import Issue, UnknownNameError, one_of
 
 V = TypeVar("V")

@@ -10,7 +10,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from synergrip.documents.validation import LARGEST_NUMBER, shown
-from synergrip.errors import Issue, UnknownPlaceError, raise_issues
+from synergrip.errors import Issue, raise_issues
 from synergrip.linalg import Array, frozen
 
 REAL = "iuf"
@@ -131,51 +131,28 @@ class Arguments:
         if not is_list(value):
             self.refuse(name, f"expected a list such as [{example}], got {described(value)}")
             return ()
+        if all(issubclass(kind, of) and not _fields_of(kind) for kind in {type(each) for each in value}):
+            return tuple(value)  # as names are: without fields, none of which can be missing
         found = [self.one(f"{name}[{index}]", each, of, example) for index, each in enumerate(value)]
         return tuple(each for each in found if each is not None)
 
 
-def place_of(key: str, value: Any, count: int) -> int:
-    """Return a place among `count`, counted from 0; from the end when it is negative, as Python does.
-
-    Raises:
-        UnknownPlaceError: there is no such place.
-    """
-    if not is_whole(value) or not -count <= value < count:
-        there = f"expected a place from 0 to {count - 1}" if count else "there is none"
-        raise UnknownPlaceError([Issue(f"{there}, got {described(value)}", key=key)])
-    return int(value) % count
-
-
-def places_of(key: str, value: Any, count: int) -> Any:
-    """Return places among `count` as arrays take them: a slice as it is, True or False for each as the places of True.
-
-    Raises:
-        UnknownPlaceError: something else, or a place that is not among them.
-    """
-    if isinstance(value, slice):
-        if all(end is None or is_whole(end) for end in (value.start, value.stop, value.step)) and value.step != 0:
-            return value
-    elif isinstance(value, np.ndarray) and value.ndim == 1:
-        if value.dtype.kind == "b" and len(value) == count:
-            return np.flatnonzero(value)
-        if value.dtype.kind in "iu" and np.all((value >= -count) & (value < count)):
-            return value
-    elif is_list(value) or isinstance(value, range):
-        if len(value) == count and all(isinstance(each, bool | np.bool_) for each in value):
-            return np.flatnonzero(value)
-        if all(is_whole(each) and -count <= each < count for each in value):
-            return np.array(value, dtype=np.intp)
-    last = f"from 0 to {count - 1}" if count else "of which there are none"
-    wanted = f"expected places {last}: whole numbers, a slice, or True or False for each of {count}"
-    raise UnknownPlaceError([Issue(f"{wanted}; got {described(value)}", key=key)])
-
-
 def unfinished(value: Any) -> str:
     """Return what a value lacks whose class has an `__init__` of its own that leaves the inherited one out."""
-    kind, known = type(value), fields(value) if is_dataclass(value) else ()
-    left = next((each.name for each in known if not hasattr(value, each.name)), "")
+    kind = type(value)
+    left = next((name for name in _fields_of(kind) if not hasattr(value, name)), "")
     return left and f"{article(kind.__name__)} without {left}; call super().__init__(...) in its __init__"
+
+
+_FIELDS: dict[type, tuple[str, ...]] = {}
+"""Names of the fields of each class that a value was judged of: they are asked for again and again."""
+
+
+def _fields_of(kind: type) -> tuple[str, ...]:
+    """Return the names of the fields of a class; none where it is no dataclass."""
+    if kind not in _FIELDS:
+        _FIELDS[kind] = tuple(each.name for each in fields(kind)) if is_dataclass(kind) else ()
+    return _FIELDS[kind]
 
 
 def described(value: object) -> str:

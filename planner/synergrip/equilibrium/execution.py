@@ -62,6 +62,14 @@ class Execution(Value):
         """Whether all instants were reached."""
         return len(self.states) == len(self.times)
 
+    def first(self, count: int) -> Execution:
+        """Return the execution of the first instants alone, all of them reached."""
+        if count == len(self.times):
+            return self
+        kept = self.kept[:count]
+        path = self.path.taken(np.arange(int(kept[-1]) + 1))
+        return Execution(self.times[:count], self.references[:count], path, kept, self.iterations)
+
     @cached_property
     def maps(self) -> Maps:
         """(K, ...) how forces and motions answer to references and load at the equilibria."""

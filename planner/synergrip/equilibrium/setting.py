@@ -43,11 +43,16 @@ class Setting(Value):
     points: tuple[tuple[str, Array], ...]
     """The point of a link that each contact is about: link, and (3,) in its coordinates [m]."""
     links: Array  # (n_c, 3, 3) rotations of the links at the start
-    contact_model: str
-    """"rolling" when any contact rolls, else "fixed"."""
+    rolls: tuple[bool, ...]
+    """Which contacts roll."""
     early: Array | float = 0.0
     """(n_l,) by how much springs of contacts are stretched beyond what links and object say [m, rad]: along the normal
     of a contact that meets the object early, and below 0 of one that is late; 0 where all are in place."""
+
+    @property
+    def contact_model(self) -> str:
+        """The word for it: "rolling" when any contact rolls, else "fixed"."""
+        return "rolling" if any(self.rolls) else "fixed"
 
     @cached_property
     def start(self) -> States:
@@ -110,8 +115,8 @@ def setting(grasp: Grasp, contact_model: ContactModel = "rolling", response: Res
 
     Args:
         grasp: on a hand.
-        contact_model: "rolling": pads with a radius roll on objects with a shape; "fixed": all contacts stay where they
-            are on link and object. Contacts without friction slide in both.
+        contact_model: "rolling": pads with a radius roll on objects with a shape, but for patches, which lie flat;
+            "fixed": all contacts stay where they are on link and object. Contacts without friction slide in both.
         response: of the grasp, when it is known.
 
     Raises:
@@ -142,17 +147,21 @@ def setting(grasp: Grasp, contact_model: ContactModel = "rolling", response: Res
         for touch, motion, point, pad in zip(held.touches, motions, about, pads, strict=True)
     )
     links = np.array([motion.rotation for motion in motions])
-    found = "rolling" if "rolling" in kinds else "fixed"
-    return Setting(grasp, held, start, _model(grasp, held, kinds, about), points, links, found)
+    rolls = tuple(kind == "rolling" for kind in kinds)
+    return Setting(grasp, held, start, _model(grasp, held, kinds, about), points, links, rolls)
 
 
 def _kind(contact: Contact, touch: Touch, held: Held, contact_model: ContactModel) -> Kind:
-    """Return how a contact moves."""
-    shape = held.body.shape
-    if shape is not None and contact.kind.components == ("n",):
+    """Return how a contact moves.
+
+    One that transmits moments about its tangents lies flat, and stays so until it tips: no part of it lifts off, as the
+    rear of a tip that rolls does, and what turns the link against the object bends its springs.
+    """
+    shape, kind = held.body.shape, contact.kind
+    if shape is not None and kind.components == ("n",):
         return "sliding"
     rolls = shape is not None and touch.pad.radius and contact_model == "rolling" and touch.normals == "object"
-    return "rolling" if rolls else "stuck"
+    return "rolling" if rolls and not kind.lies_flat else "stuck"
 
 
 def _model(grasp: Grasp, held: Held, kinds: Sequence[Kind], points: Array) -> Model:

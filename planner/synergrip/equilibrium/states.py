@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, places_of
+from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.places import places_of
 from synergrip.linalg import Array
 from synergrip.values import Value
 from synergrip.vectors import rotation_vectors

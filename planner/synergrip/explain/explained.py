@@ -19,14 +19,13 @@ from synergrip.explain.along import FIRST, more_knots, near_enough, tried, tried
 from synergrip.explain.explanation import STAGES, Explanation
 from synergrip.explain.long_form import completed
 from synergrip.explain.refused import refused
-from synergrip.explain.repairs import Repair, by_size, ranked, repaired
+from synergrip.explain.repairs import UNLIMITED, Repair, by_size, ranked, repaired
 from synergrip.explain.synergies.candidates import INTERRUPTED
 from synergrip.explain.when import NOT_KNOWN, when
 from synergrip.explain.words import blamed, most_margin
 from synergrip.log import LONG
 from synergrip.planning.outcome import Infeasible, Unknown
 from synergrip.planning.pace import BRIEF, SHORT, WHOLE, Effort
-from synergrip.planning.walked import MORE_KNOTS
 
 BEST = 3
 """Repairs of the short form."""
@@ -35,6 +34,9 @@ UNANSWERED = "solver"
 many times as long."""
 ROUGH = 2e-3
 """Share of a change within which the short form bisects, on a hand, which is asked for 2 % more anyway."""
+PASSES, FOR_EACH = 4, 8
+"""Passes along the motion that the short form makes in all where planning ended at the start posture, and how many more
+for each program that planning took: an answer costs some twenty times what planning did, at most."""
 SAMPLED = "allow.scenarios."
 """How the keys begin of what is tried first where samples of the grasp miss."""
 SMALL = math.log(FIRST[0])
@@ -87,7 +89,10 @@ def _explained(no: Infeasible | Unknown, *, short: bool, heard: Callable[[Repair
     helping = ranked([each for each in found if each.size > 0])
     walked = isinstance(no, Unknown) and no.stage != UNANSWERED
     most, effort = (BEST, WHOLE if walked else SHORT) if short else (None, WHOLE)
-    planned, interrupted = _as_found(repaired(helping, posed, most=most, prove=not short, effort=effort, heard=heard))
+    passes = PASSES + FOR_EACH * sum(each.attempts for each in no.decisions) if effort.brief else UNLIMITED
+    planned, interrupted = _as_found(
+        repaired(helping, posed, most=most, prove=not short, effort=effort, passes=passes, heard=heard)
+    )
     others: list[Repair] = []
     if isinstance(no, Unknown) and (walked or not short) and not interrupted:
         known_to_help = short and any(each.verified for each in planned)
@@ -133,7 +138,7 @@ def _of_the_motion(
     """Return what is known of a motion that the start posture has a plan for, and the hand that moves has none."""
     cause = _cause(no, (), [])
     numbers = sorted(dials(asked, no.task, posed.analysis), key=lambda dial: not dial.key.startswith(SAMPLED))
-    knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.why.endswith(MORE_KNOTS) else ()
+    knots = more_knots(asked, heard, BRIEF if short else WHOLE) if no.between_only else ()
     found, interrupted = _as_found(knots)
     if not interrupted:
         more, interrupted = _tried(no, asked, posed, numbers, heard, short=short)

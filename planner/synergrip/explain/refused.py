@@ -26,8 +26,10 @@ from synergrip.statics.analysis import Analysis
 from synergrip.tasks.control import ControlError, most_controlled, written
 from synergrip.tasks.tracking import RIGID_TOLERANCE, out_of_reach, target_displacement, wish_size
 
-FEW = 3
+FEW = 2
 """Candidates for missing synergies of the short form."""
+BRIEFLY = replace(SHORT, passes=2)
+"""How much its tolerance is tried for: a refusal itself takes no program, so that each pass is many times as long."""
 
 
 def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanation:
@@ -42,7 +44,7 @@ def refused(no: Infeasible | Unknown, asked: Asked, *, short: bool) -> Explanati
     known = Explanation(cause, no.why, (), (), (), NOT_KNOWN, not short)
     try:
         if no.analysis is not None and no.stage in ("direction", "count") and not _of_control(no):
-            known = _out_of_reach(known, no, no.analysis, asked, SHORT if short else WHOLE)
+            known = _out_of_reach(known, no, no.analysis, asked, BRIEFLY if short else WHOLE)
         if no.analysis is not None and _of_control(no):
             known = replace(known, repairs=tuple(_less_control(no.analysis, asked, cause)))
         return replace(known, missing_synergies=_missing(no, short=short))

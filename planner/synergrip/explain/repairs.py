@@ -12,7 +12,7 @@ from synergrip.changes.at_a_value import between, outcome_at, with_room
 from synergrip.changes.least_change import LeastChange, short_of
 from synergrip.conic.limits.dial import Cause, Dial
 from synergrip.documents.naming import made_by
-from synergrip.planning.outcome import Outcome, Plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.values import Value
 
@@ -21,7 +21,11 @@ SHORT = 1e-3
 """Share of a value short of which there is proven to be no plan."""
 ENOUGH = (0.02, 0.1)
 """How much farther than the least change of the start posture is tried in the short form, where the hand that moves
-needs more; the first alone once some change has a plan: each is one along the motion."""
+needs more; the first alone once some change has a plan, the last alone once one has none with either: each is one along
+the motion."""
+AROUND, WORTH, UNLIMITED = 2, 2, 10**9
+"""For how many passes a plan counts beside its own, and with how many left it is still worth it to try another value;
+as many as none ever takes."""
 MORE = (0.0, 0.005, *ENOUGH, 0.2, 0.5, 1.0)
 """The same in the long form, which tells no more than the short one."""
 NEAR = 0.02
@@ -64,6 +68,8 @@ class Repair(Value):
     """What the linear model of the start posture takes at least; None where that was not looked for."""
     in_vain: float | None = None
     """The nearest smaller change that was tried and that no plan was found with; None where none was."""
+    tried: bool = True
+    """Whether it was planned with; the short form takes no longer than goes with a plan."""
 
     @classmethod
     def of(cls, dial: Dial[Asked], to: float, outcome: Outcome | None, *, proven: bool = False) -> Repair:
@@ -94,7 +100,7 @@ def by_size(every: Sequence[T], size: Callable[[T], float], cause: Callable[[T],
 
 def repaired(
     changes: Sequence[LeastChange], posed: Posed, *, most: int | None = None, prove: bool = True,
-    effort: Effort = WHOLE, heard: Callable[[Repair], None] = lambda repair: None,
+    effort: Effort = WHOLE, passes: int = UNLIMITED, heard: Callable[[Repair], None] = lambda repair: None,
 ) -> Iterator[Repair]:  # fmt: skip
     """Yield the repair of each change, planned again, as it is found.
 
@@ -104,21 +110,24 @@ def repaired(
         most: how many are planned again at most; the others are left out.
         prove: whether what is short of each is looked at, too, and more values are tried.
         effort: how much is tried along the motion.
+        passes: how many are made along it for all of them at most; each plan counts as `AROUND` beside its own.
         heard: is told of each.
     """
     farther: tuple[float, ...] = MORE if prove else ENOUGH
+    left = passes
     for change in changes[:most]:
-        search, stopped = _Search(change), False
+        search, stopped = _Search(change, effort, left), False
         try:
-            for known in _tries(search, posed, farther, effort, nearer=prove):
-                search = known
+            for known in _tries(search, posed, farther, nearer=prove):
+                search, effort, left = known, known.effort, known.left
         except KeyboardInterrupt:
             if search.plan is None:
                 raise
             stopped = True
         proven = prove and not stopped and short_of(change.dial, search.value, posed, SHORT)
         repair = search.repair(proven=proven)
-        farther = ENOUGH[:1] if repair.verified and not prove else farther
+        if farther == ENOUGH and repair.tried:
+            farther = ENOUGH[:1] if repair.verified else ENOUGH[1:]
         heard(repair)
         yield repair
         if stopped:
@@ -130,6 +139,10 @@ class _Search(Value):
     """Values of a number that were planned with."""
 
     change: LeastChange
+    effort: Effort
+    """How much is tried along the motion for the next one."""
+    left: int
+    """How many passes are left for it and for what is tried after it."""
     to: float | None = None
     """The nearest one with a plan, `plan`."""
     plan: Outcome | None = None
@@ -144,33 +157,46 @@ class _Search(Value):
         assert self.change.value is not None
         return beyond(self.change.dial, self.change.value, 0.0) if self.to is None else self.to
 
-    def tried(self, value: float, effort: Effort) -> _Search:
+    def tried(self, value: float) -> _Search:
         """Return it with another value."""
+        effort = replace(self.effort, passes=min(self.effort.passes, self.left - AROUND))
         outcome = outcome_at(self.change.dial, value, effort)
-        if isinstance(outcome, Plan):
-            return replace(self, to=value, plan=outcome, last=outcome)
-        return replace(self, in_vain=value, last=outcome)
+        passes = 0 if outcome is None or isinstance(outcome, Infeasible) else outcome.passes
+        found = replace(self, effort=_from(outcome, self.effort), left=self.left - AROUND - passes, last=outcome)
+        return replace(found, to=value, plan=outcome) if isinstance(outcome, Plan) else replace(found, in_vain=value)
 
     def repair(self, *, proven: bool) -> Repair:
         """Return what is told."""
         outcome = self.last if self.plan is None else self.plan
         found = Repair.of(self.change.dial, self.value, outcome, proven=proven)
-        return replace(found, least=self.change.value, in_vain=None if self.plan is None else self.in_vain)
+        tried = self.to is not None or self.in_vain is not None
+        vain = None if self.plan is None else self.in_vain
+        return replace(found, least=self.change.value, in_vain=vain, tried=tried)
 
 
-def _tries(
-    search: _Search, posed: Posed, farther: Sequence[float], effort: Effort, *, nearer: bool
-) -> Iterator[_Search]:
+def _from(outcome: Outcome | None, effort: Effort) -> Effort:
+    """Return a brief effort that begins where another one ended: another value of a number takes much the same motion.
+
+    It begins at what was the end of the first one, in vain or not, until there is a plan.
+    """
+    executed = outcome.executed if isinstance(outcome, Plan | Unknown) else None
+    known = effort.near is not None and not isinstance(outcome, Plan)
+    return effort if executed is None or known or not effort.brief else replace(effort, near=executed)
+
+
+def _tries(search: _Search, posed: Posed, farther: Sequence[float], *, nearer: bool) -> Iterator[_Search]:
     """Yield what is known of a change after each value that is tried: beyond the least one, and then nearer again."""
     dial, least = search.change.dial, search.change.value
     assert least is not None
     for more in farther if posed.analysis.grasp.held is not None else (0.0,):
-        search = search.tried(beyond(dial, least, more), effort)
+        if search.left < AROUND + WORTH:
+            break
+        search = search.tried(beyond(dial, least, more))
         yield search
         if search.plan is not None:
             break
     while nearer and (value := _between(search)) is not None:
-        search = search.tried(value, effort)
+        search = search.tried(value)
         yield search
 
 

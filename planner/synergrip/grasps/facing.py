@@ -18,9 +18,9 @@ CLEARLY = 0.1
 def away(contacts: Sequence[Contact]) -> Array:
     """Return whether each contact (n_c,) pushes away from the middle of all of them."""
     points = np.array([contact.point for contact in contacts])
-    normals = np.array([contact.normal for contact in contacts])
+    frames = np.array([contact.frame for contact in contacts])
     inward = points.mean(axis=0) - points
-    return np.asarray(np.sum(inward * normals, axis=1) < -CLEARLY * np.linalg.norm(inward, axis=1))
+    return np.asarray(np.sum(inward * frames[:, :, 0], axis=1) < -CLEARLY * np.linalg.norm(inward, axis=1))
 
 
 def facing_notes(grasp: Grasp) -> Iterator[str]:
@@ -45,7 +45,8 @@ def frame_notes(grasp: Grasp) -> Iterator[str]:
     """
     outward = list(facing_notes(grasp))
     yield from outward
-    left = [shortened(contact.name) for contact in grasp.contacts if np.linalg.det(contact.frame) < 0]
+    turns = np.linalg.det(np.array([contact.frame for contact in grasp.contacts]))
+    left = [shortened(contact.name) for contact, turn in zip(grasp.contacts, turns, strict=True) if turn < 0]
     if left and not outward:  # which reversed normals alone explain
         yield (
             f"the frame (n, t, o) of {', '.join(left)} is left-handed, o is -n x t: right when G, J and C_s all have "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -153,7 +154,7 @@ class Grasp(ByContent):
         """Number of synergies."""
         return int(self.S.shape[1])
 
-    @property
+    @cached_property
     def rows(self) -> tuple[slice, ...]:
         """The rows of lambda that belong to each contact."""
         ends = np.cumsum([contact.n_rows for contact in self.contacts])

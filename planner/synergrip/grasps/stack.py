@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, described, place_of, places_of
+from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.places import place_of, places_of
 from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.postures import Postures

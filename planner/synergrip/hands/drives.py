@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from synergrip.linalg import Array
 from synergrip.values import ByContent
 
@@ -25,6 +27,16 @@ class Drives(ByContent):
     """(n_a, n_q) joint torque per force of each actuator; None when nothing says what an effort is."""
     forces: Array | None = None
     """(n_a,) largest force of each actuator; infinity when none is stated."""
+    stiffness: Array | None = None
+    """(n_q, n_q) of all springs that are read, those of joints that motors hold, too [N m/rad]; None when not known."""
+    pulled: Array | None = None
+    """(n_q,) joint torques of these springs with all joints at 0 [N m]."""
+
+    def spring_torques(self, q: Array) -> Array:
+        """Return what (n_q,) joints have to carry beside contacts so that springs do not move them from q [N m]."""
+        if self.stiffness is None or self.pulled is None:
+            return np.zeros(len(q))
+        return np.asarray(self.stiffness @ q - self.pulled)
 
     @property
     def idle(self) -> tuple[str, ...]:

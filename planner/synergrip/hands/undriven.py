@@ -9,6 +9,7 @@ import numpy as np
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError
 from synergrip.hands.arm import palm_of
+from synergrip.hands.drives import Drives
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies.matrix import JOINTS
 from synergrip.hands.units import SI_UNITS
@@ -16,6 +17,8 @@ from synergrip.linalg import Array, frozen
 
 AWAY = 1e-6
 """Distance of a joint from where its spring rests that is no rounding [rad or m]."""
+HELD = 0.01
+"""Share of a torque or effort limit that springs may take of motors without a note."""
 MOST_NAMED = 12
 """Joints named in a message."""
 MOST_REASONS = 3
@@ -99,6 +102,25 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
         yield (
             f"joint '{name}' is at {factor * _value(hand, q, name):.4g} {unit}, and its spring rests at "
             f"{factor * drives.sprung[name]:.4g} {unit}: the force of the spring there is not part of the plan"
+        )
+    yield from _against_springs(hand, drives, synergies, q)
+
+
+def _against_springs(hand: Hand, drives: Drives, synergies: SynergySet, q: Array) -> Iterator[str]:
+    """Yield a note when motors hold springs back by more than a small share of what they can."""
+    torques = drives.spring_torques(q)
+    largest = np.array([joint.torque_limit for joint in hand.joints])
+    by_joints = np.max(np.abs(torques) / largest, initial=0.0, where=np.any(synergies.S != 0, axis=1))
+    efforts = synergies.S.T @ torques
+    by_motors = np.max(np.abs(efforts) / synergies.effort_limits, initial=0.0)
+    if (share := max(by_joints, by_motors)) > HELD:
+        named = zip(synergies.synergies, efforts, strict=True)
+        pulls = [f"'{name}' with {effort:.3g}" for name, effort in named if effort]
+        more = f" and {len(pulls) - MOST_NAMED} more" if len(pulls) > MOST_NAMED else ""
+        yield (
+            f"motors hold springs of the model file back in this posture: {', '.join(pulls[:MOST_NAMED])}{more} "
+            f"(sigma), up to {share:.0%} of what they can. joint_torque and actuator_effort count what contacts ask "
+            "for alone: lower these limits by as much"
         )
 
 

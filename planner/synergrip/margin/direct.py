@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from synergrip.changes.asked import Asked, Posed
-from synergrip.changes.at_a_value import between, first_plan, least_with_plan, outcome_at, posed_at, with_room
+from synergrip.changes.at_a_value import first_plan, posed_at
 from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.normal_force import NormalForce, least_normal_force
+from synergrip.margin.along import NEAR, Search
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.weight_alone import as_weight, is_weight
 from synergrip.planning.outcome import Plan
@@ -21,21 +22,17 @@ from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
 HEAVIEST, FACTOR = "heaviest_kg", "load_factor"
-WHOLE_WAY, NEARER = 0.999, (0.4, 0.7, 0.97)
-"""Shares of the way to the extreme of the start posture that are tried on a hand that moves: first almost all of it;
-where that has no plan the others, halved until the last one with a plan is known."""
-FARTHER = (1.1, 1.5)
-"""Shares that are tried of a motion where it has a plan at the extreme of the start posture."""
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
-MORE = (1e-5, 1e-4, 2e-3, 2e-2, 1e-1)
-"""Shares by which a bound is wider than what the plan uses that is there; the first mostly has one, and the least
-of the others with a plan is found by halves."""
+MORE = (1e-5, 2e-3, 2e-2, 1e-1)
+"""Shares by which a bound is wider than what the plan uses that is there: the first with a plan is told."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
-HALVES, NEAR = 1, 0.02
-"""How often it is halved, if nothing else is said; not where they are nearer than this share of the number. A
-bound is not looked for along the motion where a plan that was made without it is as near to its end."""
+TRIES, WIDE = 3, 0.25
+"""How many values are tried along the motion, if nothing else is said, and one more where a value with a plan and one
+without are farther from each other than this share of the number; two more where no other value has had a plan.
+A bound is not looked for along the motion where a plan that was made without it is as near to its end as two values
+that are near each other."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,8 +47,8 @@ class Wanted(Value):
     """Why there is none."""
     per: float = 1.0
     """What the values of the dial are divided by."""
-    halves: int = HALVES
-    """How often what lies between a value with a plan and one where none was found is halved, on a hand that moves."""
+    tries: int = TRIES
+    """How many values are tried on a hand that moves."""
 
 
 def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
@@ -108,16 +105,20 @@ def direct(numbers: Iterable[Wanted], asked: Asked, plan: Plan) -> Iterator[Dire
         asked: what is asked, limits filled in.
         plan: of it.
     """
-    posed, weight = asked.posed(plan.analysis), None
+    posed = asked.posed(plan.analysis)
+    found: dict[str, DirectNumber] = {}
     for each in numbers:
         if each.dial is None or posed is None:
             yield DirectNumber.none(each.name, each.unit, each.absent)
             continue
-        if each.name == FACTOR and weight is not None and is_weight(asked, plan.task):
-            yield as_weight(each.name, each.dial, *weight)
+        if each.name == FACTOR and is_weight(asked, plan.task):
+            mass = next(other for other in wanted(asked, plan) if other.name == HEAVIEST)
+            assert mass.dial is not None
+            heaviest = found.get(HEAVIEST) or number_of(mass, mass.dial, posed, plan)
+            yield as_weight(each.name, each.dial, mass.dial, heaviest)
             continue
-        yield (found := number_of(each, each.dial, posed, plan))
-        weight = (each.dial, found) if each.name == HEAVIEST else weight
+        found[each.name] = number_of(each, each.dial, posed, plan)
+        yield found[each.name]
 
 
 def number_of(of: Wanted, dial: Dial[Asked], posed: Posed, plan: Plan) -> DirectNumber:
@@ -150,8 +151,7 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial = found.dial
     if dial.cause not in OF_PLAN:
         return _ends(of, found, dial.value, plan)
-    first, *rest = (dial.rounded(dial.value * (1 + more)) for more in MORE)
-    attained = first_plan(dial, [first], BRIEF) or least_with_plan(dial, rest, BRIEF)
+    attained = first_plan(dial, [dial.rounded(dial.value * (1 + more)) for more in MORE], BRIEF)
     if attained is None:
         more = f"up to {MORE[-1]:.0%} more than the plan uses"
         return DirectNumber.none(of.name, of.unit, f"no plan verified with {more}")
@@ -186,50 +186,9 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     """Return the number of the hand that moves: the last value of some with a plan, and the first without."""
     dial, end = found.dial, found.value
     assert end is not None
-    search = _Search(dial, end, dial.value, plan, None).tried(WHOLE_WAY)
-    rest: Sequence[float] = NEARER
-    while search.bad is not None and rest:
-        middle, before = len(rest) // 2, search.good
-        search = search.tried(rest[middle])
-        rest = rest[:middle] if search.good == before else rest[middle + 1 :]
+    search = Search.of(dial, end, plan).over(of.tries)
     if search.best is plan and dial.cause in OF_PLAN:
         return _near(of, found, plan)
-    if search.bad is None and np.any(plan.task.target.values):
-        for share in FARTHER:
-            search = search.tried(share)
-            if search.bad is not None:
-                break
-    for _ in range(of.halves):
-        search = search.halved()
+    search = search.on(of.tries + 1, WIDE)
+    search = search.on(of.tries + 2) if search.best is plan else search
     return _ends(of, found, search.good, search.best, search.bad)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class _Search(Value):
-    """Values of a number that were tried along the motion."""
-
-    dial: Dial[Asked]
-    end: float
-    """Where the start posture ends."""
-    good: float
-    """The last one with a plan, `best`."""
-    best: Plan
-    bad: float | None
-    """The nearest one without."""
-
-    def tried(self, share: float) -> _Search:
-        """Return it with the value at a share of the way from what is asked to the end of the start posture."""
-        value = with_room(self.dial, self.dial.value + share * (self.end - self.dial.value))
-        return self._with(value) if value > 0 else self
-
-    def halved(self) -> _Search:
-        """Return it with the value between those with and without a plan, as many times the one as the other of it."""
-        near = self.bad is None or abs(self.good - self.bad) <= NEAR * abs(self.good)
-        return self if near or self.bad is None else self._with(between(self.good, self.bad))
-
-    def _with(self, value: float) -> _Search:
-        value = self.dial.rounded(value)
-        outcome = outcome_at(self.dial, value, BRIEF)
-        if isinstance(outcome, Plan):
-            return replace(self, good=value, best=outcome)
-        return replace(self, bad=value)

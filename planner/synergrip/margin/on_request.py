@@ -19,8 +19,8 @@ from synergrip.tasks.task import Task
 
 FIRST_STEPS = (1e-2, 1e-4, 1e-6)
 """Shares of the size of the grasp by which the object is moved at first along a rigid motion, until there is a plan."""
-HALVES = 5
-"""How often it is halved where the hand that moves does not come as far: the first step is a small one."""
+TRIES = 8
+"""How many values are tried where the hand that moves does not come as far: the first step is a small one."""
 SIGNS = {"forward": 1.0, "back": -1.0}
 
 
@@ -64,7 +64,7 @@ def _amplitude(asked: Asked, plan: Plan, mode: int, sign: float) -> DirectNumber
             continue
         first = begun.outcome(BRIEF)
         if isinstance(first, Plan):
-            found = number_of(Wanted(name, unit, dial, "", halves=HALVES), dial, posed, first)
+            found = number_of(Wanted(name, unit, dial, "", tries=TRIES), dial, posed, first)
             return _with_displacement(found, plan, mode, sign)
     return DirectNumber.none(name, unit, why or f"no plan was found even {FIRST_STEPS[-1] * length * 1e9:.2g} nm away")
 

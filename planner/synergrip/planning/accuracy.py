@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -28,6 +28,10 @@ _TOLD = {
     f"d{what}_{cause}": f"{does} to the {word}" for what, word in _WORDS.items() for cause, does in _CAUSES.items()
 }
 """Map by its name -> what it says, in words."""
+
+
+RESPONSE = "response"
+"""How the check of the response is called."""
 
 
 class InDoubtError(SelfCheckError):
@@ -61,23 +65,24 @@ def refuse_doubtful_response(response: Response) -> None:
         raise InDoubtError("; ".join(accuracy_notes(response)))
 
 
-def refuse_doubtful_forces(response: Response, motion: Motion) -> None:
-    """Refuse to judge a motion whose forces are not known well enough.
+def refuse_doubtful_forces(response: Response, checks: Iterable[Check]) -> None:
+    """Refuse to judge a motion whose forces are not known well enough, by its check of the response.
 
     Raises:
         InDoubtError: with the reason.
     """
-    doubt = _forces_in_doubt(response, motion)
-    if doubt > RELIED_ON:
-        why = f"the forces of the plan are known to {doubt:.0e} of their size, too little to say that the limits hold"
-        raise InDoubtError("; ".join((why, *accuracy_notes(response))))
+    for check in checks:
+        if check.name == RESPONSE and not check.passed:
+            known = f"the forces of the plan are known to {check.error:.0e} of their size"
+            why = f"{known}, too little to say that the limits hold"
+            raise InDoubtError("; ".join((why, *accuracy_notes(response))))
 
 
 def response_check(response: Response, motion: Motion) -> Iterator[Check]:
     """Yield the check of the response itself when there is anything to tell of it."""
     doubt = _forces_in_doubt(response, motion)
     if doubt > SHOWN:
-        yield Check("response", doubt, RELIED_ON)
+        yield Check(RESPONSE, doubt, RELIED_ON)
 
 
 def _forces_in_doubt(response: Response, motion: Motion) -> float:

@@ -43,6 +43,9 @@ def _from_plan(walker: Walker, linear: Motion) -> Walk:
 def _on_from(fewer: FewerKnots, there: Walk, smooth: Array) -> Walk | None:
     """Return the walk of all knots that one of some of them leads to; None where it leads nowhere.
 
+    Where little is tried, one that leads nowhere is how it ends: passes over all knots from the same plan hardly ever
+    arrive where those over some of them do not.
+
     Args:
         fewer: whose knots some of them are.
         there: the walk at these.
@@ -51,13 +54,16 @@ def _on_from(fewer: FewerKnots, there: Walk, smooth: Array) -> Walk | None:
     Raises:
         KeyboardInterrupt: it was interrupted, and what it had come to ends before the last knot.
     """
-    if not fewer.walker.arrived(there) and not there.interrupted:
+    whole, leads = fewer.whole, fewer.walker.arrived(there) or there.interrupted
+    if not leads and whole.effort.rounds:
         return None
     begun = fewer.at_all_knots(there, smooth)
     if begun is None and there.interrupted:
         raise KeyboardInterrupt(f"{there.come}, the hand does not get through all knots yet")
-    whole = None if begun is None else fewer.whole.on(begun)
-    return whole if whole is not None and _done(fewer.whole, whole) else None
+    if begun is None or not leads:
+        return begun
+    walk = whole.on(begun)
+    return walk if _done(whole, walk) or not whole.effort.rounds else None
 
 
 def _hold(walker: Walker, linear: Motion) -> Array:

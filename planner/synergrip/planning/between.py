@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,16 +94,33 @@ class Between(Value):
                 yield usage, beyond
 
 
-def between(task: TimedTask, analysis: Analysis, formulation: Formulation, motion: Motion) -> Between | None:
-    """Look at a plan between its knots; None when there is nothing between them, or no more is known."""
+def between(
+    task: TimedTask,
+    analysis: Analysis,
+    formulation: Formulation,
+    motion: Motion,
+    at_knots: Sequence[Usage] | None = None,
+) -> Between | None:
+    """Look at a plan between its knots; None when there is nothing between them, or no more is known.
+
+    Args:
+        task: whose plan it is.
+        analysis: of the grasp.
+        formulation: of the task.
+        motion: that the plan makes.
+        at_knots: what it uses of every limit there, if that is known: all there is to see where nothing bends between.
+    """
     intersample = formulation.intersample or intersample_of(task, analysis)
     if intersample is None:
         return None
-    looks = intersample.all
-    dz_r = interpolated(looks.times, task.times, motion.dz_r)
-    there = forward(analysis.response, looks.times, dz_r, looks.wrench)
-    dense = replace(formulation, times=looks.times, wrench=looks.wrench, target=looks.target)
-    usages = tuple(usage_of(limit, dense, there) for limit in task.all_limits if not limit.couples_knots)
+    looks, of_instants = intersample.all, [not limit.couples_knots for limit in task.all_limits]
+    if intersample.only_knots and at_knots is not None:
+        usages = tuple(compress(at_knots, of_instants))
+    else:
+        dz_r = interpolated(looks.times, task.times, motion.dz_r)
+        there = forward(analysis.response, looks.times, dz_r, looks.wrench)
+        dense = replace(formulation, times=looks.times, wrench=looks.wrench, target=looks.target)
+        usages = tuple(usage_of(limit, dense, there) for limit in compress(task.all_limits, of_instants))
     scale, (load, path) = analysis.response.scale, intersample.departures(task.times, task.wrench, formulation.target)
     loads, paths = (scale.wrench(load), scale.wrench(looks.wrench)), (scale.twist(path), scale.twist(looks.target))
     size = float(np.linalg.norm(paths[1], axis=1).max(initial=0.0))

@@ -146,7 +146,7 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     off = _off(task, times, reached[1], formulation)
     tracking = Check(RIGID, float(off.max(initial=0.0)), max(task.tolerance, TRACKED))
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
-    found = between(there, analysis, formulation, motion)
+    found = between(there, analysis, formulation, motion, usages)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
     elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)

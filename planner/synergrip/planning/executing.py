@@ -17,7 +17,7 @@ from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
 from synergrip.statics.response import Maps, Response
-from synergrip.tasks.pushes import pushes_in
+from synergrip.tasks.pushes import pushes_in, shares_in_order
 from synergrip.tasks.timed_task import TimedTask
 
 
@@ -82,10 +82,11 @@ def sag_of(maps: Maps, wrench: Array, start: Analysis) -> Array:
 
 
 def loads(task: TimedTask, times: Array, wrench: Array) -> Loads:
-    """Return the loads at some times: pushes act on points of the object, which move with it."""
+    """Return the loads at some times, in their order: pushes act on points of the object, which move with it."""
     parts = pushes_in(task.course)
+    shares = shares_in_order([push for push, _ in parts], times)
     points = np.array([push.point for push, _ in parts]).reshape(-1, 3)
-    forces = [factor * np.outer(push.share(times), push.wrench[:3]) for push, factor in parts]
+    forces = [factor * np.outer(share, push.wrench[:3]) for (push, factor), share in zip(parts, shares, strict=True)]
     at_points = np.stack(forces, axis=1) if forces else np.zeros((len(times), 0, 3))
     return Loads(np.array(wrench), points, at_points)
 

@@ -33,9 +33,12 @@ NEAR = 1e-5
 class Planner:
     """The first goal; the others follow by `stages`."""
 
-    def __init__(self, task: TimedTask, analysis: Analysis, formulation: Formulation, solver: Answerer) -> None:
-        """Make the planner of a task on a grasp that can hold its object."""
+    def __init__(
+        self, task: TimedTask, analysis: Analysis, formulation: Formulation, solver: Answerer, *, brief: bool = False
+    ) -> None:
+        """Make the planner of a task on a grasp that can hold its object; `brief`: of a no it tells that it is one."""
         self.task, self.analysis, self.formulation, self.solver = task, analysis, formulation, solver
+        self.brief = brief
         self.decisions: list[Decision] = []
 
     def outcome(self) -> Outcome:
@@ -66,6 +69,8 @@ class Planner:
             raise unbounded(goal)
         if isinstance(goal, LargestMargin):
             return self._no_optimum(decision)
+        if self.brief and decision.infeasible:
+            return self._infeasible(decision, None)
         first = self._ask(self.task.kept, LargestMargin())
         widest = Stage(first.question.formulation, self.task.kept, LargestMargin(), (first.decision,))
         largest = widest.largest_margin if first.decision.optimal else None
@@ -116,9 +121,9 @@ class Planner:
     def _infeasible(self, proven: Decision, largest: float | None) -> Infeasible:
         ray = proven.certificate.y
         found = conflicts(proven.program, ray) if ray is not None else ()
+        beside = "" if self.brief else f"; {self._without_limits()}"
         return Infeasible(
-            self.task, self.analysis.grasp, self.analysis, "magnitude",
-            f"{self._shortfall(largest, found)}; {self._without_limits()}", None,
+            self.task, self.analysis.grasp, self.analysis, "magnitude", self._shortfall(largest, found) + beside, None,
             proven.certificate, proven.program, tuple(self.decisions), largest, found,
         )  # fmt: skip
 

@@ -56,7 +56,7 @@ def _between(task: TimedTask, analysis: Analysis, formulation: Formulation, answ
     instant looked at: what is infeasible there, is.
     """
     intersample = intersample_of(task, analysis) if task.between == "hold" else None
-    outcome = answer(task, replace(formulation, intersample=intersample))
+    outcome = answer(task, formulation if intersample is None else replace(formulation, intersample=intersample))
     if intersample is None or intersample.exact or not isinstance(outcome, Infeasible):
         return outcome
     at_knots = answer(replace(task, between="report"), formulation)  # many times smaller

@@ -32,7 +32,8 @@ def intersample_of(task: TimedTask, analysis: Analysis) -> Intersample | None:
     samples = samples_for(len(pieces))
     first, last = grid.times[pieces], grid.times[pieces + 1]
     inner = (first[:, None] + (last - first)[:, None] * shares(samples)).ravel()
-    return Intersample(grid, corner, pieces, samples, looked_at(task, task.course, inner, analysis))
+    curved = looked_at(task, task.course, inner, analysis) if len(pieces) else grid.of(pieces)
+    return Intersample(grid, corner, pieces, samples, curved)
 
 
 def looked_at(task: TimedTask, course: Course, times: Array, analysis: Analysis) -> Looks:

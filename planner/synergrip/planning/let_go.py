@@ -47,8 +47,8 @@ def ranges_left(task: TimedTask, grasp: Grasp, joint: Array) -> Iterator[str]:
 
 def undone_notes(analysis: Analysis, task: TimedTask) -> Iterator[str]:
     """Yield how much of the wanted motion the tolerance lets a plan leave undone, as none of the hand's."""
-    left, wish = undone(analysis, task), wish_size(analysis, task)
-    if left > RIGID_TOLERANCE * wish:
+    left = undone(analysis, task)
+    if left and left > RIGID_TOLERANCE * (wish := wish_size(analysis, task)):
         yield (
             f"up to {in_mm(left)} of the {in_mm(wish)} that are wanted (rotations times length) are left "
             f"undone: no rigid motion of the hand does them, and task.tolerance allows it"

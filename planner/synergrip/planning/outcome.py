@@ -70,8 +70,7 @@ class Plan(Tabled):
     beta: Array  # (T, dim Gamma_ucs) [m]
     gamma: Array  # (T, dim Gamma_zr)
     elastic_motion: Array
-    """(T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]: of Gamma_ucs beta at the
-    start posture, and on the hand that moves of what the contacts of each instant make of it."""
+    """(T, 6) what the references move beyond the rigid motion, sag excluded [m, rad]."""
     margins: Array  # (T, n_c) slip margins [N]
     usages: tuple[Usage, ...]
     """What the plan uses of every limit, friction cones first; `usages["joint torque"]` finds one by its title."""
@@ -121,9 +120,8 @@ class Plan(Tabled):
     @property
     def moved(self) -> Moved:
         """What all arrays are made of."""
-        return Moved(
-            self.analysis, self.motion, self.alpha, self.beta, self.gamma, self.elastic_motion, self.margins
-        )  # fmt: skip
+        parts = self.alpha, self.beta, self.gamma, self.elastic_motion
+        return Moved(self.analysis, self.motion, *parts, self.margins)
 
     @property
     def time(self) -> Array:
@@ -227,9 +225,16 @@ class Unknown(Reasoned):
     reached: Reached | None = None
     """Until when the motion was followed, at the stage "reach"."""
     executed: Execution | None = None
-    """The true states that the references found lead to, at the stages "reach" and "execution"."""
+    """The true states that the references found lead to, at the stages "reach" and "execution": at the knots until the
+    motion is no longer followed, or the way ends; None where that is before the first."""
+    motion: Motion | None = None
+    """These states as a motion: references, forces, torques and displacements at the same knots."""
     usages: tuple[Usage, ...] = ()
-    """What these use of every limit, friction cones first; none where the hand does not get through all knots."""
+    """What they use of every limit, friction cones first."""
+    between_only: bool = False
+    """Whether limits are missed between the knots alone: more of these may help."""
+    passes: int = 0
+    """How often the grasp was linearised anew along the motion, in vain."""
     asked: Task | TimedTask | None = None
     """The task as it was asked, for what would come of another one."""
     notes: tuple[str, ...] = ()  # what of grasp and task can hardly be meant
@@ -240,7 +245,7 @@ class Unknown(Reasoned):
 
     verdict: ClassVar[str] = "unknown"
     exit_code: ClassVar[int] = 3
-    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "notes", "decisions", "analysis")
+    holds: ClassVar[tuple[str, ...]] = ("why", "stage", "reached", "usages", "motion", "notes", "decisions", "analysis")
 
     @property
     def grasp(self) -> Grasp:

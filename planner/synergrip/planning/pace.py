@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from synergrip.equilibrium.execution import Execution
     from synergrip.planning.walk_so_far import Walk
 
 SHORTER, SHORTER_WAY, SHORTEST = 1 / 3, 1 / 9, 1e-3
@@ -49,8 +50,14 @@ class Effort:
     short: float = np.inf
     """After how many passes in a row that find less than the margin that is asked it is given up."""
     brief: bool = False
-    """Whether passes begin at the plan of least effort, whatever the goals, and end where another one or two would make
-    true what is promised, if all limits hold there; and no more is told of a walk in vain than that it is."""
+    """Whether passes begin at the plan of least effort, whatever the goals, ask for the first of these alone, and end
+    where another one or two would make true what is promised, if all limits hold there; no more is told of a walk in
+    vain than that it is, and none is begun where the start posture says no."""
+    strict: bool = False
+    """Whether brief passes go on until what is promised is true."""
+    near: Execution | None = None
+    """What the same hand went through for nearly the same task: passes begin there, and not at the plan of the start
+    posture, where the hand is still in equilibrium at as many instants."""
 
     def until(self, passes: int) -> int:
         """Return the number of the last pass of a round that begins after some."""
@@ -109,9 +116,19 @@ class Pace:
         way = LONGER * self.way if now.behind > allowed else self.way
         return Pace(min(1.0, longer * self.step), min(1.0, way), 0, stays)
 
-    def back(self, found: Walk | None) -> Pace:
-        """Return the pace after a pass in vain: what it came to, or None when no program goes it."""
+    def back(self, before: Walk, found: Walk | None) -> Pace:
+        """Return the pace after a pass in vain.
+
+        Where no program goes it and nothing of the way is left, it is the step in which what is asked cannot be had:
+        the next one is longer.
+
+        Args:
+            before: where the pass began.
+            found: what it came to, or None when no program goes it.
+        """
         again = replace(self, tries=self.tries + 1, stays=False)
+        if found is None and before.there and self.step < 1:
+            return replace(again, step=min(1.0, ROUND * self.step))
         if found is None:
             return replace(again, way=self.way * SHORTER_WAY)
         shorter = SHORTER if found.way is None else float(np.clip(_fitting(found, AIMED), SHORTEST_CUT, SHORTER))

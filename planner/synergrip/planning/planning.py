@@ -84,7 +84,7 @@ def planned_along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcom
         from synergrip.planning.walked import on_the_hand
 
         return on_the_hand(outcome, answers, effort)
-    if isinstance(outcome, Infeasible):
+    if isinstance(outcome, Infeasible) and not effort.brief:
         from synergrip.planning.going_on import gone_on
 
         return gone_on(outcome, lambda analysis, task: _planned(analysis, task, answers), answers, effort)
@@ -107,10 +107,10 @@ def _begun_briefly(grasp: Grasp | Analysis, task: Task | TimedTask, answers: Ans
     Where they do not, and for other goals, it is the plan for the goals of the task.
     """
     known, asked = _judged(grasp, task)
-    whole = known.grasp if isinstance(known, Analysis) else known
-    if whole.held is None or asked.linearise == "once" or not isinstance(asked.goal, LargestMargin):
-        return plan_of_start_posture(known, asked, answers)
-    found = plan_of_start_posture(known, replace(asked, goals=(LeastEffort(),)), answers)
+    analysis = known if isinstance(known, Analysis) else analyse(known, NO_LOAD)
+    if analysis.grasp.held is None or asked.linearise == "once" or not isinstance(asked.goal, LargestMargin):
+        return _planned(analysis, asked, answers, brief=True)
+    found = _planned(analysis, replace(asked, goals=(LeastEffort(),)), answers, brief=True)
     if isinstance(found, Plan):
         return replace(found, task=asked, largest_margin=float(found.margins.min()))
     return replace(found, task=asked)
@@ -131,8 +131,8 @@ def _judged(grasp: Grasp | Analysis, task: Task | TimedTask) -> tuple[Grasp | An
     return grasp.begun(begins) if isinstance(grasp, Analysis) else begins, timed
 
 
-def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
-    """Plan a task on a grasp, as far as it can hold its object."""
+def _planned(analysis: Analysis, task: TimedTask, solver: Answerer, *, brief: bool = False) -> Outcome:
+    """Plan a task on a grasp, as far as it can hold its object; `brief`: of a no it is told that it is one, no more."""
     grasp = analysis.grasp
     LOG.info("planning on %d contacts with %d synergies: %r", grasp.n_c, grasp.n_z, task)
     LOG.info("%r", analysis)
@@ -144,7 +144,7 @@ def _planned(analysis: Analysis, task: TimedTask, solver: Answerer) -> Outcome:
     planners: list[Planner] = []
 
     def answer(asked: TimedTask, each: Formulation) -> Outcome:
-        planners.append(Planner(asked, analysis, each, solver))
+        planners.append(Planner(asked, analysis, each, solver, brief=brief))
         return planners[-1].outcome()
 
     try:

@@ -105,7 +105,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     Raises:
         InputError: nothing bounds the goal.
     """
-    if stage.interrupted:
+    if stage.interrupted or (not asked and goal.objective(stage.formulation).empty):
         return stage
     formulation, seen = _reduced(stage)
     if not asked and goal.objective(formulation).empty:

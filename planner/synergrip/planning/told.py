@@ -127,7 +127,7 @@ def true_document(execution: Execution, margins: Usage, fixed: Execution | None 
     balance = execution.balance
     other = None if fixed is None else finite(float(fixed.margins.min()) if fixed.whole else math.inf)
     return {
-        "pad_radius_m": radii, "worst_N_if_fixed": other,
+        "pad_radius_m": radii, "rolls": list(execution.setting.rolls), "worst_N_if_fixed": other,
         "contact_model": execution.setting.contact_model,
         "margin": margin_document(margins) | {"per_contact_N": execution.margins},
         "lambda": execution.states.forces, "du": execution.du, "q": execution.states.q,

@@ -50,8 +50,7 @@ dear as joint motions goes with what is left of the way, so that this falls as i
 OF_PATH = 1e-3
 """Share of the largest force on a path that the unit of force in a program around it is at least."""
 REACHED = 0.01
-"""How far the rigid motion may be behind the wanted one when the task states no tolerance, as a share of the length of
-the grasp."""
+"""How far the rigid motion may be behind the wanted one without a tolerance, as a share of the length of the grasp."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +95,7 @@ class Walker:
 
     @property
     def _ends_sooner(self) -> bool:
-        return self.leads or self.effort.brief
+        return self.leads or (self.effort.brief and not self.effort.strict)
 
     @property
     def allowed(self) -> float:
@@ -128,7 +127,7 @@ class Walker:
             met = best.hindered  # a shorter step is hindered by being short, too
             met = None if good else met or Hindrance.of(answered.decision, None if found is None else found.executed)
             now = found if good and found is not None else best
-            pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(found)
+            pace = pace.on(best, found, self.allowed) if good and found is not None else pace.back(best, found)
             short = best.short + 1 if self._falls_short(answered, best) else 0
             best = replace(now, passes=count, tried=tried, hindered=met, pace=pace, short=short)
         return best
@@ -138,7 +137,7 @@ class Walker:
 
         Bounds that are far from binding on the path are asked for only where the answer then misses them.
         """
-        limits, wait = self._limits(best, pace), self._wait(best)
+        limits, wait = self._limits(best, pace), not self.effort.brief and self._wait(best)
         entries = len(self.task.times) * sum(self.start.spaces.dimensions[::2]) * self.start.grasp.n_q
         near = limits if self.task.allowed else near_rows(limits, self.task.goals, entries)
         answered, stage = self._asked(best, pace, near, wait=wait)
@@ -154,9 +153,8 @@ class Walker:
 
     def _falls_short(self, answered: Answered, best: Walk) -> bool:
         """Return whether the largest margin around a walk is less than is asked, by more than counts as kept."""
-        if not isinstance(answered.question.goal, LargestMargin) or not answered.decision.optimal:
-            return False
-        return answered.largest_margin < self.task.margin - best.kept_to
+        known = isinstance(answered.question.goal, LargestMargin) and answered.decision.optimal
+        return known and answered.largest_margin < self.task.margin - best.kept_to
 
     def _wait(self, best: Walk) -> bool:
         """Return whether goals after the first wait until promises are near what happens."""
@@ -174,6 +172,8 @@ class Walker:
             names = ", ".join(f"'{goal.name}'" for goal in others)
             left = f"along the motion there was no plan yet to ask {names} around"
             stage = replace(stage, notes=(*stage.notes, left))
+        if self.effort.brief:  # that there is a plan is what is asked, and not which is best by all goals
+            return answered, stage
         return answered, through(stage, () if wait else others, unasked_goals(self.task), self.solver)
 
     def executed(

@@ -127,6 +127,11 @@ class Walk(Value):
         return np.inf if self.way is None or self.until is not None else float(self.way.behind.max(initial=0.0))
 
     @property
+    def there(self) -> bool:
+        """Whether nothing is left of the way."""
+        return self.behind < FOLLOWED
+
+    @property
     def come(self) -> str:
         """After how many passes it is there, in words."""
         return f"after {self.all_passes} pass{'es' * (self.all_passes != 1)} along the motion"

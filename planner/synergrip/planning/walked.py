@@ -24,6 +24,7 @@ from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
 from synergrip.planning.solvers import Answerer
+from synergrip.planning.until import figures_until, kept_until
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
@@ -42,11 +43,20 @@ def on_the_hand(plan: Plan, answers: Answerer, effort: Effort = WHOLE) -> Plan |
     """
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers, effort=effort)
     if plan.task.linearise == "along" and not plan.interrupted:
-        return answer_of(walk_from_plan(walker, plan.motion), walker, plan)
+        return answer_of(_from_near(walker, effort) or walk_from_plan(walker, plan.motion), walker, plan)
     answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
     if plan.interrupted and not isinstance(answer, Plan):
         raise KeyboardInterrupt
     return answer
+
+
+def _from_near(walker: Walker, effort: Effort) -> Walk | None:
+    """Return the walk that passes from a motion near by end with; None where there is none, or not for this task."""
+    near = effort.near
+    if near is None or not near.whole or not np.array_equal(near.times, walker.task.times):
+        return None
+    begun = walker.executed(near.references, None, near, fewer=True)
+    return None if begun.way is None else walker.on(begun)
 
 
 def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
@@ -54,7 +64,8 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
     if walk.way is None:
         k, executed = len(walk.executed.states), walk.executed
         why = f"executed, the plan of the start posture ends before t = {executed.times[k]:.3g} s: {executed.why}"
-        return _unknown(walker, plan, f"{why}; {ALONG}", walk)
+        got = figures_until(walk, walker, plan.formulation)
+        return replace(_unknown(walker, plan, f"{why}; {ALONG}", walk, got), notes=tuple(kept_until(got, walker)))
     found = figures(walk, walker, plan.formulation, plan.between)
     said = _missed(found)
     if (most := float(off(walk, walker).max())) > walker.allowed:
@@ -75,8 +86,6 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
 
 SOON = "found as soon as limits hold along the motion: by its goals it may not be the best"
 """What is told of a plan that goes with a no."""
-MORE_KNOTS = "more knots straighten it"
-"""What is advised where limits are missed between the knots only."""
 ALONG = 'task.linearise = "along" plans for the hand that moves'
 
 
@@ -91,17 +100,15 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if walk.interrupted:
         return _best_so_far(walk, walker, linear)
     if float(off(walk, walker).max()) > walker.allowed:
-        reached = reached_by(walk, walker)
-        if not np.any(walker.wanted):
-            when = f"{'after' if walker.arrived(walk) else 'at'} t = {reached.until_s:.3g} s"
-            held = f"the hand that moves does not hold the object within its limits {when}"
-            return _unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk)
-        return replace(_unknown(walker, linear, reached.because, walk), stage="reach", reached=reached)
+        return _not_reached(walk, walker, linear)
     if not walker.good(walk):
         why = f"after {walk.all_passes} passes what is promised and what the hand does still differ"
         why += f" by {walk.gap:.3g} N" if np.isfinite(walk.gap) else ", or an equilibrium is not found"
         found = None if walker.effort.brief else figures(walk, walker, linear.formulation, linear.between)
         return _unknown(walker, linear, why, walk, found)
+    if walker.effort.brief and walk.short:
+        why = f"along the motion the largest slip margin is less than the {walker.task.margin:.4g} N asked"
+        return _unknown(walker, linear, why, walk)
     if (walk := walker.kept_between(walk)).interrupted:
         return _best_so_far(walk, walker, linear)
     walk = walker.to_all_digits(walk)
@@ -109,15 +116,30 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
     if said := _missed(found):
-        return _truer(walk, walker, linear) or _unknown(walker, linear, said, walk, found)
+        inside = all(BETWEEN in check.name for check in found.checks if not check.passed)
+        no = replace(_unknown(walker, linear, said, walk, found), between_only=inside)
+        return _truer(walk, walker, linear) or no
     return _in_all_cases(walk, walker, linear, found)
+
+
+def _not_reached(walk: Walk, walker: Walker, linear: Plan) -> Unknown:
+    """Return that the object is not brought where it is wanted, or not held, with what is true until then."""
+    reached = reached_by(walk, walker)
+    found = figures_until(walk, walker, linear.formulation, reached.until_s)
+    told = tuple(kept_until(found, walker))
+    if not np.any(walker.wanted):
+        when = f"{'after' if walker.arrived(walk) else 'at'} t = {reached.until_s:.3g} s"
+        held = f"the hand that moves does not hold the object within its limits {when}"
+        return replace(_unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk, found), notes=told)
+    answer = _unknown(walker, linear, reached.because, walk, found)
+    return replace(answer, stage="reach", reached=reached, notes=told)
 
 
 def _truer(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown | None:
     """Return the answer of a walk gone on with until its promises are true; None where they are, or do not get so."""
     if walk.true:
         return None
-    strict = replace(walker, effort=replace(walker.effort, brief=False))
+    strict = replace(walker, effort=replace(walker.effort, strict=True))
     again = strict.on(walk)
     return answer_of(again, strict, linear) if again.true else None
 
@@ -215,20 +237,22 @@ def _with(
 
 def _unknown(walker: Walker, linear: Plan, why: str, walk: Walk, found: Figures | None = None) -> Unknown:
     """Return that the hand does not do what a plan promises, with what it does."""
-    usages = () if found is None else found.usages
     decisions = (*linear.decisions, *walk.tried)
-    return Unknown(walker.task, walker.start, why, decisions, "execution", executed=walk.executed, usages=usages)
+    answer = Unknown(walker.task, walker.start, why, decisions, "execution", passes=walk.all_passes)
+    if found is None:
+        return answer
+    executed = walk.executed.first(len(found.motion.times))
+    return replace(answer, executed=executed, motion=found.motion, usages=found.usages)
 
 
 def _missed(found: Figures) -> str:
-    """Return what is missed at the true states, and what helps; nothing when every check passes."""
+    """Return what is missed at the true states; nothing when every check passes."""
     failed = [check for check in found.checks if not check.passed]
     if not failed:
         return ""
     told = [*found.missed, *(_of_state(check) for check in failed if "stability" in check.name)]
     told = told or [f"{check.name}, by {check.error:.3g}" for check in failed]
-    advice = f"; {MORE_KNOTS}" if all(BETWEEN in check.name for check in failed) else ""
-    return f"at the true equilibrium limits are missed: {'; '.join(told)}{advice}"
+    return f"at the true equilibrium limits are missed: {'; '.join(told)}"
 
 
 def _of_state(check: Check) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synergrip.documents.judging import place_of
 from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.documents.places import place_of
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack

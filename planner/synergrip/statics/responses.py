@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.documents.judging import place_of, places_of
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.places import place_of, places_of
 from synergrip.errors import InputError, Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric, scale_of

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.documents.judging import expected, place_of
+from synergrip.documents.judging import expected
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.places import place_of
 from synergrip.linalg import Decisions, Places, frozen
 from synergrip.statics.responses import Responses
 from synergrip.statics.restraint import free_directions, supported

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -173,3 +173,26 @@ def pushes_in(course: object) -> list[tuple[Pushing, float]]:
     """Return the pushes among what happens in a task, each with the factor of the whole load."""
     factor = getattr(course, "factor", 1.0)
     return [(part, factor) for part in getattr(course, "load", ()) if isinstance(part, Pushing)]
+
+
+def shares_in_order(pushes: Sequence[Pushing], times: Array) -> Array:
+    """Return the shares (m, T) of the full forces of pushes at times (T,) in their order [s].
+
+    An instant at which one of them jumps may stand more than once: just before it, at it, and just after it, as far as
+    it is within the task. Steps are on at it, and off beside it.
+    """
+    shares = np.array([push.share(times) for push in pushes]).reshape(len(pushes), len(times))
+    steps = [push for push in pushes if push.profile == "step"]
+    slack = SAME_TIME * max(float(times[-1]), 1.0) if len(times) else 0.0
+    for time in {time for push in steps for time in (push.start, push.end)}:
+        rows = np.flatnonzero(np.abs(times - time) <= slack)
+        before = time > times[0] + slack and any(abs(push.start - time) <= slack for push in steps)
+        after = time < times[-1] - slack and any(abs(push.end - time) <= slack for push in steps)
+        if len(rows) != 1 + before + after:
+            continue  # it stands once
+        for i, push in enumerate(pushes):
+            if push.profile == "step" and before and abs(push.start - time) <= slack:
+                shares[i, rows[0]] = 0.0
+            if push.profile == "step" and after and abs(push.end - time) <= slack:
+                shares[i, rows[-1]] = 0.0
+    return shares

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
@@ -148,10 +149,8 @@ class TimedTask(Value):
         Raises:
             InputError: a limit or goal does not fit the grasp, or needs what its hand does not state.
         """
-        each = tuple(limit.on(grasp) for limit in self.limits)
-        if grasp.held is not None and not any(isinstance(limit, JointRange) for limit in each):
-            each = (*each, JointRange().on(grasp))
-        return replace(self, limits=each, goals=tuple(goal.on(grasp) for goal in self.goals))
+        limits, goals = on_grasp(self.limits, self.goals, grasp)
+        return replace(self, limits=limits, goals=goals)
 
     def for_synergies(self, origins: Sequence[int | None]) -> TimedTask:
         """Return the task for a grasp with other synergies.
@@ -180,12 +179,12 @@ class TimedTask(Value):
         """True when some limit looks at more than the forces, so that redundancy matters."""
         return "references" in {*(limit.watches for limit in self.binding), *(goal.watches for goal in self.goals)}
 
-    @property
+    @cached_property
     def all_limits(self) -> tuple[Limit, ...]:
         """All limits, friction cones first."""
         return (SlipMargin(self.margin), *self.kept)
 
-    @property
+    @cached_property
     def kept(self) -> tuple[Limit, ...]:
         """All limits but the friction cones: those stated, and those that tracking adds."""
         part: Literal["rigid", "whole"] = "rigid" if self.tracking == "rigid" else "whole"
@@ -196,6 +195,16 @@ class TimedTask(Value):
         if rest and self.drift is not None:
             limits.append(ObjectError(self.drift, rest, part, "task.drift", "drift on free axes"))
         return tuple(limits)
+
+
+def on_grasp(
+    limits: Sequence[Limit], goals: Sequence[Goal], grasp: Grasp
+) -> tuple[tuple[Limit, ...], tuple[Goal, ...]]:
+    """Return limits and goals for one grasp, as `TimedTask.on` says."""
+    each = tuple(limit.on(grasp) for limit in limits)
+    if grasp.held is not None and not any(isinstance(limit, JointRange) for limit in each):
+        each = (*each, JointRange().on(grasp))
+    return each, tuple(goal.on(grasp) for goal in goals)
 
 
 def still(times: Array) -> Target:

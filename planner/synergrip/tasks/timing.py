@@ -21,7 +21,7 @@ from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.profiles import Constant, Profile, Profiles
 from synergrip.tasks.stated import Setting, Stated
-from synergrip.tasks.timed_task import Target, TimedTask
+from synergrip.tasks.timed_task import Target, TimedTask, on_grasp
 
 if TYPE_CHECKING:
     from synergrip.tasks.task import Task
@@ -46,12 +46,13 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
     wrench = profiles.load_at(times)
     if wrench is None:
         wrench = frozen(np.tile(task.load_factor * grasp.w_0, (len(times), 1)))
+    limits, goals = on_grasp(task.limits, task.goals, grasp)
     return TimedTask(
         times=times, wrench=wrench, target=Target(task.target.kind, profiles.target_at(times), "Task.target"),
-        margin=0.0, limits=tuple(task.limits), goals=tuple(task.goals), tolerance=task.tolerance,
+        margin=0.0, limits=limits, goals=goals, tolerance=task.tolerance,
         tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
         linearise=task.linearise, control=task.control, allowed=allowed_on(task, grasp, _weight(profiles)),
-    ).on(grasp)  # fmt: skip
+    )  # fmt: skip
 
 
 def _weight(profiles: Profiles) -> tuple[Profile, ...]:

@@ -62,7 +62,7 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
         whole = np.asarray(values)
     else:
         whole = values @ analysis.spaces.Gamma_ucs[:, : values.shape[1]].T
-    return frozen(np.where(np.isin(AXES, task.axes), whole, 0.0))
+    return frozen(np.where([axis in task.axes for axis in AXES], whole, 0.0))
 
 
 def wish_size(analysis: Analysis, task: TimedTask) -> float:

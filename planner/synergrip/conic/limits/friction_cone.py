@@ -72,7 +72,7 @@ def carried(formulation: Formulation, motion: Motion) -> Array:
     """
     grasp, response = formulation.response.grasp, formulation.response
     sizes = np.abs(motion.forces * response.scale.force)
-    largest = np.column_stack([sizes[:, rows].max(axis=1) for rows in grasp.rows])
+    largest = np.maximum.reduceat(sizes, grasp.normal_rows, axis=1)  # from one contact's normal row to the next one's
     return frozen(np.maximum(largest, max(formulation.load_size, CANCELLED * largest_term(response, motion.dz_r))))
 
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 import numpy as np
 
 from synergrip.conic.arguments import OneOrEach, numbers, one_each
+from synergrip.conic.bounds import within
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Dial
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.rows import Rows, within
+from synergrip.conic.rows import Rows
 from synergrip.documents.fields import Written
 from synergrip.documents.naming import naming_arguments
 from synergrip.documents.numbers import number

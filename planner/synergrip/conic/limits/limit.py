@@ -77,7 +77,8 @@ class Usage(Value):
         T, m = len(np.atleast_1d(np.asarray(times))), len(items)
         wanted = {"value": (T, m), "lower": (m,), "upper": (m,), "scale": (m,), "allowance": (T, m)}
         for name, shape in wanted.items():
-            given, found = getattr(self, name), as_numbers(getattr(self, name))
+            given = getattr(self, name)
+            found = as_numbers(given)
             if name == "allowance" and given is None:
                 continue
             if found is None or found.shape != shape:

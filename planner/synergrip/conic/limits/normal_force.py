@@ -9,12 +9,13 @@ from typing import Annotated, Any, Self
 import numpy as np
 
 from synergrip.conic.arguments import size
+from synergrip.conic.bounds import within_bounds
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.file_key import FileKey
 from synergrip.conic.limits.friction_cone import carried
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.rows import Rows, within
+from synergrip.conic.rows import Rows
 from synergrip.documents.fields import Written, array_of, listed, unit_schema, with_unit
 from synergrip.documents.judging import described, is_number
 from synergrip.documents.naming import naming_arguments
@@ -88,16 +89,12 @@ class NormalForce(Limit):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
-        grasp = formulation.response.grasp
         value = formulation.force.after(normal_selection(formulation))
-        lower, none = self.lower if self.lower > 0 else -np.inf, np.full(grasp.n_c, np.inf)
-        low, high = np.full(grasp.n_c, lower), np.full(grasp.n_c, self.upper)
-        units = [np.full(grasp.n_c, bound_unit(bound, formulation.force_unit)) for bound in (lower, self.upper)]
         names = _names(formulation)
-        return [
-            *within(self.key, names, value, low, none, units[0]),
-            *within(self.key, names, value, -none, high, units[1]),
-        ]
+        none, ones = np.full(len(names), np.inf), np.ones(len(names))
+        low, high = (bound_unit(bound, formulation.force_unit) * ones for bound in (self.lower, self.upper))
+        lower = within_bounds(self.key, names, value, self.lower * ones, none, low) if self.lower > 0 else []
+        return [*lower, *within_bounds(self.key, names, value, -none, self.upper * ones, high)]
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return the whole forces, which a largest normal force bounds through the cones; nothing without them."""

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, ClassVar, Literal, Self
 import numpy as np
 
 from synergrip.conic.arguments import OneOrEach, one_each, sizes
+from synergrip.conic.bounds import within_bounds
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.limits.dial import Cause, Dial, numbers
 from synergrip.conic.limits.limit import Limit, Usage
-from synergrip.conic.rows import Rows, within
+from synergrip.conic.rows import Rows
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.statics.motion import Motion
@@ -76,7 +77,8 @@ class Symmetric(Limit):
             limit = frozen(self.of_hand(grasp.held))
             if not np.any(np.isfinite(limit)):
                 raise InputError.at(key, NOT_STATED)
-        return replace(self, limit=one_each(key, limit, self.names(grasp), self.of))
+        each = one_each(key, limit, self.names(grasp), self.of)
+        return self if each is self.limit else replace(self, limit=each)
 
     def for_synergies(self, origins: Sequence[int | None]) -> Self:
         """Return it with a number for each of other synergies; a new one has what all have, or else none."""
@@ -89,7 +91,7 @@ class Symmetric(Limit):
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds for each, in units of the limit."""
         names, own = self.names(formulation.response.grasp), self.on(formulation.response.grasp)
-        return within(self.key, names, self.value(formulation), -own.limit, own.limit, _unit(own.limit))
+        return within_bounds(self.key, names, self.value(formulation), -own.limit, own.limit, _unit(own.limit))
 
     def bounded(self, formulation: Formulation, *, cones_hold: bool) -> tuple[Affine, Array] | None:
         """Return the values and their limits."""

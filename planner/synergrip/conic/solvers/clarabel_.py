@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from synergrip.conic.program import Program
 from synergrip.conic.rows import Kind
@@ -43,7 +42,6 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.equilibrate_enable = settings.equilibrate
     options.static_regularization_constant = settings.regularisation
     options.max_step_fraction = settings.step
-    P = sparse.triu(program.P, format="csc")
     kept: list[float] = []
 
     def looked_at(iterate: Any) -> bool:
@@ -51,7 +49,8 @@ def solve(program: Program, settings: Settings) -> Solution:
         return stop(iterate)
 
     with interruptible() as stop:
-        solver = clarabel.DefaultSolver(P, program.q, program.A, program.b, _cones(program), options)
+        # of P, which is whole, it takes the upper triangle
+        solver = clarabel.DefaultSolver(program.P, program.q, program.A, program.b, cones_of(program), options)
         solver.set_termination_callback(looked_at)
         found = solver.solve()
         del solver  # its memory, many times that of the program
@@ -69,7 +68,8 @@ def _kept(iterate: Any) -> float:
     return float(max(min(iterate.gap_abs, iterate.gap_rel), iterate.res_primal, iterate.res_dual))
 
 
-def _cones(program: Program) -> list[Any]:
+def cones_of(program: Program) -> list[Any]:
+    """Return the cones of a program as Clarabel names them."""
     import clarabel
 
     cones: list[Any] = []

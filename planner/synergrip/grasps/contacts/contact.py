@@ -101,6 +101,9 @@ class Contact(ByContent):
 
         They are those of the cone whose slip margin is the smallest; without friction mu is 0, and so is the second.
         """
+        if len(self.cones) == 1:
+            image, mu = force @ self.cones[0].T, self.cones[0][0, 0] if len(self.cones[0]) > 1 else 0.0
+            return image[..., 0], np.linalg.norm(image[..., 1:], axis=-1), np.full(force.shape[:-1], mu)
         images = [force @ W.T for W in self.cones]
         heads = np.stack([image[..., 0] for image in images])
         tails = np.stack([np.linalg.norm(image[..., 1:], axis=-1) for image in images])

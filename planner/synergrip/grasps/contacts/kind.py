@@ -96,6 +96,11 @@ class ContactKind(Finished, Kept, ABC):
         name: f"it is the contact's: ContactAt(..., {name}=...)" for name in EXAMPLE_OF
     }
 
+    @property
+    def lies_flat(self) -> bool:
+        """Whether it transmits moments about its tangents: it does not roll then, also where the pad is round."""
+        return not {"m_t", "m_o"}.isdisjoint(self.components)
+
     def __post_init__(self) -> None:
         """Judge the parameters.
 

@@ -74,10 +74,11 @@ def driven(file: Mjcf, relations: Relations, arms: Arms) -> Driven:
     lost = list(seen.lost)
     kept = ~np.any(springs.F[:, lost] != 0, axis=1)
     pulls = pulls[~np.any(pulls[:, lost] != 0, axis=1)]
-    found = settle(relations, pulls, Springs(springs.F[kept], springs.g[kept]), file.q_0)
+    springs = Springs(springs.F[kept], springs.g[kept])
+    found = settle(relations, pulls, springs, file.q_0)
     for pull in pulls:
         _one_kind(file, pull, found)
-    return Driven(found.relations or relations, _drives(file, found, arms, seen))
+    return Driven(found.relations or relations, _drives(file, found, arms, seen, springs))
 
 
 def _springs(file: Mjcf, tendons: Array, offset: Array) -> Springs:
@@ -103,7 +104,7 @@ def _one_kind(file: Mjcf, pull: Array, found: Settled) -> None:
         )
 
 
-def _drives(file: Mjcf, found: Settled, arms: Arms, seen: Readable) -> Drives:
+def _drives(file: Mjcf, found: Settled, arms: Arms, seen: Readable, springs: Springs) -> Drives:
     moving = moves(found.loose)
     sprung, loose = dict[str, float](), dict[str, str]()
     for column, joint in enumerate(file.q):
@@ -118,7 +119,9 @@ def _drives(file: Mjcf, found: Settled, arms: Arms, seen: Readable) -> Drives:
             sprung[name] = _within(file, joint, float(found.rest[column]))
     notes = (*_unread(file), *_near(file, seen))
     forces = frozen([actuator.force for actuator in file.actuators])
-    return Drives(frozen(found.compliance), sprung, loose, notes, frozen(pulls_of(file, arms.mean)), forces)
+    stiffness, pulled = springs.F.T @ springs.F, springs.F.T @ springs.g
+    return Drives(frozen(found.compliance), sprung, loose, notes, frozen(pulls_of(file, arms.mean)), forces,
+                  frozen(stiffness), frozen(pulled))  # fmt: skip
 
 
 def _within(file: Mjcf, joint: int, rest: float) -> float:

@@ -22,16 +22,20 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.told import finite
 from synergrip.statics.motion import forces_at_start
 from synergrip.tasks.gravity import Weight
-from synergrip.tasks.marks import together
+from synergrip.tasks.marks import SAME_TIME, together
 from synergrip.tasks.palm_in_world import PalmInWorld
 from synergrip.tasks.palm_motion import PalmMotion
 from synergrip.tasks.palm_path import PalmSpline
 from synergrip.tasks.pushes import Pushing, pushes_in
-from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.timed_task import Course, TimedTask
 
 KEY = "execution"
-SAMPLES = 4
-"""Into how many straight lines the load is divided where it is curved, from each knot or corner to the next."""
+SAMPLES, MOST = 4, 256
+"""Into how many straight lines the load is divided where it is curved, from each knot or corner to the next: at least,
+and at most, so that none is off by more than `NEAR`."""
+NEAR, ROUNDED = 1e-3, 1e-9
+"""How far off a line may be halfway, of the largest force and moment of the load in the piece; and below which share of
+the larger number one is rounding."""
 
 
 def execution_document(plan: Plan) -> dict[str, Any] | None:
@@ -154,18 +158,37 @@ def _lines(task: TimedTask) -> list[Line]:
     there = np.tile(task.wrench[0], (len(inside), 1)) if found is None else found
     lines += [(float(t), 0, w) for t, w in zip(inside, there, strict=True) if float(t) not in set(knots)]
     at = {time: wrench for time, _, wrench in lines}
-    for time, side in sorted({(float(jump.time), jump.side) for jump in marks.jumps if float(jump.time) in at}):
+    slack = SAME_TIME * max(knots[-1], 1.0)
+    beside = {(float(jump.time), jump.side) for jump in marks.jumps if float(jump.time) in at}
+    for time, side in sorted(beside):
+        if (time <= knots[0] + slack) if side < 0 else (time >= knots[-1] - slack):
+            continue  # before and after the task: no plan was made for what the load is then
         changes = [jump.change for jump in marks.jumps if (float(jump.time), jump.side) == (time, side)]
         lines.append((time, side, at[time] + sum(changes)))
     return sorted(lines, key=lambda line: line[:2])
 
 
 def _within(task: TimedTask, corners: Array) -> Iterator[Array]:
-    """Yield instants within the curved spans: `SAMPLES` parts from each knot or corner to the next."""
+    """Yield instants within the curved spans: equal parts of each piece from a knot or corner to the next."""
     for start, end in _curved(task):
         ends = np.unique(np.concatenate([task.times, corners, [start, end]]))
         ends = ends[(ends >= start) & (ends <= end)]
-        yield from (np.linspace(a, b, SAMPLES + 1) for a, b in pairwise(ends))
+        yield from (_straight(task.course, a, b) for a, b in pairwise(ends))
+
+
+def _straight(course: Course | None, start: float, end: float) -> Array:
+    """Return the ends of equal parts of a piece of time in which the load is nearly straight."""
+    parts = SAMPLES
+    while parts < MOST:
+        found = None if course is None else course.load_at(np.linspace(start, end, 2 * parts + 1))
+        if found is None:
+            break
+        off = np.abs(found[1::2] - (found[:-1:2] + found[2::2]) / 2).reshape(-1, 2, 3)
+        size = np.abs(found).reshape(-1, 2, 3).max(axis=(0, 2))
+        if np.all(off.max(axis=(0, 2)) <= NEAR * np.maximum(size, ROUNDED * size.max())):
+            break
+        parts *= 2
+    return np.linspace(start, end, parts + 1)
 
 
 def _pushed(push: Pushing, lines: list[Line]) -> Array:

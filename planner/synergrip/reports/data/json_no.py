@@ -45,6 +45,7 @@ def repair_document(repair: Repair) -> dict[str, Any]:
     """Return a change of one number."""
     return {
         "cause": repair.cause, "key": repair.key, "from": repair.was, "to": repair.to, "unit": repair.unit,
-        "set": repair.set, "verified": repair.verified, "size": finite(repair.size), "proven_short": repair.proven,
+        "set": repair.set, "tried": repair.tried, "verified": repair.verified, "size": finite(repair.size),
+        "proven_short": repair.proven,
         "least_at_start": repair.least, "in_vain": repair.in_vain,
     }  # fmt: skip

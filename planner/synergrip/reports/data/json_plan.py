@@ -10,12 +10,13 @@ import numpy as np
 from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
+from synergrip.equilibrium.execution import Execution
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.words import INTERRUPTED
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, measures_of, names_of
 from synergrip.planning.digest import with_digest
-from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.provenance import KEY as PROVENANCE
 from synergrip.planning.provenance import provenance_document
 from synergrip.planning.told import (
@@ -28,7 +29,6 @@ from synergrip.planning.told import (
     series_document,
     structure_document,
     true_document,
-    usage_document,
 )
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
@@ -76,9 +76,8 @@ def outcome_document(
     }  # fmt: skip
     document |= {"stage": outcome.stage, "certificate": certificate, "reached": told}
     document |= no_document(known, outcome.task.times)
-    if outcome.executed is not None and outcome.usages:
-        document["true"] = plain(true_document(outcome.executed, outcome.usages[0]))
-        document["limits"] = [usage_document(usage) for usage in outcome.usages]
+    if outcome.executed is not None:
+        document |= _true(outcome, outcome.executed)
     return with_digest(plain(document))
 
 
@@ -105,6 +104,15 @@ def _plan(plan: Plan) -> dict[str, Any]:
         "checks": [check_document(check) for check in plan.checks],
         "between": between_document(plan.between),
         "allowances": cases_document(plan.cases, plan.formulation.allowed, plan.fresh),
+    }  # fmt: skip
+
+
+def _true(unknown: Unknown, executed: Execution) -> dict[str, Any]:
+    """Return what references that are no plan really do, at the knots until the motion is no longer followed."""
+    true = true_document(executed, unknown.usages[0])
+    return {
+        "true": {"time_s": executed.times, "dz_r": executed.references} | true,
+        "limits": [series_document(usage) for usage in unknown.usages],
     }  # fmt: skip
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
 from synergrip.linalg import Array
@@ -64,16 +66,22 @@ def _limits(between: Between, asked: str | None, knots: Array) -> str:
     worst = max(between.broken, key=lambda usage: usage.violation)
     k, i = worst.worst()
     reached, limit = nearest(worst)
-    advice = "; more knots straighten it"
+    advice = []
     if between.rooms is None and asked != "hold":
-        advice = '; task.between = "hold" keeps the limits there, more knots straighten it'
+        advice = ['task.between = "hold" keeps the limits there']
     elif asked == "report":
-        advice = '; without task.between = "report" they are kept there, more knots straighten it'
-    if between.broken_at(worst.title, knots):  # knots would not help: it is there that something else is to be done
-        advice = ", at knots as well"
+        advice = ['without task.between = "report" they are kept there']
+    at_knots = between.broken_at(worst.title, knots)
+    if at_knots:  # more of them would not help: it is there that something else is to be done
+        advice = []
+    elif (
+        np.count_nonzero(worst.times == worst.times[k]) == 1
+    ):  # where a load jumps, references are the same on both sides
+        advice.append("more knots straighten it")
+    told = f"; {', '.join(advice)}" if advice else ", at knots as well" * at_knots
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {plain(worst.times[k], 3)} s, "
-        f"past its limit of {limit}{advice}"
+        f"past its limit of {limit}{told}"
     )
 
 

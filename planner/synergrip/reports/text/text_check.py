@@ -24,8 +24,9 @@ from synergrip.reports.text.text_between import looked_at
 from synergrip.reports.text.text_broken import broken, names_of, not_holding
 from synergrip.reports.text.text_cases import judged_cases
 from synergrip.reports.text.text_claims import claims_document, claims_lines
-from synergrip.reports.text.text_plan import refused_lines, usage_rows, verdict_word
+from synergrip.reports.text.text_plan import refused_lines, verdict_word
 from synergrip.reports.text.text_problem import many, problem_lines
+from synergrip.reports.text.text_usages import usage_rows
 
 STANDS_IN = (
     "the figures are those of the linear model at the start posture, as the hand is at no equilibrium with these "

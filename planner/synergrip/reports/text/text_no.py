@@ -97,10 +97,15 @@ def _helping(found: Explanation) -> Iterator[str]:
     yield from ("", f"What would help{smallest}")
     yield _changes([(each,) for each in found.repairs])
     yield from _nearer([each for each in found.repairs if each.verified], whole=found.whole)
-    if not all(each.verified for each in found.repairs):
+    if not all(each.verified or not each.tried for each in found.repairs):
         farther = "" if found.whole else "; synergrip explain plans with larger changes, too"
         told = "where no plan is found, the linear model of the start posture has one with that value"
         yield from wrapped("         ", f"{told}, and the hand that moves was tried with more{farther}")
+    if not all(each.tried for each in found.repairs):
+        told = (
+            "what was not tried the linear model of the start posture has a plan with, too, and synergrip explain plans"
+        )
+        yield from wrapped("         ", f"{told} with it along the motion, which takes longer than goes with a no")
 
 
 def _nearer(repairs: Sequence[Repair], *, whole: bool) -> Iterator[str]:
@@ -125,7 +130,7 @@ def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
 def _again(repair: Repair) -> str:
     """Return what planning with a change came to."""
     if not isinstance(repair.outcome, Plan):
-        return "no plan found"
+        return "no plan found" if repair.tried else "not tried"
     plan = repair.outcome
     left = undone(plan.analysis, plan.task) if repair.cause == "tolerance" else 0.0
     share = left / wish_size(plan.analysis, plan.task) if left else 0.0

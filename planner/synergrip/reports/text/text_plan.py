@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import compress
 from pathlib import Path
 
-import numpy as np
-
-from synergrip.conic.limits.limit import Usage, first_largest
-from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.documents.quantities import both_apart, plain
+from synergrip.documents.quantities import plain
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
-from synergrip.planning.outcome import Infeasible, Outcome, Plan
+from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.told import notes_together
-from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
@@ -25,11 +20,13 @@ from synergrip.reports.text.text_checked import checked_lines, proof_lines, solv
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import many, problem_lines
+from synergrip.reports.text.text_usages import on_bound, used_rows
 
 _STYLES = {
     "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
 }  # fmt: skip
 _END = "\x1b[0m"
+STAY = "contacts stay where they are on link and object"
 
 
 def outcome_text(
@@ -90,7 +87,7 @@ def verdict_lines(
             *_infeasible(problem, outcome, known or outcome.explanation, word),
         ]
     else:
-        lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome.usages)]
+        lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome)]
         lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
     notes = notes_together(outcome.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
@@ -99,10 +96,17 @@ def verdict_lines(
     return lines
 
 
-def _used(usages: Sequence[Usage]) -> Iterator[str]:
-    """Yield what references use of every limit at the true states, when these are no plan."""
-    if usages:
-        yield table(("", "worst", "at", "limit"), [row for usage in usages for row in usage_rows(usage)])
+def _used(outcome: Unknown) -> Iterator[str]:
+    """Yield what references use of every limit at the true states, when these are no plan, and at which knots."""
+    executed, motion = outcome.executed, outcome.motion
+    if executed is None or motion is None:
+        return
+    count, whole, last = len(motion.times), len(outcome.task.times), f"t = {plain(motion.times[-1], 3)} s"
+    at = f"all {many(whole, 'knot')}" if count == whole else f"the first {count} of {whole} knots, until {last}"
+    at = f"the first of {whole} knots, {last}" if count == 1 < whole else at
+    told = f"the figures are those of the hand that moves, at {at}; {_model(executed)}; {_held_with(executed)}"
+    yield from wrapped("true     ", told)
+    yield table(("", "worst", "at", "limit"), used_rows(outcome.usages, motion, outcome.task, outcome.grasp))
 
 
 def _executed(plan: Plan) -> Iterator[str]:
@@ -114,20 +118,35 @@ def _executed(plan: Plan) -> Iterator[str]:
         if (first := plan.first_passes) is not None:
             how += f", after {many(first.passes, 'time')} at {first.knots} of its knots"
         told = (
-            f"the figures are those of the hand that moves, {how}; {_model(plan.executed, plan.fixed)}; "
-            f"the object is held with {plain(1e-3 * float(plan.executed.stiffness.min()), 3)} N/mm at least"
+            f"the figures are those of the hand that moves, {how}; {_model(plan.executed, _if_fixed(plan.fixed))}; "
+            f"{_held_with(plan.executed)}"
         )
     yield from wrapped("true     ", told)
 
 
-def _model(executed: Execution, fixed: Execution | None) -> str:
-    """Return how contacts move, and what it would cost if they moved otherwise."""
-    if fixed is None:
-        return "contacts stay where they are on link and object"
-    radii = sorted(1e3 * radius for touch in executed.setting.held.touches if (radius := touch.pad.radius))
+def _held_with(executed: Execution) -> str:
+    """Return how stiffly the object is held."""
+    return f"the object is held with {plain(1e-3 * float(executed.stiffness.min()), 3)} N/mm at least"
+
+
+def _model(executed: Execution, otherwise: str = "") -> str:
+    """Return how contacts move; of pads that roll also what is known otherwise, in brackets."""
+    own = executed.setting
+    radii = sorted(1e3 * touch.pad.radius for touch in compress(own.held.touches, own.rolls))
+    contacts = zip(own.grasp.contacts, own.held.touches, strict=True)
+    flat = any(touch.pad.radius and contact.kind.lies_flat for contact, touch in contacts)
+    if not radii:
+        return f"{STAY} (patches lie flat, also where pads are round)" if flat else STAY
     size = f"{radii[0]:.3g}" if radii[0] == radii[-1] else f"{radii[0]:.3g} to {radii[-1]:.3g}"
+    return f"pads of {size} mm radius roll{', and patches lie flat' if flat else ''}{otherwise}"
+
+
+def _if_fixed(fixed: Execution | None) -> str:
+    """Return what it would cost if pads did not roll."""
+    if fixed is None:
+        return ""
     other = f"it would keep {plain(fixed.margins.min())} N" if fixed.whole else "it would not get through"
-    return f"pads of {size} mm radius roll (if they stayed where they are {other})"
+    return f" (if they stayed where they are {other})"
 
 
 def _feasible(plan: Plan, word: str) -> Iterator[str]:
@@ -137,13 +156,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
     head = f"{word}  smallest slip margin {plain(worst)} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
     yield f"{head}{best}"
-    rows = [row for usage in plan.usages for row in usage_rows(usage)]
-    limits = plan.task.limits
-    if not any(isinstance(limit, NormalForce) and np.isfinite(limit.upper) for limit in limits):
-        rows.insert(1, _largest_normal(plan))
-    if not any(isinstance(limit, SynergyReference) for limit in limits):
-        names = plan.analysis.grasp.synergies
-        rows.append(_largest("synergy reference", plan.motion.dz_r, "", names, plan.motion.times))
+    rows = used_rows(plan.usages, plan.motion, plan.task, plan.grasp)
     yield table(("", "worst", "at", "limit"), rows)
     yield from moved_lines(plan)
 
@@ -156,44 +169,6 @@ def _largest_of(plan: Plan) -> str:
     held = plan.task.between == "hold" and plan.between is not None and not plan.between.exact
     held = held or (plan.task.allowed is not None and plan.task.allowed.reserves)
     return "there is with the reserve" if held else "there is"  # the program asks for more where a load is curved
-
-
-def _largest_normal(plan: Plan) -> tuple[str, ...]:
-    grasp = plan.analysis.grasp
-    normal = plan.motion.forces[:, grasp.normal_rows]
-    names = tuple(contact.name for contact in grasp.contacts)
-    return _largest("largest normal force", normal, "N", names, plan.motion.times)
-
-
-def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
-    size = np.abs(values)
-    k, i = first_largest(size, 1e-6 * float(size.max()))
-    return title, f"{plain(values[k, i])} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
-
-
-def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
-    """Return the value of item i at knot k; the bound when it is on it, as far as the check can tell."""
-    value = float(usage.value[k, i])
-    return bound if abs(value - bound) <= LIMIT * float(usage.size[k, i]) else value
-
-
-def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
-    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
-    two_sided = np.all(usage.lower == -usage.upper)
-    bounds = {"largest ": usage.upper, "smallest ": usage.lower}
-    sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
-    for side in sides:
-        excess = {"largest ": usage.value - usage.upper, "smallest ": usage.lower - usage.value}.get(side, usage.excess)
-        k, i = first_largest(excess / usage.scale)
-        value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
-        bound = upper if side == "largest " or (two_sided and value > 0) else lower
-        value = on_bound(usage, k, i, bound)
-        shown, limit = both_apart(value, bound, usage.unit)
-        sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
-        where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
-        limit = limit.lstrip("-") if two_sided else limit
-        title = f"{side if len(sides) > 1 else ''}{usage.title}"
-        yield title, shown, where, f"{sign}{limit}"
 
 
 def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
