@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from synergrip.cli.running import Format, FormatOption, ProblemArgument, SetOption, answering, color, placed, show
+from synergrip.cli.running import (
+    DetailsOption,
+    Format,
+    FormatOption,
+    ProblemArgument,
+    SetOption,
+    answering,
+    color,
+    placed,
+    show,
+)
 
 
 def check(
@@ -15,6 +25,7 @@ def check(
     problem: ProblemArgument,
     form: FormatOption = Format.TEXT,
     overrides: SetOption = None,
+    details: DetailsOption = False,
 ) -> None:
     """Judge a plan against a problem without optimising: equilibrium, cones, limits, tracking."""
     with answering(form):
@@ -33,7 +44,11 @@ def check(
             try:
                 judgement = judge_references(loaded.grasp, loaded.timed, references)
                 code = judgement.exit_code
-                show(form, lambda: judgement_text(loaded, judgement, color()), lambda: judgement_document(judgement))
+                show(
+                    form,
+                    lambda: judgement_text(loaded, judgement, color(), details=details),
+                    lambda: judgement_document(judgement),
+                )
             except Refusal as error:
                 refusal, code = error, error.exit_code
                 show(form, lambda: refused_text(loaded, refusal, color()), lambda: refused_document(refusal))

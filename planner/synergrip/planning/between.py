@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Usage
@@ -16,9 +17,12 @@ from synergrip.linalg import Array, interpolated
 from synergrip.planning.instants import intersample_of
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion, forward
+from synergrip.tasks.marks import SAME_TIME
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
 
+ROUNDING = 1e-6
+"""Excess beyond a limit of the linear model, relative to its size, that counts as kept."""
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""
 
@@ -66,6 +70,28 @@ class Between(Value):
         rooms = (np.zeros(1),) * len(self.usages) if self.rooms is None else self.rooms
         pairs = zip(self.usages, rooms, strict=True)
         return max(min(u.violation, 0.0) if np.all(u.excess <= room) else u.violation for u, room in pairs)
+
+    @property
+    def broken(self) -> tuple[Usage, ...]:
+        """What is used of the limits that are not kept."""
+        return tuple(usage for usage, _ in self._beyond())
+
+    def broken_at(self, title: str, times: Array) -> bool:
+        """Whether the limit of a title is not kept at one of some times (T,) [s], such as the knots."""
+        same = SAME_TIME * max(float(times[-1]), 1.0)
+        return any(
+            bool(np.isclose(usage.times[beyond.any(axis=1), None], times, rtol=0, atol=same).any())
+            for usage, beyond in self._beyond()
+            if usage.title == title
+        )
+
+    def _beyond(self) -> Iterator[tuple[Usage, NDArray[np.bool_]]]:
+        """Yield the limits that are not kept, each with where (T, m) it is not."""
+        rooms = (None,) * len(self.usages) if self.rooms is None else self.rooms
+        for usage, room in zip(self.usages, rooms, strict=True):
+            beyond = usage.excess > (ROUNDING * usage.size if room is None else room)
+            if np.any(beyond):
+                yield usage, beyond
 
 
 def between(

@@ -18,7 +18,7 @@ from synergrip.planning.formulated import formulated
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase
 from synergrip.planning.in_cases import case_checks, in_cases
-from synergrip.planning.outcome import Check
+from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.references import References
 from synergrip.planning.sizes import sizes_of
 from synergrip.planning.stated import stated
@@ -32,6 +32,9 @@ from synergrip.tasks.tracking import target_displacement
 from synergrip.values import Value
 
 FAILS = "fails"
+RIGID = "rigid motion [m]"
+LINEAR = "linear model: "
+"""How the names of checks begin that are about the linear model where the hand is at no equilibrium."""
 TRACKED = 1e-6
 """How far the rigid motion may be from the wanted one when the task states no tolerance [m]."""
 
@@ -61,11 +64,22 @@ class Judgement(Value):
     """What became of random samples of the grasp, on a hand, where scenarios are allowed for."""
     claims: Claims = field(default_factory=Claims)
     """What the file says of its references; its checks are among `checks`."""
+    off: Array | None = None
+    """(T,) how far the rigid motion is from the wanted one [m]; None where the hand is at no equilibrium."""
+    lost: str = ""
+    """From when on and why a hand is at no equilibrium with these references; "" where it is at one all the time."""
+    missed_in_cases: tuple[str, ...] = ()
+    """What a hand misses in cases that the task allows for, in words."""
 
     @property
     def verdict(self) -> str:
         """The verdict: "feasible" when every check passes, else "fails": that there is no other plan is not said."""
         return "feasible" if all(check.passed for check in self.checks) else FAILS
+
+    @property
+    def stands_in(self) -> bool:
+        """Whether the figures are those of the linear model at the start posture for want of true ones."""
+        return bool(self.lost) and self.executed is None
 
     @property
     def exit_code(self) -> int:
@@ -129,13 +143,16 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     there, formulation, motion = _linear(analysis, task, references, times)
     usages = limit_usages(there, formulation, motion)
     reached = analysis.coordinates.coordinates(motion.dz_r)
-    tracking = _tracking(task, times, reached[1], formulation)
+    off = _off(task, times, reached[1], formulation)
+    tracking = Check(RIGID, float(off.max(initial=0.0)), max(task.tolerance, TRACKED))
     checks = (*identities(analysis, motion, reached), tracking, *limit_checks(usages))
     found = between(there, analysis, formulation, motion, usages)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
     elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)
-    return Judgement(there, analysis, formulation, motion, elastic, margins, usages, checks, found, cases=cases)
+    return Judgement(
+        there, analysis, formulation, motion, elastic, margins, usages, checks, found, cases=cases, off=off
+    )  # fmt: skip
 
 
 def _elastic(formulation: Formulation, motion: Motion) -> Array:
@@ -158,7 +175,7 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     from synergrip.planning.executed_cases import executed_cases
     from synergrip.planning.executed_scenarios import in_scenarios
     from synergrip.planning.executing import Executor
-    from synergrip.planning.figures import figures
+    from synergrip.planning.figures import BALANCED, figures
     from synergrip.planning.known_samples import unseen
     from synergrip.planning.reach import off
     from synergrip.planning.solvers import SOLVERS
@@ -170,12 +187,17 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     if walk.way is None:
         usages = limit_usages(task, formulation, linear)
         executed = walk.executed
-        lost = f"equilibrium from t = {executed.times[len(executed.states)]:.3g} s on: {executed.why}"
-        missed = Check(f"{lost}; what follows is what the linear model of the start makes of it", float("inf"), 0.0)
+        lost = f"from t = {executed.times[len(executed.states)]:.3g} s on ({executed.why})"
+        # what the linear model keeps says nothing of a hand that is at no equilibrium: only what it breaks is a check
+        broken = (replace(c, name=f"{LINEAR}{c.name}") for c in limit_checks(usages) if not c.passed)
+        checks = (Check("equilibrium", float("inf"), BALANCED), *broken)
         elastic, margins = _elastic(formulation, linear), frozen(usages[0].value)
-        return Judgement(task, analysis, formulation, linear, elastic, margins, usages, (missed,))
+        return Judgement(task, analysis, formulation, linear, elastic, margins, usages, checks, lost=lost)
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
-    followed = Check("rigid motion [m]", float(off(walk, walker).max()), walker.allowed)
+    far = off(walk, walker)
+    followed = Check(RIGID, float(far.max()), walker.allowed)
+    between_lost = found.missed if found.between is None else ()  # then there is an end of the way between two knots
+    lost = "; ".join(told for told in between_lost if told.startswith(BETWEEN))
     margins = frozen(found.usages[0].value)
     cases = executed_cases(walk, walker, formulation)
     samples = in_scenarios(walk, walker, formulation, unseen(LOOKS))  # others than those that a plan was judged by
@@ -183,11 +205,12 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
     return Judgement(
         task, analysis, formulation, found.motion, found.elastic_motion, margins, found.usages, checks, found.between,
         walk.executed, walker.executor.with_fixed_contacts(walk.executed, task.wrench), cases.cases, samples.fresh,
+        off=far, lost=lost, missed_in_cases=cases.missed,
     )  # fmt: skip
 
 
-def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Check:
-    """Judge the rigid motion as far as the wanted motion fixes it.
+def _off(task: TimedTask, times: Array, reached: Array, formulation: Formulation) -> Array:
+    """Return how far (T,) the rigid motion is from the wanted one [m], as far as that fixes it.
 
     At the knots of the task it is as wanted. Between them it may go as straight as a plan does, or follow.
     """
@@ -195,7 +218,7 @@ def _tracking(task: TimedTask, times: Array, reached: Array, formulation: Formul
     straight = interpolated(times, task.times, interpolated(task.times, times, wanted))
     beyond, free = reached - wanted, formulation.beta_basis
     off = np.linalg.norm(beyond - beyond @ free @ free.T, axis=1) - np.linalg.norm(wanted - straight, axis=1)
-    return Check("rigid motion [m]", max(float(off.max(initial=0.0)), 0.0), max(task.tolerance, TRACKED))
+    return frozen(np.maximum(off, 0.0))
 
 
 def _common_times(task: TimedTask, references: References) -> Array:

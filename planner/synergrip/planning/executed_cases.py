@@ -108,7 +108,7 @@ def _executed(there: Otherwise, case: OffPlace) -> ExecutedCases:
 def _ended(title: str, executed: Execution) -> ExecutedCases:
     """Return that a case does not reach its end."""
     why = f"{title}: {executed.why}"
-    return ExecutedCases(checks=(Check(f"{ALL_CASES}: {why}", np.inf, 0.0),), missed=(why,))
+    return ExecutedCases(checks=(Check(f"{ALL_CASES}: equilibrium", np.inf, 0.0),), missed=(why,))
 
 
 def _judged(

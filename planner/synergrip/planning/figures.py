@@ -77,20 +77,19 @@ def _between(
     task = walker.task
     if len(task.times) < 2:
         return None, (), ()
-    looks = walker.looks(walk)
+    looks, where = walker.looks(walk), f"{BETWEEN}: "
     references = frozen(interpolated(looks.times, task.times, walk.references))
     near = walk.executed.interpolated(looks.times, looks.wrench)
     executed = walker.executor.run(looks.times, references, looks.wrench, near)
     if not executed.whole:
-        why = f"{BETWEEN}: {executed.why}"
-        return None, (Check(why, np.inf, 0.0),), (why,)
+        why = f"{where}{executed.why}"
+        return None, (Check(f"{where}equilibrium", np.inf, BALANCED),), (why,)
     motion, there = moved(executed, looks, walker, formulation)
     limits = [limit for limit in task.all_limits if not limit.couples_knots]
     usages = tuple(limit.usage(there, motion) for limit in limits)
     rooms = rooms_of(walk, walker, limits, usages)
     known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)
     found = replace(known, samples=walker.samples, usages=usages, rooms=rooms)
-    where = f"{BETWEEN}: "
     if task.between == "report":
         return found, (stable(executed, where),), ()
     return found, (stable(executed, where), *kept(usages, rooms, where)), tuple(missed_in(usages, rooms, where))

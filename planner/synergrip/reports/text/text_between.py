@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
+from synergrip.linalg import Array
 from synergrip.planning.between import Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
@@ -23,17 +24,18 @@ FINE = {"N": (1e3, "mN"), "m": (1e6, "um")}
 def between_lines(plan: Plan) -> Iterator[str]:
     """Yield the lines of ``between``; none when nothing is known of it."""
     if plan.between is not None:
-        yield from looked_at(plan.between, plan.task.between)
+        yield from looked_at(plan.between, plan.task.between, plan.motion.times)
 
 
-def looked_at(between: Between, asked: str | None) -> Iterator[str]:
+def looked_at(between: Between, asked: str | None, knots: Array) -> Iterator[str]:
     """Yield the lines of ``between``: what was looked at, what load and wish do there, and what of the limits.
 
     Args:
         between: what was looked at.
         asked: `task.between`.
+        knots: (T,) [s].
     """
-    yield from wrapped("between  ", "; ".join([*_departures(between), _limits(between, asked)]))
+    yield from wrapped("between  ", "; ".join([*_departures(between), _limits(between, asked, knots)]))
 
 
 def _departures(between: Between) -> Iterator[str]:
@@ -56,12 +58,12 @@ def _departures(between: Between) -> Iterator[str]:
         yield f"the wanted motion {leaves} by {in_mm(between.path_departure)}"
 
 
-def _limits(between: Between, asked: str | None) -> str:
+def _limits(between: Between, asked: str | None, knots: Array) -> str:
     if between.excess <= LIMIT:
         exact = between.exact and not between.straight
         hold = f"all limits hold there too{to_within(between.usages)}"
         return f"{hold}, and so at all times" if exact else hold
-    worst = max(between.usages, key=lambda usage: usage.violation)
+    worst = max(between.broken, key=lambda usage: usage.violation)
     k, i = worst.worst()
     reached, limit = nearest(worst)
     advice = []
@@ -69,11 +71,14 @@ def _limits(between: Between, asked: str | None) -> str:
         advice = ['task.between = "hold" keeps the limits there']
     elif asked == "report":
         advice = ['without task.between = "report" they are kept there']
-    if (
+    at_knots = between.broken_at(worst.title, knots)
+    if at_knots:  # more of them would not help: it is there that something else is to be done
+        advice = []
+    elif (
         np.count_nonzero(worst.times == worst.times[k]) == 1
     ):  # where a load jumps, references are the same on both sides
         advice.append("more knots straighten it")
-    told = f"; {', '.join(advice)}" if advice else ""
+    told = f"; {', '.join(advice)}" if advice else ", at knots as well" * at_knots
     return (
         f"{worst.title} of {worst.items[i]} reaches {reached} at t = {plain(worst.times[k], 3)} s, "
         f"past its limit of {limit}{told}"

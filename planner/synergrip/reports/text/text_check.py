@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
-from synergrip.documents.quantities import apart
 from synergrip.errors import Refusal
 from synergrip.planning.check import FAILS, Judgement
-from synergrip.planning.claims import Claims, Difference
-from synergrip.planning.in_cases import ALL_CASES
+from synergrip.planning.outcome import BETWEEN
 from synergrip.planning.told import (
     between_document,
     cases_document,
     check_document,
-    finite,
     margin_document,
     structure_document,
     usage_document,
@@ -23,54 +21,76 @@ from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at
+from synergrip.reports.text.text_broken import broken, names_of, not_holding
 from synergrip.reports.text.text_cases import judged_cases
+from synergrip.reports.text.text_claims import claims_document, claims_lines
 from synergrip.reports.text.text_plan import refused_lines, verdict_word
-from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_problem import many, problem_lines
 from synergrip.reports.text.text_usages import usage_rows
 
+STANDS_IN = (
+    "the figures are those of the linear model at the start posture, as the hand is at no equilibrium with these "
+    "references; a limit that is kept there says nothing about the hand"
+)
 
-def judgement_text(problem: Problem, judgement: Judgement, color: bool = False) -> str:
-    """Return what was judged, every check, what the file claims, and what the plan uses of every limit."""
-    own = [check for check in judgement.checks if check not in judgement.claims.checks or not check.passed]
-    rows = [(c.name, f"{c.error:.2e}", f"{c.tolerance:.0e}", "✓" if c.passed else "FAILS") for c in own]
+
+def judgement_text(problem: Problem, judgement: Judgement, color: bool = False, *, details: bool = False) -> str:
+    """Return what the hand does with the references, what that breaks, and whether the file says the same.
+
+    Args:
+        problem: what was asked.
+        judgement: of the references.
+        color: whether the verdict has its colour.
+        details: whether every check and every claim has a line.
+    """
     word = verdict_word("this plan fails" if judgement.verdict == FAILS else judgement.verdict, color)
-    failed = [check.name for check in judgement.checks if not check.passed]
-    missed = judgement.between is not None and judgement.between.excess > LIMIT
-    kept = f"this plan keeps every limit of the problem{' at its knots, and not between them' * missed}"
-    why = f"it breaks: {', '.join(failed)}" if failed else kept
-    if failed and all(check.passed or check in judgement.claims.checks for check in judgement.checks):
-        why = f"{kept}, but its file says what is not so of this problem: {', '.join(failed)}"
-    lines = [*problem_lines(problem), "", table(("check", "error", "tolerance", ""), rows), *_claims(judgement.claims)]
+    lines = [*problem_lines(problem), "", *wrapped(f"{word}  ", _why(judgement))]
+    for told in broken(judgement):
+        lines += wrapped("breaks   ", told)
+    for told in _notes(judgement):
+        lines += wrapped("note     ", told)
+    head = ("", "linear model" if judgement.stands_in else "worst", "at", "limit")
+    lines += [table(head, [row for usage in judgement.usages for row in usage_rows(usage)]), ""]
+    lines += [*_checked(judgement, details=details)]
     if judgement.between is not None:
-        lines += looked_at(judgement.between, judgement.task.between)
+        lines += looked_at(judgement.between, judgement.task.between, judgement.motion.times)
     lines += judged_cases(judgement.cases, judgement.fresh, judgement.formulation.allowed)
-    used = [row for usage in judgement.usages for row in usage_rows(usage)]
-    return "\n".join([*lines, "", *wrapped(f"{word}  ", why), table(("", "worst", "at", "limit"), used)])
+    lines += claims_lines(judgement, details=details)
+    return "\n".join(lines)
 
 
-def _claims(claims: Claims) -> Iterator[str]:
-    """Yield which claims of the file are right, what is wrong, and what was not compared."""
-    if claims.right:
-        yield from wrapped("claims   ", f"as the references have it: {', '.join(claims.right)}")
-    for each in claims.differences:
-        yield from wrapped("claims   ", _difference(each))
-    if claims.skipped:
-        yield from wrapped("claims   ", f"not compared, as no references can tell: {', '.join(claims.skipped)}")
+def _why(judgement: Judgement) -> str:
+    """Return in one sentence what fails, or that all is kept."""
+    if judgement.stands_in:
+        return f"with these references the hand is at no equilibrium {judgement.lost}"
+    if names := names_of(judgement):
+        return f"it breaks: {', '.join(names)}"
+    missed = judgement.between is not None and judgement.between.excess > LIMIT
+    kept = f"keeps every limit of the problem{' at its knots, and not between them' * missed}"
+    return f"it {kept}, but not all that its file says is true" if judgement.verdict == FAILS else f"this plan {kept}"
 
 
-def _difference(each: Difference) -> str:
-    says, found = each.says, each.found
-    if isinstance(says, float) and isinstance(found, int | float) and not isinstance(found, bool):
-        says, found = apart(says, float(found))
-    told = f"{each.key}: the file says {_word(says)}, it is {_word(found)}"
-    made = isinstance(says, str) and says.startswith(ALL_CASES)
-    return (
-        f"{told}; the plan was made with [allow], which this problem does not state: give the same --set" * made or told
-    )
+def _notes(judgement: Judgement) -> list[str]:
+    """Return what is to be known of the figures: of what model they are, and what they are of contacts that let go."""
+    return [*not_holding(judgement), *[STANDS_IN] * judgement.stands_in]
 
 
-def _word(value: object) -> str:
-    return "null" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+def _checked(judgement: Judgement, *, details: bool) -> Iterator[str]:
+    """Yield how many checks pass; with details each of them."""
+    own = [check for check in judgement.checks if check not in judgement.claims.checks]
+    failed = sum(not check.passed for check in own)
+    told = f"{failed} of {many(len(own), 'check')} fail" if failed else f"{many(len(own), 'check')} ✓"
+    yield from wrapped("check    ", told + "; -v shows each" * (not details))
+    if details:
+        units = {usage.title: usage.unit for usage in judgement.usages} if judgement.executed is not None else {}
+        rows = [
+            (
+                check.name, f"{check.error:.2e}" if math.isfinite(check.error) else "", f"{check.tolerance:.0e}",
+                units.get(check.name.removeprefix(f"{BETWEEN}: "), ""), "✓" if check.passed else "FAILS",
+            )
+            for check in own
+        ]  # fmt: skip
+        yield table(("check", "error", "tolerance", "unit", ""), rows)
 
 
 def refused_text(problem: Problem, refusal: Refusal, color: bool = False) -> str:
@@ -83,6 +103,7 @@ def judgement_document(judgement: Judgement) -> dict[str, Any]:
     """Return the judgement as a JSON document."""
     return {
         "verdict": judgement.verdict, "exit_code": judgement.exit_code,
+        "why": _why(judgement), "broken": list(broken(judgement)), "notes": _notes(judgement),
         "structure": structure_document(judgement.analysis.grasp, judgement.analysis),
         "time_s": judgement.motion.times.tolist(),
         "margin": margin_document(judgement.usages[0]) | {"per_contact_N": judgement.margins.tolist()},
@@ -90,14 +111,5 @@ def judgement_document(judgement: Judgement) -> dict[str, Any]:
         "checks": [check_document(check) for check in judgement.checks],
         "between": between_document(judgement.between),
         "allowances": cases_document(judgement.cases, judgement.formulation.allowed, judgement.fresh),
-        "claims": _claims_document(judgement.claims),
+        "claims": claims_document(judgement.claims),
     }  # fmt: skip
-
-
-def _claims_document(claims: Claims) -> dict[str, Any]:
-    """Return which keys of the file are right, which are not, with the worst of each, and which were not compared."""
-    wrong = [
-        {"key": each.key, "says": each.says, "found": each.found, "error": finite(each.error)}
-        for each in claims.differences
-    ]
-    return {"right": list(claims.right), "wrong": wrong, "not_compared": list(claims.skipped)}

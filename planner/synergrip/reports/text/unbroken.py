@@ -16,6 +16,7 @@ _ESCAPE = re.compile(r"\x1b\[[\d;]*m")
 _NUMBER = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?"
 _TIES = (
     re.compile(rf"(?<=\d) (?=(?:{_UNITS}|%)(?![\w/]))"),  # 10 mm
+    re.compile(r"(?<=\d\u00a0N) (?=mm?(?![\w/]))|(?<=\d\u00a0mN) (?=m(?![\w/]))"),  # 10 N m
     re.compile(r" (?=[·✓])"),
     re.compile(rf"(?<=\S) (?=[=≥≤<>] {_NUMBER})|(?<= [=≥≤<>]) (?={_NUMBER})"),  # t = 0.5
     re.compile(rf"(?<=[ (\u00a0][-+]) (?={_NUMBER})|(?<=^[-+]) (?={_NUMBER})"),  # - 0.5
