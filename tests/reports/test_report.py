@@ -23,6 +23,7 @@ from synergrip.reports.html import page
 from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
+from synergrip.reports.view.scene import scene_of
 
 HOSTILE = (
     "<script>boom()</script>",
@@ -87,6 +88,31 @@ def test_charts_have_the_numbers_of_the_plan_in_units_that_people_read() -> None
     forces = np.linalg.norm(np.array(document["true"]["force_N"]), axis=2)
     assert np.allclose(found["contact force"].values, forces)
     assert found["slip margin"].names == tuple(document["contacts"])
+
+
+def test_of_a_no_the_hand_is_seen_at_its_start_and_what_would_repair_it_is_told() -> None:
+    document = document_of("robonaut-handle", *ASKED["robonaut-handle"])
+    assert document["verdict"] == "infeasible"
+    scene = scene_of(document)
+    assert len(scene.times) == 1
+    assert scene.margins is None
+    assert not scene.forces.any()
+    names = [each["name"] for each in document["execution"]["contacts"]]
+    assert list(scene.contacts) == names
+    text = report_text(document)
+    assert "the hand at the start" in text
+    assert Tags(text).names.count("iframe") == 1
+
+
+def test_of_a_motion_that_is_not_reached_what_is_known_is_seen_until_then() -> None:
+    document = document_of("gripper-box", "task.move[0].lift=10 mm", "task.knots=11")
+    assert document["stage"] == "reach"
+    scene = scene_of(document)
+    assert 1 < len(scene.times) < len(document["time_s"])
+    assert scene.times[-1] <= document["reached"]["until_s"]
+    found = {each.title: each for each in lines_of(document)}
+    assert len(found["slip margin"].values) == len(found["synergy reference"].values) == len(scene.times)
+    assert "as far as the motion is followed" in report_text(document)
 
 
 def test_torques_are_in_percent_of_what_each_joint_may_do() -> None:

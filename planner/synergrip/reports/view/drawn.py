@@ -132,10 +132,13 @@ class Drawn:
         self._arrows.points = forces.astype(np.float32)
         sizes = np.linalg.norm(scene.forces[k], axis=1)
         for label, name, size, ends_at in zip(self._labels, scene.contacts, sizes, forces, strict=True):
-            label.text, away = f"{name} {size:.3g} N", ends_at[0] - ends_at[1]
+            label.text = f"{name} {size:.3g} N" if size > 0 else name
+            away = ends_at[0] - self._middle
             label.position = tuple(ends_at[0] + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
-        i = int(np.argmin(scene.margins[k]))
-        least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
+        least = "the posture of the start"
+        if scene.margins is not None:
+            i = int(np.argmin(scene.margins[k]))
+            least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
         self._time.text = f"t = {scene.times[k]:.2f} s, {least}"
 
     def _ground(self, nodes: Any) -> None:
