@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from functools import cache
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -68,15 +69,14 @@ def test_a_report_refers_to_nothing_outside_itself_and_is_small() -> None:
     assert all(link.startswith("#") for link in Tags(text).links)
 
 
-@pytest.mark.parametrize("title", HOSTILE, ids=["script", "attribute", "direction", "template", "long"])
-def test_hostile_titles_and_names_stay_text(title: str) -> None:
-    document = document_of("tripod")
-    names = [title, *document["contacts"][1:]]
-    ours = document | {"title": title, "contacts": names, "notes": [title]}
-    plain, told = Tags(report_text(document)), Tags(report_text(ours))
-    assert told.names.count("script") == plain.names.count("script") == 1
+def test_hostile_titles_and_names_stay_text() -> None:
+    document, title = document_of("tripod"), " ".join(HOSTILE)
+    names = [*HOSTILE[:3], *document["contacts"][3:]][: len(document["contacts"])]
+    text = report_text(document | {"title": title, "contacts": names, "notes": [title]})
+    told = Tags(text)
+    assert told.names.count("script") == 1
     assert told.names.count("img") == 0
-    assert "49" not in report_text(ours)[:400]
+    assert unescape(text[text.index("<h1>") + 4 : text.index("</h1>")]) == title
 
 
 def test_charts_have_the_numbers_of_the_plan_in_units_that_people_read() -> None:
