@@ -164,3 +164,9 @@ def test_the_page_is_made_on_this_machine_alone_and_in_silence(monkeypatch: pyte
     with socket.socket() as ours:
         assert ours.connect_ex((host, port)) != 0  # closed again
     assert len(page) < 1.2e6
+
+
+def test_what_lies_along_a_direction_is_turned_there() -> None:
+    directions = np.vstack([np.random.default_rng(5).normal(size=(50, 3)), [[0, 0, -2], [0, 0, 1], [1e-9, 0, -1]]])
+    turned = Rotation.from_quat(drawn._upright(directions), scalar_first=True).apply([0.0, 0.0, 1.0])
+    assert np.allclose(turned, directions / np.linalg.norm(directions, axis=1, keepdims=True), atol=1e-6)

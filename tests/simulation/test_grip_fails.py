@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -98,6 +99,8 @@ def test_what_holds_is_as_written_and_has_not_failed(played: synergrip.Simulatio
     assert (played.failed_at, played.failed_before, played.ended) == (None, False, None)
     assert (played.time[0], played.time[-1]) == (played.knots[0], played.knots[-1])
     assert np.isnan(played.lost_at).all()
+    elsewhere = replace(played, ended=0.5)
+    assert (elsewhere.verdict, elsewhere.exit_code) == ("went elsewhere", 3), "what was not played to its end"
 
 
 def test_a_watch_tells_since_when_contacts_are_gone() -> None:

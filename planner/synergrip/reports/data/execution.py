@@ -1,4 +1,7 @@
-"""What another program needs to execute a plan of a hand without knowing synergrip: the `execution` of plan.json."""
+"""What another program needs to execute a plan of a hand without knowing synergrip: the `execution` of plan.json.
+
+Of a no it tells what was asked about.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +15,14 @@ import numpy as np
 
 from synergrip.files import bundled
 from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.grasps.objects import Object, Turned
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.shapes.sphere import Sphere
 from synergrip.hands.hand import Coupling, Hand
 from synergrip.linalg import Array
-from synergrip.planning.outcome import Plan
+from synergrip.planning.outcome import Outcome
 from synergrip.planning.told import finite
 from synergrip.statics.motion import forces_at_start
 from synergrip.tasks.gravity import Weight
@@ -38,18 +42,21 @@ NEAR, ROUNDED = 1e-3, 1e-9
 the larger number one is rounding."""
 
 
-def execution_document(plan: Plan) -> dict[str, Any] | None:
-    """Return hand, object, contacts and load of a plan, SI units, palm frame at the start; None for matrices."""
-    held, grasp = plan.grasp.held, plan.grasp
+def execution_document(answer: Outcome) -> dict[str, Any] | None:
+    """Return hand, object, contacts and load of an answer, SI units, palm frame at the start; None for matrices.
+
+    Forces at the start are null where the object is not held.
+    """
+    held, grasp, analysis = answer.grasp.held, answer.grasp, answer.analysis
     if held is None:
         return None
-    forces = forces_at_start(plan.analysis.response)
-    gravity, palm = _surroundings(plan.task, held.body.mass)
+    forces = None if analysis is None else forces_at_start(analysis.response)
+    gravity, palm = _surroundings(answer.task, held.body.mass)
     return {
         **_hand(held.hand), "q_0": held.q, "S": grasp.S, "C_q": grasp.C_q, "C_z": grasp.C_z,
-        "lambda_0": forces, "tau_0": forces @ grasp.J, "gravity_m_s2": gravity,
-        "palm": None if palm is None else _poses(palm, plan.time),
-        "object": _object(held.body), "contacts": _contacts(plan, held), "load": _load(plan.task, held.body),
+        "lambda_0": forces, "tau_0": None if forces is None else forces @ grasp.J, "gravity_m_s2": gravity,
+        "palm": None if palm is None else _poses(palm, answer.task.times),
+        "object": _object(held.body), "contacts": _contacts(grasp, held), "load": _load(answer.task, held.body),
         "interpolation": "linear",
     }  # fmt: skip
 
@@ -100,8 +107,7 @@ def _shape(shape: Shape | None, rotation: Array | None = None) -> dict[str, Any]
     return {shape.name: sizes if isinstance(shape, Sphere) else sizes | {"rotation": turned}}
 
 
-def _contacts(plan: Plan, held: Held) -> list[dict[str, Any]]:
-    grasp = plan.grasp
+def _contacts(grasp: Grasp, held: Held) -> list[dict[str, Any]]:
     each = zip(grasp.contacts, grasp.rows, held.touches, strict=True)
     return [
         {

@@ -61,6 +61,8 @@ def outcome_document(
         "programs": [_program(decision) for decision in outcome.decisions],
         "notes": notes_together(outcome.notes, notes),
     }
+    if (execution := execution_document(outcome)) is not None:
+        document[EXECUTION] = execution
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
     known = known or outcome.explanation
@@ -87,8 +89,6 @@ def _plan(plan: Plan) -> dict[str, Any]:
     for each in ARRAYS:
         place = document.setdefault(each.key, {}) if each.inside else document
         place[each.inside or each.key] = each.of(plan.moved)
-    if (execution := execution_document(plan)) is not None:
-        document[EXECUTION] = execution
     if plan.executed is not None:
         first = None if plan.first_passes is None else vars(plan.first_passes)
         document["true"] = true_document(plan.executed, plan.usages[0], plan.fixed) | {

@@ -65,8 +65,9 @@ def _limits(document: Mapping[str, Any]) -> Iterator[Lines]:
 
 
 def _references(document: Mapping[str, Any]) -> Iterator[Lines]:
-    if "dz_r" in document:
-        values = np.array(document["dz_r"])
+    references = document.get("dz_r") or document.get("true", {}).get("dz_r")
+    if references is not None:
+        values = np.array(references)
         order = np.argsort(-np.abs(values).max(axis=0), kind="stable")
         yield Lines("synergy reference", "", tuple(document["synergies"][i] for i in order), values[:, order])
 

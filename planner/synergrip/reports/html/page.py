@@ -17,6 +17,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
+from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.lines import lines_of
@@ -58,7 +59,7 @@ def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(
     """Return the report of an answer as `write_report` writes it."""
     refuse_without_libraries()
     scene, note = _scene(document, folder)
-    charts = charts_of(np.array(document["time_s"]), lines_of(document), missing_of(document))
+    charts = charts_of(_known_times(document), lines_of(document), missing_of(document))
     tables, no, proven = tables_of(document), why_of(document), document.get("provenance") or {}
     problem = proven.get("problem") or {}
     contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts)
@@ -74,17 +75,27 @@ def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(
     )  # fmt: skip
 
 
+def _known_times(document: Mapping[str, Any]) -> Array:
+    """Return the knots at which something is known [s]: of a motion that is not reached the first ones."""
+    true = document.get("true") or {}
+    return np.array(true.get("time_s") or document["time_s"])
+
+
 def _scene(document: Mapping[str, Any], folder: Path) -> tuple[str, str]:
     """Return the page of the 3-D view, and what is to be said of it; none where there is no hand to be seen."""
-    if "execution" not in document or "true" not in document:
+    if "execution" not in document:
         return "", ""
     from synergrip.reports.view.drawn import page
     from synergrip.reports.view.scene import scene_of
 
     scene = scene_of(document, folder)
     told = "palm frame; arrows: forces of the hand on the object; cones: friction; squares of 10 mm"
-    if scene.left_out:
-        told += f"; {len(scene.times)} of {len(document['time_s'])} knots are shown"
+    if scene.margins is None:
+        told = "the hand at the start, palm frame; cones: friction; squares of 10 mm"
+    elif scene.left_out:
+        told += f"; {len(scene.times)} of {len(scene.times) + scene.left_out} knots are shown"
+    elif len(scene.times) < len(document["time_s"]):
+        told += f"; until t = {scene.times[-1]:.4g} s, as far as the motion is followed"
     return page(scene), told
 
 

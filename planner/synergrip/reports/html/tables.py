@@ -71,18 +71,22 @@ def _contacts(document: Document) -> Iterator[Table]:
     """Yield where the contacts are, what they are, and the worst that happens to them."""
     told = (document.get("execution") or {}).get("contacts")
     margins = _margins(document)
-    if told is None or margins is None:
+    if told is None:
         return
     names, colors = [each["name"] for each in told], contact_colors(document["contacts"])
-    forces = np.linalg.norm(np.array(document["true"]["force_N"]), axis=2)
+    true = document.get("true")
+    forces = None if true is None else np.linalg.norm(np.array(true["force_N"]), axis=2)
     times, rows = document["time_s"], []
     for i, each in enumerate(told):
-        k, friction = int(np.argmin(margins[:, i])), each["parameters"].get("friction")
+        k = 0 if margins is None else int(np.argmin(margins[:, i]))
+        friction = each["parameters"].get("friction")
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
             _number("–" if friction is None else f"{friction:.3g}"), _number(shown(each["pad_radius_m"], "m")),
-            _number(", ".join(f"{1e3 * x:.1f}" for x in each["point_m"])), _number(f"{margins[k, i]:.4g} N"),
-            _number(f"{times[k]:.3g} s"), _number(f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),
+            _number(", ".join(f"{1e3 * x:.1f}" for x in each["point_m"])),
+            _number("–" if margins is None else f"{margins[k, i]:.4g} N"),
+            _number("–" if margins is None else f"{times[k]:.3g} s"),
+            _number("–" if forces is None else f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),
         ))  # fmt: skip
     head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", "least margin",
             "when", "force")  # fmt: skip

@@ -132,10 +132,13 @@ class Drawn:
         self._arrows.points = forces.astype(np.float32)
         sizes = np.linalg.norm(scene.forces[k], axis=1)
         for label, name, size, ends_at in zip(self._labels, scene.contacts, sizes, forces, strict=True):
-            label.text, away = f"{name} {size:.3g} N", ends_at[0] - ends_at[1]
+            label.text = f"{name} {size:.3g} N" if size > 0 else name
+            away = ends_at[0] - self._middle
             label.position = tuple(ends_at[0] + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
-        i = int(np.argmin(scene.margins[k]))
-        least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
+        least = "the posture of the start"
+        if scene.margins is not None:
+            i = int(np.argmin(scene.margins[k]))
+            least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
         self._time.text = f"t = {scene.times[k]:.2f} s, {least}"
 
     def _ground(self, nodes: Any) -> None:
@@ -145,7 +148,7 @@ class Drawn:
         low = self._middle + up * (points @ up).min()
         wide = float(np.ceil(2.2 * np.linalg.norm(points, axis=1).max() / CELL) * CELL)
         nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
-                       position=tuple(low), wxyz=_quaternion(_upright(up)))  # fmt: skip
+                       position=tuple(low), wxyz=tuple(_upright(up[None])[0]))  # fmt: skip
         nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
 
     def _weight(self, k: int) -> Array:
@@ -186,25 +189,18 @@ def _lay(node: Any, ends: Array, radii: Array | float) -> None:
     along = ends[:, 1] - ends[:, 0]
     lengths = np.linalg.norm(along, axis=1)
     node.batched_positions = ends[:, 0].astype(np.float32)
-    node.batched_wxyzs = np.array([_quaternion(_upright(each)) for each in along], dtype=np.float32)
+    node.batched_wxyzs = _upright(along).astype(np.float32)
     wide = np.broadcast_to(radii, lengths.shape)
     node.batched_scales = np.column_stack([wide, wide, lengths]).astype(np.float32)
 
 
-def _upright(direction: Array) -> Array:
-    """Return a rotation (3, 3) that takes z to a direction."""
-    from scipy.spatial.transform import Rotation
-
-    size = float(np.linalg.norm(direction))
-    if size == 0:
-        return np.eye(3)
-    z = direction / size
-    if z[2] < -1 + 1e-12:
-        return np.diag([1.0, -1.0, -1.0])
-    across = np.cross([0.0, 0.0, 1.0], z)
-    sine = float(np.linalg.norm(across))
-    turn = across * (np.arctan2(sine, z[2]) / sine) if sine > 0 else across
-    return np.asarray(Rotation.from_rotvec(turn).as_matrix())
+def _upright(directions: Array) -> Array:
+    """Return (w, x, y, z) of the shortest turns that take z to directions (n, 3)."""
+    lengths = np.linalg.norm(directions, axis=1, keepdims=True)
+    x, y, z = np.where(lengths > 0, directions / np.where(lengths > 0, lengths, 1.0), [0.0, 0.0, 1.0]).T
+    turns = np.column_stack([1 + z, -y, x, np.zeros_like(z)])
+    turns[z < -1 + 1e-12] = [0.0, 1.0, 0.0, 0.0]  # all that lead there are as short
+    return np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True))
 
 
 def _quaternion(rotation: Array) -> tuple[float, ...]:

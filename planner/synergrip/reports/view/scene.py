@@ -1,7 +1,7 @@
-"""What is seen of a plan in three dimensions, frame by frame: hand, object, contacts and their forces.
+"""What is seen of an answer in three dimensions, frame by frame: hand, object, contacts and their forces.
 
-It is made from the document of a plan (plan.json) and the hand file that this names, so that a saved plan shows what
-a new one does. Numbers only: how they are drawn is the business of others.
+It is made from the document of an answer (plan.json) and the hand file that this names, so that a saved one shows
+what a new one does. Numbers only: how they are drawn is the business of others.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,7 +51,7 @@ class Scene(Value):
     places: Array  # (F, m, 3) where the contacts are [m]
     normals: Array  # (F, m, 3) into the object
     forces: Array  # (F, m, 3) on the object [N]
-    margins: Array  # (F, m) [N]
+    margins: Array | None  # (F, m) [N]; None where no force is known
     friction: Array  # (m,) 0 where there is none
     up: Array  # (F, 3) against gravity, or the palm's z where none is known
 
@@ -71,37 +71,61 @@ class Scene(Value):
 
 
 def scene_of(document: Mapping[str, Any], folder: Path = Path()) -> Scene:
-    """Return what is seen of a plan.
+    """Return what is seen of an answer: its true states, or the hand at the start where it has none.
 
     Args:
-        document: of the plan, as in plan.json.
+        document: of the answer, as in plan.json.
         folder: where its hand file is looked for when it is not a bundled one.
 
     Raises:
-        InputError: a plan of a grasp given as matrices, a hand file that is missing or has changed, values that are
-            none.
+        InputError: an answer about a grasp given as matrices, a hand file that is missing or has changed, values that
+            are none.
     """
-    if not isinstance(document.get("execution"), dict) or not isinstance(document.get("true"), dict):
+    if not isinstance(document.get("execution"), dict):
         raise InputError.at("execution", "a grasp given as matrices has no hand to be seen")
-    plan, told, true = (Told(part, key) for part, key in (
-        (dict(document), ""), (document["execution"], "execution"), (document["true"], "true")))  # fmt: skip
-    every = plan.array("time_s", (None,))
-    shown = _thinned(len(every))
-    tree, pads = hand_tree(told, folder), told.several("contacts")
-    q = true.array("q", (len(every), len(told.texts("joints"))))[shown]
-    bones, middles = _hand(tree, told.texts("joints"), q, pads)
+    told, states = Told(document["execution"], "execution"), _states(document)
+    shown, pads, joints = _thinned(len(states.times)), told.several("contacts"), told.texts("joints")
+    bones, middles = _hand(hand_tree(told, folder), joints, states.q[shown], pads)
     radii = np.array([pad.number("pad_radius_m") for pad in pads])
-    du = true.array("du", (len(every), 6))[shown]
     shape, turned = _shape(told.inside("object").get("shape"))
-    each = {key: true.array(key, (len(every), len(pads), 3))[shown] for key in ("place_m", "normal", "force_N")}
+    du = states.du[shown]
     return Scene(
-        times=every[shown], left_out=len(every) - len(shown), bones=bones,
+        times=states.times[shown], left_out=len(states.times) - len(shown), bones=bones,
         thickness=_thickness(bones, radii), pads=middles, radii=radii, shape=shape,
         position=told.inside("object").array("position_m", (3,)) + du[:, :3], rotation=_turns(du[:, 3:]) @ turned,
-        contacts=tuple(pad.text("name") for pad in pads), places=each["place_m"], normals=each["normal"],
-        forces=each["force_N"], friction=np.array([_friction(pad) for pad in pads]), up=_up(told, shown),
-        margins=true.inside("margin").array("per_contact_N", (len(every), len(pads)))[shown],
+        contacts=tuple(pad.text("name") for pad in pads), places=states.places[shown], normals=states.normals[shown],
+        forces=states.forces[shown], friction=np.array([_friction(pad) for pad in pads]), up=_up(told, shown),
+        margins=None if states.margins is None else states.margins[shown],
     )  # fmt: skip
+
+
+class _States(NamedTuple):
+    """States of hand and object at some knots, from the first on."""
+
+    times: Array
+    q: Array
+    du: Array
+    places: Array
+    normals: Array
+    forces: Array
+    margins: Array | None
+
+
+def _states(document: Mapping[str, Any]) -> _States:
+    """Return the true states of an answer; else that of the start, in which no force is known."""
+    told, plan = Told(document["execution"], "execution"), Told(dict(document), "")
+    pads, n_q = told.several("contacts"), len(told.texts("joints"))
+    if not isinstance(document.get("true"), dict):
+        places = np.array([[pad.array("point_m", (3,)) for pad in pads]])
+        normals = np.array([[pad.array("frame", (3, 3))[0] for pad in pads]])
+        start = plan.array("time_s", (None,))[:1]
+        return _States(start, told.array("q_0", (n_q,))[None], np.zeros((1, 6)), places, normals, 0 * places, None)
+    true = Told(document["true"], "true")
+    times = (true if true.get("time_s") is not None else plan).array("time_s", (None,))  # of an unknown as far as known
+    count = len(times)
+    places, normals, forces = (true.array(key, (count, len(pads), 3)) for key in ("place_m", "normal", "force_N"))
+    margins = true.inside("margin").array("per_contact_N", (count, len(pads)))
+    return _States(times, true.array("q", (count, n_q)), true.array("du", (count, 6)), places, normals, forces, margins)
 
 
 def _thinned(count: int) -> Places:
