@@ -68,6 +68,16 @@ def executed(
     return _told(document, equilibrium, reached, ended)
 
 
+def with_fewer_lines(document: dict[str, Any], most: int) -> dict[str, Any]:
+    """Return a plan.json with about so many lines of its load at most, where none of them is a jump."""
+    load = document["execution"]["load"]
+    assert np.all(np.diff(load["times_s"]) > 0)
+    every = np.unique(np.round(np.linspace(0, len(load["times_s"]) - 1, most)).astype(int))
+    taken = {name: [load[name][i] for i in every] for name in ("times_s", "wrench")}
+    forces = [push | {"force": [push["force"][i] for i in every]} for push in load.get("forces", [])]
+    return document | {"execution": document["execution"] | {"load": load | taken | {"forces": forces}}}
+
+
 def between_knots(document: dict[str, Any], parts: int) -> dict[str, Any]:
     """Return a plan.json at every line of its load, and at the ends of so many parts of each piece between two."""
     load = document["execution"]["load"]

@@ -18,11 +18,13 @@ from synergrip.changes.asked import Asked
 from synergrip.changes.least_change import least_change
 from synergrip.changes.turning import dials, knots_dial
 from synergrip.explain.along import more_knots
+from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import MORE, NEAR, Repair, repaired
 from synergrip.explain.synergies.brief_judge import briefly
 from synergrip.explain.synergies.missing_synergies import missing_synergies
 from synergrip.explain.words import nearer
 from synergrip.planning.planning import plan_of_start_posture
+from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.text_no import more_lines
 
 TIGHT = 'limits.normal_force="8 N"'
@@ -121,8 +123,10 @@ def test_what_plan_says_of_a_hand_names_the_start_posture_and_where_more_is_look
     assert "synergrip explain tries values between" in text
 
 
-def told_of(no: sg.Infeasible | sg.Unknown) -> str:
-    return "\n".join(more_lines(no.explanation, no.task.times, lambda key: ""))
+def told_of(no: sg.Infeasible | sg.Unknown, found: Explanation | None = None) -> str:
+    """Return the text where every row and sentence has a line."""
+    with shown_on(Screen(250)):
+        return "\n".join(more_lines(found or no.explanation, no.task.times, lambda key: ""))
 
 
 def test_what_is_known_of_the_start_posture_alone_says_so_where_the_hand_moves() -> None:
@@ -203,8 +207,7 @@ def test_the_first_entry_is_what_is_blamed_and_what_has_no_plan_has_no_set(cappe
     first, *others = no.explanation.repairs
     (unplanned,) = capped(5.0)[0]
     found = replace(no.explanation, repairs=(replace(first, verified=False, outcome=None), *others))
-    text = "\n".join(more_lines(found, no.task.times, lambda key: ""))
-    rows = text.split("What would help")[1].splitlines()[2:]
+    rows = told_of(no, found).split("What would help")[1].splitlines()[2:]
     assert rows[0].startswith(first.key)
     assert "--set" not in rows[0]
     assert "--set" in rows[1]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from jaws_that_move import jaws
-from second_execution import between_knots
+from second_execution import between_knots, with_fewer_lines
 from second_execution import executed as executed_otherwise
 
 from synergrip import (
@@ -75,6 +75,10 @@ def test_a_plan_of_the_start_posture_that_holds_says_what_its_promise_was_worth(
     assert document["certificate"]["scope"] == "start"
 
 
+LINES = 40
+"""Instants at which a second program looks at a plan, about."""
+
+
 @pytest.mark.parametrize(("name", "knots"), [("barrett-ball-hold", 2), ("gripper-box", 2), ("human-graspit-ball", 2)])
 def test_a_plan_of_few_knots_keeps_its_margin_at_all_times(name: str, knots: int) -> None:
     """Half-way of a course that starts and ends smoothly a load is on its straight line, and elsewhere it is not."""
@@ -84,7 +88,9 @@ def test_a_plan_of_few_knots_keeps_its_margin_at_all_times(name: str, knots: int
     for each in (reported, answer):
         assert isinstance(each, Plan), each
         document = json.loads(json.dumps(outcome_document("", problem.grasp, each)))
-        finer = executed_otherwise(between_knots(document, 4), REPOSITORY, document["true"]["contact_model"], parts=1)
+        lines = len(document["execution"]["load"]["times_s"])
+        fewer = between_knots(document, 4) if lines <= LINES else between_knots(with_fewer_lines(document, LINES), 1)
+        finer = executed_otherwise(fewer, REPOSITORY, document["true"]["contact_model"], parts=1)
         assert finer.ended is None
         least.append(finer.margins.min())
     room = max(1e-3, 1e-3 * np.abs(answer.forces).max())

@@ -31,9 +31,9 @@ FEW = 3
 """How many numbers the short form tells, and single changes to each of which a second one is looked for."""
 NEARLY = (1.0, 1.25, 2.0)
 """How many times as far as the object is off is tried as its tolerance; the first two in the short form."""
-ALMOST, LEAST_PART = (1.0, 0.97, 0.9), 0.05
-"""Which shares of the part of a motion that was followed are tried as its size, the first two in the short form; and
-what part is worth it."""
+ALMOST, LEAST_PART = (1.0, 0.97), 0.05
+"""Which shares of the part of a motion that was followed are tried as its size in the short form, and what part is
+worth it."""
 ROOMY = 0.05
 """How much farther than the start posture needs a number goes to which a second one is looked for."""
 
@@ -80,7 +80,7 @@ def near_enough(
 
 
 def as_far_as_followed(
-    no: Unknown, numbers: Sequence[Dial[Asked]], posed: Posed, heard: Callable[[Repair], None], *, short: bool
+    no: Unknown, numbers: Sequence[Dial[Asked]], posed: Posed, heard: Callable[[Repair], None]
 ) -> Iterator[Repair]:
     """Yield how much of a motion has a plan, about as much as was followed of it."""
     dial = next((each for each in numbers if each.cause == "amplitude"), None)
@@ -91,8 +91,7 @@ def as_far_as_followed(
     part = float(np.linalg.norm(scale.twist(no.reached.pose[None]))) / whole if whole > 0 else 0.0
     if not LEAST_PART < part < 1:
         return
-    values = [dial.rounded(dial.value * part * share) for share in (ALMOST[:2] if short else ALMOST)]
-    found = first_repair(dial, values, BRIEF if short else WHOLE)
+    found = first_repair(dial, [dial.rounded(dial.value * part * share) for share in ALMOST], BRIEF)
     if found is not None:
         heard(found)
         yield found

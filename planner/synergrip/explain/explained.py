@@ -153,14 +153,20 @@ def _tried(
 ) -> tuple[list[Repair], bool]:  # fmt: skip
     """Return changes that are tried along the motion, and whether somebody interrupted.
 
-    A tolerance comes first where it is known by how much the motion is not reached, and is not tried twice; then as
-    much of the motion as was followed.
+    A tolerance comes first where it is known by how much the motion is not reached, and is not tried twice. In the
+    short form as much of the motion as was followed comes next; the long one looks for more of it by itself.
     """
     near = no.reached is not None and no.reached.off_m is not None
     left = [dial for dial in numbers if not (near and dial.cause == "tolerance")]
-    followed = as_far_as_followed(no, numbers, posed, heard, short=short)
-    more = tried_briefly(left, heard, effort) if short else tried(left, heard)
-    return _as_found(chain(near_enough(no, asked, posed, heard, short=short), followed, more))
+    if not short:
+        return _as_found(chain(near_enough(no, asked, posed, heard, short=False), tried(left, heard)))
+    followed = as_far_as_followed(no, numbers, posed, heard)
+    found, interrupted = _as_found(chain(near_enough(no, asked, posed, heard, short=True), followed))
+    if interrupted:
+        return found, True
+    known = {each.cause for each in found}
+    more, interrupted = _as_found(tried_briefly([dial for dial in left if dial.cause not in known], heard, effort))
+    return found + more, interrupted
 
 
 def _as_found(repairs: Iterable[Repair]) -> tuple[list[Repair], bool]:

@@ -10,7 +10,7 @@ from synergrip.planning.instants import looked_at
 from synergrip.statics.analysis import Analysis
 from synergrip.tasks.timed_task import TimedTask
 
-LOOKS, PARTS = 32, (2, 16)
+LOOKS, PARTS = 32, (2, 32)
 """How many instants between the knots are looked at, at least, and into how many parts a piece is divided for that: a
 middle where there are many pieces; where these are few, or a load is curved, the middle alone says too little."""
 
