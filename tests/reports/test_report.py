@@ -37,7 +37,7 @@ MOST_BYTES = 1.5e6
 ASKED = {
     "gripper-box": (),
     "robonaut-handle": ("limits.margin=20 N",),
-    "human-ball": ("task.move[0].lift=120 mm",),
+    "human-ball": ("task.move[0].lift=120 mm", "task.knots=5"),
 }
 
 
@@ -177,7 +177,7 @@ def test_what_is_not_installed_is_said_before_anything_is_planned(monkeypatch: p
 
 @pytest.mark.skipif(browser_path() is None, reason="there is no Chromium to open the report with")
 def test_reports_open_without_a_network_or_an_error_and_their_cursors_follow(tmp_path: Path) -> None:
-    with browsing() as seen:
+    with browsing(400, 300) as seen:
         for name, overrides in ASKED.items():
             document = document_of(name, *overrides)
             path = tmp_path / f"{name}.html"
