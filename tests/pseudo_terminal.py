@@ -110,7 +110,9 @@ def plain(text: str) -> str:
 
 
 def too_long(text: str, columns: int) -> list[str]:
-    return [line for line in re.split(r"[\r\n]", plain(text)) if len(line) > columns]
+    """Return lines beyond the width, but for those of one word: the path of a file is never split."""
+    lines = re.split(r"[\r\n]", plain(text))
+    return [line for line in lines if len(line) > columns and len(line.split()) > 1]
 
 
 def broken(text: str, wide: str) -> list[str]:

@@ -79,7 +79,8 @@ def _wide(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def test_the_text_says_the_same(ball: Problem) -> None:
     text, document, held = in_order_text(ball), in_order_document(ball), ball.held
     assert held is not None
-    assert text.startswith(f"{ball.path}: in order (3 contacts, 8 joints, 4 synergies, 41 knots)\n\nposture  ")
+    begins = f"{ball.path}: in order (3 contacts, 8 joints, 4 synergies, 41 knots) posture "  # paths can be long
+    assert " ".join(text.split()).startswith(begins)
     posture = text.split("posture  ")[1].split("object   ")[0]
     values = [" ".join(item.split()) for item in posture.replace("\n", " ").split("·")]
     assert values == [f"{name} {math.degrees(value):.4g} deg" for name, value in document["posture"].items()]
@@ -113,7 +114,8 @@ def test_an_object_without_a_shape_has_no_gaps_and_its_own_title() -> None:
 
 def test_a_grasp_of_matrices_has_counts_and_notes_only() -> None:
     tripod = load_problem("tripod")
-    assert in_order_text(tripod) == f"{tripod.path}: in order (3 contacts, 9 joints, 4 synergies, 11 knots)"
+    told = f"{tripod.path}: in order (3 contacts, 9 joints, 4 synergies, 11 knots)"
+    assert in_order_text(tripod).split() == told.split()
     assert set(in_order_document(tripod)) == {"valid", "file", "title", "notes"}
 
 
