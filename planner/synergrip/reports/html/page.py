@@ -62,7 +62,7 @@ def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document))
     tables, no, proven = tables_of(document), why_of(document), document.get("provenance") or {}
     problem = proven.get("problem") or {}
-    contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts)
+    contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts or scene)
     contents += [(table.anchor, table.title) for table in tables] + [("inputs", "Inputs"), ("downloads", "Downloads")]
     files = {"plan.json": to_json(dict(document)), "plan.csv": csv}
     return str(

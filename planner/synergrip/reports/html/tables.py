@@ -114,7 +114,8 @@ def _truth(document: Document) -> Iterator[Table]:
     true = document.get("true")
     if not true:
         text = "The figures are those of the linear model at the start posture: the grasp has no kinematics."
-        yield Table("model", "Model", before=(text,) if "margin" in document else ())
+        if "margin" in document:
+            yield Table("model", "Model", before=(text,))
         return
     lines = [f"The figures are those of the equilibria of the hand that moves; contacts: {true['contact_model']}."]
     if true.get("passes"):
@@ -163,9 +164,9 @@ def why_of(document: Document) -> dict[str, Any] | None:
     when, repairs = document.get("when") or {}, document.get("repairs") or ()
     told = [f"first at t = {when['first_s']:.3g} s"] if when.get("first_s") is not None else []
     if document.get("cannot_help"):
-        told.append(f"proven not to help: {', '.join(document['cannot_help'])}")
+        told.append(f"proven not to help: {_words(', '.join(document['cannot_help']))}")
     rows = [
-        {"cause": each["cause"], "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
+        {"cause": _words(each["cause"]), "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
          "set": f"--set {each['set']}"}
         for each in repairs
     ]  # fmt: skip
@@ -176,6 +177,10 @@ def missing_of(document: Document) -> Sequence[tuple[float, float]]:
     """Return the stretches of time without a plan [s]."""
     spans = (document.get("when") or {}).get("intervals_s") or ()
     return tuple((float(begin), float(end)) for begin, end in spans)
+
+
+def _words(causes: str) -> str:
+    return causes.replace("_", " ")
 
 
 def _of(value: Any, unit: Any) -> str:
