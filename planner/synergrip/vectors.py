@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synergrip.linalg import Array
+from synergrip.linalg import Array, frozen
 
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 _SKEW = np.array([
@@ -41,6 +41,13 @@ def rotation_vectors(rotations: Array) -> Array:
 
         found[far] = Rotation.from_matrix(rotations[far]).as_rotvec()
     return np.asarray(found)
+
+
+def quaternions(rotations: Array) -> Array:
+    """Return rotation matrices (T, 3, 3) as quaternions (T, 4), w first and never negative."""
+    from scipy.spatial.transform import Rotation
+
+    return frozen(Rotation.from_matrix(rotations).as_quat(canonical=True)[:, [3, 0, 1, 2]])
 
 
 def times(matrices: Array, vectors: Array) -> Array:

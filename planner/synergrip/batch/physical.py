@@ -18,7 +18,8 @@ from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.linalg import Array
-from synergrip.planning.verified import EXACT, LIMIT
+from synergrip.planning.between import LIMIT
+from synergrip.planning.verified import EXACT
 from synergrip.values import Value
 
 

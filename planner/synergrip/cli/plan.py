@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -82,13 +82,14 @@ def plan(
         from synergrip.planning.solvers import answerer
         from synergrip.reports.data.json_plan import outcome_document
         from synergrip.reports.data.plan_files import refuse_place, write_outcome
-        from synergrip.reports.html import page
         from synergrip.reports.text.text_plan import outcome_text
         from synergrip.signals import held_back
 
         picture_place(picture)
         if report:
-            page.refuse_without_libraries()
+            from synergrip.reports.html.page import refuse_without_libraries
+
+            refuse_without_libraries()
         answers, request = telling(answerer(solver)), asked(pyramids, qp_solver)
         tell_what_takes_long()
         folder, drawn = output or Path("out") / loaded.name, ""
@@ -108,7 +109,7 @@ def plan(
                 cost = compared(outcome, request, document)
                 told, proof = proven(outcome, document) if exact else ("", None)
                 with writing("--output", folder):
-                    seen = page.report_text(document, _csv(outcome), folder) if report else None
+                    seen = _page(document, outcome, folder) if report else None
                     written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof, seen)
                 ending.keep(*(folder / name for name in written))
             if save_program:
@@ -135,12 +136,11 @@ def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) 
         return make(problem.grasp, problem.task, answers)
 
 
-def _csv(outcome: Outcome) -> str:
-    """Return the text of plan.csv; of an answer without a plan, nothing."""
-    from synergrip.planning.outcome import Plan
-    from synergrip.reports.data.plan_files import plan_csv
+def _page(document: dict[str, Any], outcome: Outcome, folder: Path) -> str:
+    from synergrip.reports.data.plan_files import csv_of
+    from synergrip.reports.html.page import report_text
 
-    return plan_csv(outcome) if isinstance(outcome, Plan) else ""
+    return report_text(document, csv_of(outcome), folder)
 
 
 def _save(outcome: Outcome, path: Path) -> None:

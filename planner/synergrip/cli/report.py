@@ -21,12 +21,13 @@ def report(
     """Write the report of a saved answer: one HTML file with playback, charts and tables that opens offline."""
     with answering(form):
         from synergrip.files import refuse_unwritable
+        from synergrip.planning.references import plan_file
         from synergrip.reports.data.plan_files import REPORT
         from synergrip.reports.html import page
         from synergrip.reports.html.saved_answer import read_answer
 
         page.refuse_without_libraries()
-        file = plan / "plan.json" if plan.is_dir() else plan
+        file = plan_file(plan)
         document, csv = read_answer(file)
         place = output or file.parent / REPORT
         possible("--output", place, refuse_unwritable)

@@ -24,7 +24,7 @@ from synergrip.conic.units import Units as Units
 from synergrip.linalg import Array, frozen
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.each import Each
-from synergrip.statics.motion import forces_at_start
+from synergrip.statics.motion import Motion, forces_at_start
 from synergrip.values import Value
 
 if TYPE_CHECKING:
@@ -200,6 +200,10 @@ class Formulation(Value):
     def rigid_motion(self, dz_r: Array) -> Array:
         """Return the rigid motion Gamma_ucs beta (T, 6) [m, rad] of the object under references (T, n_z)."""
         return product(self.map_of(lambda at: at.spaces.Gamma_ucs), product(self.map_of(to_beta), dz_r))
+
+    def elastic_motion(self, motion: Motion) -> Array:
+        """Return what references move the object (T, 6) beyond its rigid motion, sag excluded [m, rad]."""
+        return frozen(motion.du - motion.sag - self.rigid_motion(motion.dz_r))
 
     def in_units(self, units: Units) -> Formulation:
         """Return the same formulation, of which nothing is determined, with its unknowns in other units."""

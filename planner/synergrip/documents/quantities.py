@@ -158,6 +158,12 @@ def in_g(value: float, digits: int = 4) -> str:
     return f"{plain(value, digits)} kg" if abs(value) >= KILOGRAM else f"{plain(1e3 * value, digits)} g"
 
 
+def read_as(value: float, unit: str, digits: int = 4) -> str:
+    """Return a value [`unit`] with the unit in which people read it."""
+    factor, name = SHOWN_IN.get(unit, (1.0, unit))
+    return f"{plain(factor * value, digits)} {name}".rstrip()
+
+
 def both_apart(one: float, other: float, unit: str) -> tuple[str, str]:
     """Return two values [`unit`] with the units that people read, and digits that tell them apart."""
     far = [unit == "m" and abs(value) >= METRE for value in (one, other)]

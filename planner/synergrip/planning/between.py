@@ -21,8 +21,8 @@ from synergrip.tasks.marks import SAME_TIME
 from synergrip.tasks.timed_task import TimedTask
 from synergrip.values import Value
 
-ROUNDING = 1e-6
-"""Excess beyond a limit of the linear model, relative to its size, that counts as kept."""
+LIMIT = 1e-6
+"""Relative tolerance of limits in the linear model, against the load or the limit itself."""
 STRAIGHT = 1e-9
 """Departure from a straight line, relative to the load or the wish, that is rounding."""
 
@@ -89,7 +89,7 @@ class Between(Value):
         """Yield the limits that are not kept, each with where (T, m) it is not."""
         rooms = (None,) * len(self.usages) if self.rooms is None else self.rooms
         for usage, room in zip(self.usages, rooms, strict=True):
-            beyond = usage.excess > (ROUNDING * usage.size if room is None else room)
+            beyond = usage.excess > (LIMIT * usage.size if room is None else room)
             if np.any(beyond):
                 yield usage, beyond
 

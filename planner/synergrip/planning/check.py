@@ -12,7 +12,7 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.errors import InputError, MotionDirectionError
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.planning.between import Between, between
+from synergrip.planning.between import LIMIT, Between, between
 from synergrip.planning.claims import Claims, compared
 from synergrip.planning.formulated import formulated
 from synergrip.planning.fresh_samples import FreshSamples
@@ -22,7 +22,7 @@ from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.references import References
 from synergrip.planning.sizes import sizes_of
 from synergrip.planning.stated import stated
-from synergrip.planning.verified import LIMIT, between_checks, identities, limit_checks, limit_usages
+from synergrip.planning.verified import EQUILIBRIUM, between_checks, identities, limit_checks, limit_usages
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.motion import Motion, forward
 from synergrip.statics.restraint import NO_LOAD
@@ -149,15 +149,10 @@ def judged_at_start(analysis: Analysis, task: TimedTask, references: References,
     found = between(there, analysis, formulation, motion, usages)
     cases = in_cases(there, analysis, formulation, motion.dz_r)
     checks += (*between_checks(there, found), *case_checks(cases, LIMIT))
-    elastic, margins = _elastic(formulation, motion), frozen(usages[0].value)
+    elastic, margins = formulation.elastic_motion(motion), frozen(usages[0].value)
     return Judgement(
         there, analysis, formulation, motion, elastic, margins, usages, checks, found, cases=cases, off=off
     )  # fmt: skip
-
-
-def _elastic(formulation: Formulation, motion: Motion) -> Array:
-    """Return the elastic motion (T, 6) in the linear model of the start posture."""
-    return frozen(motion.du - motion.sag - formulation.rigid_motion(motion.dz_r))
 
 
 def _linear(
@@ -190,8 +185,8 @@ def _judged_along(analysis: Analysis, task: TimedTask, formulation: Formulation,
         lost = f"from t = {executed.times[len(executed.states)]:.3g} s on ({executed.why})"
         # what the linear model keeps says nothing of a hand that is at no equilibrium: only what it breaks is a check
         broken = (replace(c, name=f"{LINEAR}{c.name}") for c in limit_checks(usages) if not c.passed)
-        checks = (Check("equilibrium", float("inf"), BALANCED), *broken)
-        elastic, margins = _elastic(formulation, linear), frozen(usages[0].value)
+        checks = (Check(EQUILIBRIUM, float("inf"), BALANCED), *broken)
+        elastic, margins = formulation.elastic_motion(linear), frozen(usages[0].value)
         return Judgement(task, analysis, formulation, linear, elastic, margins, usages, checks, lost=lost)
     found = figures(walk, walker, formulation, between(task, analysis, formulation, linear))
     far = off(walk, walker)

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from synergrip.linalg import Array
+from synergrip.planning.between import LIMIT
 from synergrip.planning.outcome import Check
 from synergrip.planning.sizes import EXACT, Sizes
-from synergrip.planning.verified import LIMIT
 
 CLAIMED = "claimed "
 AS_WRITTEN = "numbers as written"

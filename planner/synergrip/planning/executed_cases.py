@@ -25,6 +25,7 @@ from synergrip.planning.in_cases import ALL_CASES, titled
 from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.otherwise import Otherwise, walked_harder, worst_of_all
 from synergrip.planning.outcome import Check
+from synergrip.planning.verified import EQUILIBRIUM
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
 from synergrip.values import Value
@@ -108,7 +109,7 @@ def _executed(there: Otherwise, case: OffPlace) -> ExecutedCases:
 def _ended(title: str, executed: Execution) -> ExecutedCases:
     """Return that a case does not reach its end."""
     why = f"{title}: {executed.why}"
-    return ExecutedCases(checks=(Check(f"{ALL_CASES}: equilibrium", np.inf, 0.0),), missed=(why,))
+    return ExecutedCases(checks=(Check(f"{ALL_CASES}: {EQUILIBRIUM}", np.inf, 0.0),), missed=(why,))
 
 
 def _judged(

@@ -14,11 +14,11 @@ from synergrip.conic.intersample import Looks
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
-from synergrip.planning.between import Between
+from synergrip.planning.between import LIMIT, Between
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.told import nearest
-from synergrip.planning.verified import LIMIT, limit_usages
+from synergrip.planning.verified import EQUILIBRIUM, limit_usages
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
 from synergrip.statics.motion import Motion
@@ -60,8 +60,8 @@ def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Betwee
     motion, there = moved(executed, Looks(task.times, task.wrench, walker.wanted), walker, formulation, way)
     usages = limit_usages(task, there, motion)
     rooms = rooms_of(walk, walker, task.all_limits, usages)
-    elastic = frozen(motion.du - motion.sag - there.rigid_motion(motion.dz_r))
-    checks = (Check("equilibrium", executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
+    elastic = there.elastic_motion(motion)
+    checks = (Check(EQUILIBRIUM, executed.residual, BALANCED), stable(executed), *kept(usages, rooms))
     between, inside, there_missed = _between(walk, walker, formulation, linear)
     missed = tuple(missed_in(usages, rooms))
     missed = (*missed, *(told for told in there_missed if told.removeprefix(f"{BETWEEN}: ") not in missed))
@@ -83,7 +83,7 @@ def _between(
     executed = walker.executor.run(looks.times, references, looks.wrench, near)
     if not executed.whole:
         why = f"{where}{executed.why}"
-        return None, (Check(f"{where}equilibrium", np.inf, BALANCED),), (why,)
+        return None, (Check(f"{where}{EQUILIBRIUM}", np.inf, BALANCED),), (why,)
     motion, there = moved(executed, looks, walker, formulation)
     limits = [limit for limit in task.all_limits if not limit.couples_knots]
     usages = tuple(limit.usage(there, motion) for limit in limits)

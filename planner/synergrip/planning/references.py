@@ -55,6 +55,11 @@ class References(Value):
         return found
 
 
+def plan_file(path: Path) -> Path:
+    """Return the plan.json of a folder; a file as it is."""
+    return path / "plan.json" if isdir(path) else path
+
+
 def read_references(path: Path, grasp: Grasp) -> References:
     """Return times (T,) and references dz_r (T, n_z) of a plan, with all that it claims of them.
 
@@ -66,8 +71,7 @@ def read_references(path: Path, grasp: Grasp) -> References:
     Raises:
         InputError: no such file, no plan in it, or another number of synergies.
     """
-    if isdir(path):
-        path = path / "plan.json"
+    path = plan_file(path)
     readers: dict[str, Callable[[Path], References]] = {
         ".json": _from_json, ".npz": _from_npz, ".csv": lambda path: _from_csv(path, columns_of(grasp)["dz_r"])
     }  # fmt: skip

@@ -11,11 +11,10 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import both_apart
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
-from synergrip.planning.between import Between
+from synergrip.planning.between import LIMIT, Between
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Check
-from synergrip.planning.verified import LIMIT
 from synergrip.statics.analysis import Analysis
 
 

@@ -15,7 +15,7 @@ from synergrip.errors import InputError, Issue, SelfCheckError
 from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
-from synergrip.planning.between import Between, between
+from synergrip.planning.between import LIMIT, Between, between
 from synergrip.planning.free import free_notes
 from synergrip.planning.in_cases import case_checks, in_cases, limits_of_cases
 from synergrip.planning.let_go import ranges_left, undone_notes
@@ -35,8 +35,8 @@ DIGITS = 1e-3
 """Relative excess of a limit up to which a verified program may have been too imprecise, and no formula is wrong."""
 OF_FORCES = 1e-5
 """The same of a limit on forces, as a share of the largest of them."""
-LIMIT = 1e-6
-"""Relative tolerance of the limits, against the load or the limit itself."""
+EQUILIBRIUM = "equilibrium"
+"""How the check is called that forces balance the load."""
 
 
 def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: float | None) -> Plan:
@@ -176,7 +176,7 @@ def identities(analysis: Analysis, motion: Motion, wanted: tuple[Array, Array, A
     produced = start + wanted[0] @ analysis.spaces.E_s.T - motion.forces
     known = max(EXACT, response.accuracy["dlambda_dzr"].doubt)
     return (
-        Check("equilibrium", float(np.abs(balance).max(initial=0.0)) / size, EXACT),
+        Check(EQUILIBRIUM, float(np.abs(balance).max(initial=0.0)) / size, EXACT),
         Check("internal force", float(np.abs(internal).max(initial=0.0)) / size, EXACT),
         Check("references", _relative(motion.dz_r - expected, expected), EXACT),
         Check("forward maps", float(missed.max(initial=0.0)), EXACT),

@@ -23,6 +23,7 @@ from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import Array, frozen
 from synergrip.plain_file import read_bytes
 from synergrip.planning.digest import unchanged
+from synergrip.planning.references import plan_file
 from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.told_values import Told
 from synergrip.values import Value
@@ -104,7 +105,7 @@ def read_played_plan(path: Path) -> PlayedPlan:
         InputError: no such file, no plan, a plan of a grasp given as matrices, or values that are none; a hand file
             that is missing or another one than it was.
     """
-    file = path / "plan.json" if path.is_dir() else path
+    file = plan_file(path)
     data = read_document(file, "plan", KEY, numbers=True).data
     if "dz_r" not in data or "time_s" not in data:
         verdict = data.get("verdict")

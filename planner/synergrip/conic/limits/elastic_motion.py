@@ -66,8 +66,7 @@ class ElasticMotion(Limit):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return its size."""
-        elastic = motion.du - motion.sag - formulation.rigid_motion(motion.dz_r)
-        size = np.linalg.norm(formulation.response.scale.twist(elastic), axis=1)
+        size = np.linalg.norm(formulation.response.scale.twist(formulation.elastic_motion(motion)), axis=1)
         return norm_usage("elastic motion", "m", "object", size, self.limit, motion.times)
 
     def _scaled(self, formulation: Formulation) -> Affine:

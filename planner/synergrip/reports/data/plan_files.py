@@ -79,6 +79,11 @@ def plan_csv(plan: Plan) -> str:
     return stream.getvalue()
 
 
+def csv_of(outcome: Outcome) -> str:
+    """Return the text of plan.csv; of an answer without a plan, nothing."""
+    return plan_csv(outcome) if isinstance(outcome, Plan) else ""
+
+
 def header_of(grasp: Grasp) -> list[str]:
     """Return the names of all columns of plan.csv."""
     return [name for names in columns_of(grasp).values() for name in names]

@@ -14,7 +14,7 @@ from synergrip.planning.answer import FORMATS
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.provenance import Asked
 from synergrip.reports.data.json_plan import outcome_document
-from synergrip.reports.data.plan_files import plan_csv, write_outcome
+from synergrip.reports.data.plan_files import csv_of, write_outcome
 
 T = TypeVar("T")
 
@@ -35,8 +35,7 @@ def report(outcome: Outcome, path: str | Path, problem: Asked | None) -> Path:
     place = path_of(path, "path")
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
-    csv = plan_csv(outcome) if isinstance(outcome, Plan) else ""
-    written_at("path", place, lambda: write_report(place, document, csv))
+    written_at("path", place, lambda: write_report(place, document, csv_of(outcome)))
     return place
 
 

@@ -11,15 +11,14 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.reports.html.lines import Lines
 from synergrip.reports.pictures.contact_colors import COLORS, contact_colors
-from synergrip.reports.pictures.sheet import FAINT, INK, VERMILION, Sheet, svg_text
+from synergrip.reports.pictures.sheet import FAINT, INK, VERMILION, Sheet, no_noise, svg_text
+from synergrip.reports.view.scene import thinned
 
 WIDE, HIGH = 5.6, 1.9
 LEFT, RIGHT, ABOVE, BELOW = 0.62, 0.12, 0.42, 0.36
 """Of a chart, and the room around its axes [inch]."""
 NAMED = 5
 """Lines that have a colour and a name; the others are grey."""
-MOST = 400
-"""Instants that are drawn at most."""
 FAR = 2.5
 """A bound more than this many times what lines come to is told, not drawn."""
 
@@ -44,7 +43,7 @@ def charts_of(times: Array, every: Sequence[Lines], missing: Sequence[tuple[floa
 
 
 def _chart(times: Array, lines: Lines, missing: Sequence[tuple[float, float]]) -> Chart:
-    shown = np.unique(np.round(np.linspace(0, len(times) - 1, min(len(times), MOST))).astype(int))
+    shown = thinned(len(times))
 
     def fill(sheet: Sheet) -> None:
         label = f"{lines.title} [{lines.unit}]" if lines.unit else lines.title
@@ -93,11 +92,7 @@ def _bars(axes: Any, lines: Lines, values: Array) -> None:
 def _finish(axes: Any, lines: Lines) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=7)
-    low, high = axes.get_ylim()
-    room = 1e-6 * max(1.0, float(np.abs(lines.values).max(initial=0.0)))
-    if high - low < room:  # what does not move is no noise
-        middle = float(np.mean(lines.values))
-        axes.set_ylim(middle - 1.0, middle + 1.0)
+    no_noise(axes, lines.values)
 
 
 def _near(lines: Lines) -> tuple[float, ...]:

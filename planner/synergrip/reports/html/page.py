@@ -15,13 +15,14 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.documents.quantities import read_as
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.lines import lines_of
-from synergrip.reports.html.tables import missing_of, shown, tables_of, why_of
+from synergrip.reports.html.tables import missing_of, tables_of, why_of
 
 LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""
@@ -127,14 +128,14 @@ def _headline(document: Mapping[str, Any]) -> list[str]:
         return [f"stage: {document.get('stage', '')}"]
     margin, told = document["margin"], []
     asked = next((each["lower"] for each in document["limits"] if each["name"] == "slip margin"), None)
-    wanted = f" (asked: {shown(asked, 'N')} or more)" if asked is not None else ""
+    wanted = f" (asked: {read_as(asked, 'N')} or more)" if asked is not None else ""
     told.append(
         f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s{wanted}"
     )
     for name in ("largest normal force", "joint torque"):
         for each in document["limits"]:
             if each["name"] == name:
-                told.append(f"{name} {shown(abs(each['value']), each['unit'])} at {each['item']}")
+                told.append(f"{name} {read_as(abs(each['value']), each['unit'])} at {each['item']}")
     return told
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.quantities import SHOWN_IN
+from synergrip.documents.quantities import read_as
 from synergrip.reports.pictures.contact_colors import contact_colors
 
 Document = Mapping[str, Any]
@@ -41,26 +41,18 @@ def tables_of(document: Document) -> tuple[Table, ...]:
                   *_checks(document), *_notes(document)])  # fmt: skip
 
 
-def shown(value: float | None, unit: str, digits: int = 4) -> str:
-    """Return a value in the unit in which people read it; a dash for none."""
-    if value is None:
-        return "–"
-    factor, name = SHOWN_IN.get(unit, (1.0, unit))
-    return f"{factor * value:.{digits}g} {name}".rstrip()
-
-
 def _limits(document: Document) -> Iterator[Table]:
     """Yield the worst value of every limit, at the knots and between them."""
     limits = document.get("limits") or ()
     between = {each["name"]: each for each in (document.get("between") or {}).get("limits", ())}
     rows = []
     for each in limits:
-        bounds = [shown(each[side], each["unit"]) for side in ("lower", "upper") if each[side] is not None]
+        bounds = [read_as(each[side], each["unit"]) for side in ("lower", "upper") if each[side] is not None]
         other = between.get(each["name"])
         rows.append((
-            Cell(each["name"]), _number(shown(each["value"], each["unit"])), Cell(str(each["item"])),
+            Cell(each["name"]), _number(read_as(each["value"], each["unit"])), Cell(str(each["item"])),
             _number(f"{each['time_s']:.3g} s"), Cell(" to ".join(bounds)),
-            _number(shown(other["value"], each["unit"]) if other else "–"),
+            _number(read_as(other["value"], each["unit"]) if other else "–"),
         ))  # fmt: skip
     if rows:
         head = ("limit", "worst", "where", "when", "bound", "between the knots")
@@ -82,7 +74,7 @@ def _contacts(document: Document) -> Iterator[Table]:
         friction = each["parameters"].get("friction")
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
-            _number("–" if friction is None else f"{friction:.3g}"), _number(shown(each["pad_radius_m"], "m")),
+            _number("–" if friction is None else f"{friction:.3g}"), _number(read_as(each["pad_radius_m"], "m")),
             _number(", ".join(f"{1e3 * x:.1f}" for x in each["point_m"])),
             _number("–" if margins is None else f"{margins[k, i]:.4g} N"),
             _number("–" if margins is None else f"{times[k]:.3g} s"),

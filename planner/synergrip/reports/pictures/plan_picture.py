@@ -13,7 +13,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.courses import Chart, charts
 from synergrip.reports.pictures.layout import MARGIN
 from synergrip.reports.pictures.page import SPACE, UNDER, Heading
-from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, INK, VERMILION, Sheet, write_picture
+from synergrip.reports.pictures.sheet import BLUE, FAINT, GREEN, INK, VERMILION, Sheet, no_noise, write_picture
 
 WIDE, HIGH = 4.3, 1.75
 """Of a chart [inch]."""
@@ -75,16 +75,7 @@ def _draw(axes: Any, times: np.ndarray, chart: Chart) -> None:
         axes.set_xlim(times[0], times[-1])  # the same in all charts, also where a line ends before
     else:
         axes.margins(x=0.1)
-    _no_noise(axes, chart)
+    no_noise(axes, chart.values)
     handles, names = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], names[::-1], frameon=False, fontsize=7, ncols=3, loc="lower right",
                 bbox_to_anchor=(1.02, 0.97), borderaxespad=0.0, handlelength=1.2, columnspacing=1.0)  # fmt: skip
-
-
-def _no_noise(axes: Any, chart: Chart) -> None:
-    """Keep rounding from filling a chart of what does not move."""
-    low, high = axes.get_ylim()
-    room = 1e-6 * max(1.0, float(np.nanmax(np.abs(chart.values), initial=0.0)))
-    if high - low < room:
-        middle = float(np.nanmean(chart.values))
-        axes.set_ylim(middle - 1.0, middle + 1.0)

@@ -110,6 +110,15 @@ class Sheet:
         return left / self.width, bottom / self.height, width / self.width, height / self.height
 
 
+def no_noise(axes: Any, values: Array) -> None:
+    """Keep rounding from filling a diagram of values that do not move."""
+    low, high = axes.get_ylim()
+    room = 1e-6 * max(1.0, float(np.nanmax(np.abs(values), initial=0.0)))
+    if high - low < room:
+        middle = float(np.nanmean(values))
+        axes.set_ylim(middle - 1.0, middle + 1.0)
+
+
 def write_picture(path: Path, width: float, height: float, draw: Callable[[Sheet], None]) -> None:
     """Write a picture of `width` x `height` inches, whole or not at all.
 

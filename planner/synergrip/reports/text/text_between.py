@@ -10,10 +10,9 @@ import numpy as np
 from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import SHOWN_IN, in_mm, plain
 from synergrip.linalg import Array
-from synergrip.planning.between import Between
+from synergrip.planning.between import LIMIT, Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
-from synergrip.planning.verified import LIMIT
 from synergrip.reports.text.tables import wrapped
 from synergrip.reports.text.text_problem import many
 
@@ -72,11 +71,10 @@ def _limits(between: Between, asked: str | None, knots: Array) -> str:
     elif asked == "report":
         advice = ['without task.between = "report" they are kept there']
     at_knots = between.broken_at(worst.title, knots)
+    jumps = np.count_nonzero(worst.times == worst.times[k]) > 1  # there, references are the same on both sides
     if at_knots:  # more of them would not help: it is there that something else is to be done
         advice = []
-    elif (
-        np.count_nonzero(worst.times == worst.times[k]) == 1
-    ):  # where a load jumps, references are the same on both sides
+    elif not jumps:
         advice.append("more knots straighten it")
     told = f"; {', '.join(advice)}" if advice else ", at knots as well" * at_knots
     return (

@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.conic.limits.limit import Usage, first_largest
-from synergrip.documents.quantities import SHOWN_IN, both_apart, in_mm, plain
+from synergrip.documents.quantities import both_apart, in_mm, plain, read_as
 from synergrip.documents.words import listed
 from synergrip.linalg import Array
+from synergrip.planning.between import LIMIT
 from synergrip.planning.check import LINEAR, RIGID, Judgement
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Check
-from synergrip.planning.verified import LIMIT
+from synergrip.planning.verified import EQUILIBRIUM
 
-EQUILIBRIUM, STABILITY = "equilibrium", "stability"
+STABILITY = "stability"
 PULLED = 1e-6
 """Share of the largest force below which a pull, or a slip, is rounding."""
 
@@ -101,7 +102,7 @@ def _of(judgement: Judgement, check: Check, name: str, also: Check | None) -> It
         allowed = room if worst is usage else np.full(worst.value.shape, check.tolerance)
         yield from _sides(worst, allowed, None if place == f"{BETWEEN}: " else (usage, room), place)
     elif name == STABILITY:
-        yield f"{check.name}: the equilibrium gives way, its least stiffness is {_size(-check.error, 'N/m')}"
+        yield f"{check.name}: the equilibrium gives way, its least stiffness is {read_as(-check.error, 'N/m', 3)}"
     else:
         yield f"{check.name}: off by {check.error:.2g}, {check.tolerance:.0e} allowed"
 
@@ -122,19 +123,15 @@ def _sides(usage: Usage, room: Array, at: tuple[Usage, Array] | None, place: str
         bound = float((usage.upper if side > 0 else usage.lower)[i])
         shown, limit = both_apart(float(usage.value[k, i]), bound, usage.unit)
         count = "" if at is None else _at(np.any(_beyond(at[0], side) > at[1], axis=1))
+        by, way = read_as(float(excess[k, i]), usage.unit, 3), "above" if side > 0 else "below"
         yield (
             f"{place}{usage.title} of {usage.items[i]} is {shown} at t = {plain(float(usage.times[k]), 3)} s, "
-            f"{_size(float(excess[k, i]), usage.unit)} {'above' if side > 0 else 'below'} its limit of {limit}{count}"
+            f"{by} {way} its limit of {limit}{count}"
         )
 
 
 def _beyond(usage: Usage, side: int) -> Array:
     return usage.value - usage.upper if side > 0 else usage.lower - usage.value
-
-
-def _size(value: float, unit: str) -> str:
-    factor, name = SHOWN_IN.get(unit, (1.0, unit))
-    return f"{plain(factor * value, 3)} {name}".rstrip()
 
 
 def _at(beyond: NDArray[np.bool_]) -> str:

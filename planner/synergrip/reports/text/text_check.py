@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from synergrip.errors import Refusal
+from synergrip.planning.between import LIMIT
 from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.outcome import BETWEEN
 from synergrip.planning.told import (
@@ -17,7 +18,6 @@ from synergrip.planning.told import (
     structure_document,
     usage_document,
 )
-from synergrip.planning.verified import LIMIT
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at

@@ -11,7 +11,7 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.quantities import both_apart, plain
 from synergrip.grasps.grasp import Grasp
-from synergrip.planning.verified import LIMIT
+from synergrip.planning.between import LIMIT
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
 

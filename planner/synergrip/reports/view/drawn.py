@@ -13,6 +13,7 @@ from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.view.scene import Scene
 from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
+from synergrip.vectors import quaternions
 
 HAND, OBJECT, WEIGHT = (122, 134, 152), (214, 196, 160), (90, 90, 90)
 """Colours of the hand, of what it holds, and of gravity."""
@@ -69,6 +70,7 @@ class Drawn:
             scene: what is drawn.
         """
         self.scene, size = scene, scene.size
+        self._turned = quaternions(scene.rotation)
         largest = float(np.linalg.norm(scene.forces, axis=2).max(initial=0.0))
         self._force = LONGEST * size / largest if largest > 0 else 0.0
         colors = [_rgb(color) for color in contact_colors(scene.contacts).values()]
@@ -124,7 +126,7 @@ class Drawn:
         _put(self._joints, scene.bones[k].reshape(-1, 3), np.full(2 * len(scene.bones[k]), scene.thickness))
         _put(self._pads, scene.pads[k], np.maximum(scene.radii, 0.5 * scene.thickness))
         if self._object is not None:
-            self._object.position, self._object.wxyz = tuple(scene.position[k]), _quaternion(scene.rotation[k])
+            self._object.position, self._object.wxyz = tuple(scene.position[k]), tuple(self._turned[k])
         high = CONE * scene.size
         ends = np.stack([scene.places[k], scene.places[k] + high * scene.normals[k]], axis=1)
         _lay(self._cones, ends, high * scene.friction)
@@ -201,13 +203,6 @@ def _upright(directions: Array) -> Array:
     turns = np.column_stack([1 + z, -y, x, np.zeros_like(z)])
     turns[z < -1 + 1e-12] = [0.0, 1.0, 0.0, 0.0]  # all that lead there are as short
     return np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True))
-
-
-def _quaternion(rotation: Array) -> tuple[float, ...]:
-    """Return (w, x, y, z) of a rotation (3, 3)."""
-    from scipy.spatial.transform import Rotation
-
-    return tuple(Rotation.from_matrix(rotation).as_quat(scalar_first=True).tolist())
 
 
 def _rgb(color: str) -> tuple[int, ...]:

@@ -84,7 +84,7 @@ def scene_of(document: Mapping[str, Any], folder: Path = Path()) -> Scene:
     if not isinstance(document.get("execution"), dict):
         raise InputError.at("execution", "a grasp given as matrices has no hand to be seen")
     told, states = Told(document["execution"], "execution"), _states(document)
-    shown, pads, joints = _thinned(len(states.times)), told.several("contacts"), told.texts("joints")
+    shown, pads, joints = thinned(len(states.times)), told.several("contacts"), told.texts("joints")
     bones, middles = _hand(hand_tree(told, folder), joints, states.q[shown], pads)
     radii = np.array([pad.number("pad_radius_m") for pad in pads])
     shape, turned = _shape(told.inside("object").get("shape"))
@@ -128,8 +128,8 @@ def _states(document: Mapping[str, Any]) -> _States:
     return _States(times, true.array("q", (count, n_q)), true.array("du", (count, 6)), places, normals, forces, margins)
 
 
-def _thinned(count: int) -> Places:
-    """Return which of the knots are shown: the first and the last of them always."""
+def thinned(count: int) -> Places:
+    """Return which of so many knots are shown, `MOST` at most: the first and the last of them always."""
     return np.unique(np.round(np.linspace(0, count - 1, min(count, MOST))).astype(np.intp))
 
 

@@ -16,6 +16,7 @@ from synergrip.planning.arrays import one_line
 from synergrip.planning.digest import KEY as DIGEST
 from synergrip.planning.digest import unchanged
 from synergrip.planning.outcome import Plan
+from synergrip.planning.references import plan_file
 from synergrip.simulation.told_values import Told
 from synergrip.values import Value
 
@@ -91,8 +92,7 @@ def exported_plan(plan: str | Path | Plan) -> ExportedPlan:
     if not isinstance(plan, str | Path) or "\0" in str(plan):
         message = f"expected the folder or plan.json of a saved plan, or a Plan, got {kind_of(plan)}"
         raise InputError.at("plan", message)
-    path = Path(plan)
-    file = path / "plan.json" if path.is_dir() else path
+    file = plan_file(Path(plan))
     data = read_document(file, "plan", KEY, numbers=True).data
     try:
         return _read(data, str(file), file.parent)

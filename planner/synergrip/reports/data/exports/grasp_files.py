@@ -13,8 +13,9 @@ from synergrip.linalg import Array
 from synergrip.planning.arrays import one_line
 from synergrip.reports.data.exports.exported_plan import ExportedPlan, HandStates
 from synergrip.reports.data.exports.joint_trajectories import empty_trajectory, header, trajectory_message
-from synergrip.reports.data.exports.quantities import QUATERNION, quaternions
+from synergrip.reports.data.exports.quantities import QUATERNION
 from synergrip.reports.data.exports.yaml_text import write_yaml
+from synergrip.vectors import quaternions
 
 OBJECT = "object"
 """What the frame of the object is called: its origin, axes as those of the palm at the start."""

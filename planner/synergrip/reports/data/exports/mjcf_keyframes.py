@@ -16,10 +16,10 @@ import numpy as np
 from synergrip.hands.models.tree import LinkTree
 from synergrip.planning.arrays import one_line
 from synergrip.reports.data.exports.exported_plan import ExportedPlan, HandStates
-from synergrip.reports.data.exports.quantities import quaternions
 from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.played_plan import hand_tree
 from synergrip.simulation.told_values import Told
+from synergrip.vectors import quaternions
 
 SMALL = 1e-3
 """Radius [m] with which a pad without one is drawn."""

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from synergrip.grasps.contacts.kind import is_moment
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array
 from synergrip.reports.data.exports.exported_plan import ExportedPlan, HandStates
 from synergrip.values import Value
+from synergrip.vectors import quaternions
 
 TRUE = "true_"
 """Begins the names of what is so at the equilibria that a hand really comes to."""
@@ -84,13 +85,6 @@ def _of_object(hand: HandStates, true: str) -> tuple[Quantity, ...]:
         Quantity(f"{true}object_quaternion", QUATERNION, ("",) * 4, turned,
                  "rotation of the object since the start, axes of the palm"),
     )  # fmt: skip
-
-
-def quaternions(rotation: Array) -> Array:
-    """Return rotations (T, 3, 3) as quaternions (T, 4), w first and never negative."""
-    from scipy.spatial.transform import Rotation
-
-    return frozen(Rotation.from_matrix(rotation).as_quat(canonical=True)[:, [3, 0, 1, 2]])
 
 
 def _paired(key: str, pairs: Sequence[tuple[str, str]], values: Array, meaning: str) -> Quantity:
