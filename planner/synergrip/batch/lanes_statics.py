@@ -8,14 +8,22 @@ Numba is there.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from synergrip.batch.lanes import LANES, all_of, kept_apart, load, store, where_less
 from synergrip.batch.lanes_algebra import compiled, magnitude
 from synergrip.batch.lanes_bases import bases
-from synergrip.batch.lanes_dense import Matrix, cholesky, lower_solved, lower_transposed_solved, product
+from synergrip.batch.lanes_dense import (
+    Matrix,
+    cholesky,
+    lower_solved,
+    lower_transposed_solved,
+    product,
+    product_within,
+    spans_of,
+)
 from synergrip.statics.saddle import APART, CAUTION, ROUNDOFF
 
 AGREED = 1e-12
@@ -24,18 +32,43 @@ PLAIN = 1e-8
 """A pivot above this share of its diagonal is far from rounding: no contact direction is rigid."""
 
 
+class Spans(NamedTuple):
+    """Where the rows of matrices, and of transposed ones (T), are not 0: fingers move their own contacts."""
+
+    J: Any  # (n_l, 2)
+    J_T: Any  # (n_q, 2)
+    S: Any  # (n_q, 2)
+    S_T: Any  # (n_z, 2)
+    C_s: Any  # (n_l, 2)
+    C_q: Any  # (n_q, 2)
+    C_z: Any  # (n_z, 2)
+
+
 @compiled
-def _factors(w: Any, at: Any) -> Any:
+def _spanned(w: Any, at: Any, spans: Any) -> None:
+    """Write the spans of the matrices of eight grasps."""
+    l, q, z = at.l, at.q, at.z  # noqa: E741
+    spans_of(w, Matrix(at.J, q, 1), l, q, spans.J)
+    spans_of(w, Matrix(at.J, 1, q), q, l, spans.J_T)
+    spans_of(w, Matrix(at.S, z, 1), q, z, spans.S)
+    spans_of(w, Matrix(at.S, 1, z), z, q, spans.S_T)
+    spans_of(w, Matrix(at.C_s, l, 1), l, l, spans.C_s)
+    spans_of(w, Matrix(at.C_q, q, 1), q, q, spans.C_q)
+    spans_of(w, Matrix(at.C_z, z, 1), z, z, spans.C_z)
+
+
+@compiled
+def _factors(w: Any, at: Any, spans: Any) -> Any:
     """Write the factors ``C = L L'``, ``L^-1 G' = Y`` and ``Y'Y = R R'``; return the least share of a pivot."""
     kept_apart()
     l, q, z = at.l, at.q, at.z  # noqa: E741 - the usual letter
     S, J = Matrix(at.S, z, 1), Matrix(at.J, q, 1)
-    product(w, at.JS, J, S, l, q, z, 0.0)
-    product(w, at.wide, S, Matrix(at.C_z, z, 1), q, z, z, 0.0)
+    product_within(w, at.JS, J, spans.J, S, l, z, 0.0)
+    product_within(w, at.wide, S, spans.S, Matrix(at.C_z, z, 1), q, z, 0.0)
     for i in range(q * q):
         store(w, at.K + i, load(w, at.C_q + i))
     product(w, at.K, Matrix(at.wide, z, 1), Matrix(at.S, 1, z), q, z, q, 1.0)
-    product(w, at.wide, J, Matrix(at.K, q, 1), l, q, q, 0.0)
+    product_within(w, at.wide, J, spans.J, Matrix(at.K, q, 1), l, q, 0.0)
     for i in range(l * l):
         store(w, at.L + i, load(w, at.C_s + i))
     product(w, at.L, Matrix(at.wide, q, 1), Matrix(at.J, 1, q), l, q, l, 1.0)
@@ -79,29 +112,29 @@ def _solved(w: Any, at: Any, b: int) -> None:
 
 
 @compiled
-def _followed(w: Any, at: Any, a: int, still: float) -> None:
+def _followed(w: Any, at: Any, spans: Any, a: int, still: float) -> None:
     """Write tau, sigma, z and q below lambda and u (n, k); `still` is z of synergies that do not yield."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741
     tau = a + (l + 6) * k
     sigma, of_z, of_q = tau + q * k, tau + (q + z) * k, tau + (q + 2 * z) * k
-    product(w, tau, Matrix(at.J, 1, q), Matrix(a, k, 1), q, l, k, 0.0)
-    product(w, sigma, Matrix(at.S, 1, z), Matrix(tau, k, 1), z, q, k, 0.0)
+    product_within(w, tau, Matrix(at.J, 1, q), spans.J_T, Matrix(a, k, 1), q, k, 0.0)
+    product_within(w, sigma, Matrix(at.S, 1, z), spans.S_T, Matrix(tau, k, 1), z, k, 0.0)
     for i in range(z):
         for j in range(k):
             store(w, of_z + i * k + j, all_of(still if i == j else 0.0))
-    product(w, of_z, Matrix(at.C_z, z, 1), Matrix(sigma, k, 1), z, z, k, -1.0)
-    product(w, of_q, Matrix(at.S, z, 1), Matrix(of_z, k, 1), q, z, k, 0.0)
-    product(w, of_q, Matrix(at.C_q, q, 1), Matrix(tau, k, 1), q, q, k, -1.0)
+    product_within(w, of_z, Matrix(at.C_z, z, 1), spans.C_z, Matrix(sigma, k, 1), z, k, -1.0)
+    product_within(w, of_q, Matrix(at.S, z, 1), spans.S, Matrix(of_z, k, 1), q, k, 0.0)
+    product_within(w, of_q, Matrix(at.C_q, q, 1), spans.C_q, Matrix(tau, k, 1), q, k, -1.0)
 
 
 @compiled
-def _corrected(w: Any, at: Any, a: int, out: int) -> None:
+def _corrected(w: Any, at: Any, spans: Any, a: int, out: int) -> None:
     """Write what is to be added to lambda and u, by what is left over of the equations, told from the matrices."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741
-    product(w, out, Matrix(at.J, q, 1), Matrix(a + (l + 6 + q + 2 * z) * k, k, 1), l, q, k, 0.0)
-    product(w, out, Matrix(at.C_s, l, 1), Matrix(a, k, 1), l, l, k, -1.0)
+    product_within(w, out, Matrix(at.J, q, 1), spans.J, Matrix(a + (l + 6 + q + 2 * z) * k, k, 1), l, k, 0.0)
+    product_within(w, out, Matrix(at.C_s, l, 1), spans.C_s, Matrix(a, k, 1), l, k, -1.0)
     product(w, out, Matrix(at.turned, 1, l), Matrix(a + l * k, k, 1), l, 6, k, -1.0)
     balance = out + l * k
     for i in range(6):
@@ -143,7 +176,7 @@ def _largest(w: Any, at: Any, values: int, out: int, times: float, beside: int, 
 
 
 @compiled
-def _maps(w: Any, at: Any) -> None:
+def _maps(w: Any, at: Any, spans: Any) -> None:
     """Write the maps, and the largest entries of each and of what the arithmetic may have lost."""
     l, z, k = at.l, at.z, at.k  # noqa: E741
     for i in range(24):
@@ -154,27 +187,27 @@ def _maps(w: Any, at: Any) -> None:
             store(w, at.maps + i * k + j, fit)
     _solved(w, at, at.maps)
     for _ in range(2):
-        _followed(w, at, at.maps, 1.0)
-        _corrected(w, at, at.maps, at.other)
+        _followed(w, at, spans, at.maps, 1.0)
+        _corrected(w, at, spans, at.maps, at.other)
         _added(w, at, at.maps, at.other)
-    _followed(w, at, at.other, 0.0)
-    _followed(w, at, at.maps, 1.0)
+    _followed(w, at, spans, at.other, 0.0)
+    _followed(w, at, spans, at.maps, 1.0)
     _largest(w, at, at.maps, at.size, 1.0, at.maps, 0.0)
     _largest(w, at, at.other, at.lost, CAUTION, at.maps, ROUNDOFF)
 
 
 @compiled
-def _doubts(w: Any, at: Any, half_units: Any) -> Any:
+def _doubts(w: Any, at: Any, spans: Any, half_units: Any) -> Any:
     """Move the numbers of the grasp by what they are not known to; return 1 where the maps are known in spite of it."""
     for i in range(at.motion):
         store(w, i, load(w, i) * all_of(half_units[i]))
     for i in range((at.l + 6) * at.k):
         store(w, at.other + i, load(w, at.maps + i))
     _about_centroid(w, at)
-    _followed(w, at, at.other, 1.0)
-    _corrected(w, at, at.other, at.rest)
+    _followed(w, at, spans, at.other, 1.0)
+    _corrected(w, at, spans, at.other, at.rest)
     _added(w, at, at.other, at.rest)
-    _followed(w, at, at.other, 1.0)
+    _followed(w, at, spans, at.other, 1.0)
     for i in range(at.n * at.k):
         store(w, at.other + i, load(w, at.other + i) - load(w, at.maps + i))
     _largest(w, at, at.other, at.lost, CAUTION / APART, at.maps, 0.0)
@@ -211,13 +244,14 @@ def _in_place(w: Any, at: Any) -> None:
 
 
 @compiled
-def _eight(w: Any, at: Any, half_units: Any) -> None:
+def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
     """Work out the statics of eight grasps, whose numbers come first in the workspace."""
+    _spanned(w, at, spans)
     _about_centroid(w, at)
-    clear = where_less(all_of(PLAIN), _factors(w, at), all_of(1.0), all_of(0.0))
-    _maps(w, at)
+    clear = where_less(all_of(PLAIN), _factors(w, at, spans), all_of(1.0), all_of(0.0))
+    _maps(w, at, spans)
     clear = clear * bases(w, at)
-    clear = clear * _doubts(w, at, half_units)
+    clear = clear * _doubts(w, at, spans, half_units)
     _in_place(w, at)
     store(w, at.clear, clear)
 
@@ -233,17 +267,19 @@ def made(stamp: int) -> Any:
     def worked_out(given: Any, at: Any, half_units: Any, count: int, wanted: Any) -> Any:
         found = np.empty((count, wanted[1] - wanted[0]))
         w = np.zeros(at.end * LANES + stamp * 0)
+        of_l, of_q, of_z = np.zeros((at.l, 2), np.int64), np.zeros((at.q, 2), np.int64), np.zeros((at.z, 2), np.int64)
+        spans = Spans(of_l, of_q, of_q.copy(), of_z, of_l.copy(), of_q.copy(), of_z.copy())
         for group in range((count + LANES - 1) // LANES):
-            entry = 0
+            entry, here = 0, min(LANES, count - group * LANES)
             for part in given:
-                for lane in range(LANES):
-                    row = min(group * LANES + lane, count - 1) if len(part) > 1 else 0
-                    for k in range(part.shape[1]):
+                for k in range(part.shape[1]):
+                    for lane in range(LANES):
+                        row = group * LANES + min(lane, here - 1) if len(part) > 1 else 0
                         w[(entry + k) * LANES + lane] = part[row, k]
                 entry += part.shape[1]
-            _eight(w, at, half_units)
-            for lane in range(min(LANES, count - group * LANES)):
-                for k in range(wanted[0], wanted[1]):
+            _eight(w, at, spans, half_units)
+            for k in range(wanted[0], wanted[1]):
+                for lane in range(here):
                     found[group * LANES + lane, k - wanted[0]] = w[k * LANES + lane]
         return found
 
