@@ -42,6 +42,12 @@ def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
     return array
 
 
+def sealed(made: Array) -> Array:
+    """Return an array that was just made, and that nobody else has, read-only: as `frozen`, without a copy."""
+    made.setflags(write=False)
+    return made
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Decision(Value):
     """A rank decision together with what it was based on."""

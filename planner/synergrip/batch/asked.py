@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -125,13 +126,15 @@ def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
     if not isinstance(grasp, GraspStack) and (not is_list(grasp) or not isinstance(grasp, Sequence)):
         raise InputError.at("grasp", f"expected a Grasp, an Analysis, a GraspStack or a list, got {kind_of(grasp)}")
     stack = GraspStack.of(grasp)
-    first = stack.like
-    for place, each in enumerate(stack.given):
-        same = each.joints is first.joints or each.joints == first.joints
-        alike = same and (each.held is None) == (first.held is None)
-        if not alike or (each.held is not None and first.held is not None and each.held.hand is not first.held.hand):
-            message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
-            raise InputError.at(f"grasp[{place}]", message)
+    first, given = stack.like, stack.given
+    alike = list(map(first.joints.__eq__, map(attrgetter("joints"), given)))
+    held = list(map(attrgetter("held"), given))
+    if any(each is not None for each in held):
+        hand = first.held and first.held.hand
+        alike = [same and (each and each.hand) is hand for same, each in zip(alike, held, strict=True)]
+    if not all(alike):
+        message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
+        raise InputError.at(f"grasp[{alike.index(False)}]", message)
     return stack
 
 

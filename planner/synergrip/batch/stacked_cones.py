@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
 from operator import attrgetter
 
 import numpy as np
@@ -27,7 +29,7 @@ class Cones(Value):
     W: Array
     """(cones * size, n_l), or (N, ...) with one for each problem."""
 
-    @property
+    @cached_property
     def unit(self) -> Array:
         """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
         largest = np.abs(self.W[..., :: self.size, :]).max(axis=-1)
@@ -40,11 +42,11 @@ class Cones(Value):
 
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
-    first, every_contact = grasps[0], [grasp.contacts for grasp in grasps]
+    first, kinds = grasps[0], list(map(attrgetter("kind"), chain.from_iterable(map(attrgetter("contacts"), grasps))))
     every = [
         (contact, W.shape[-2], W)
         for contact in range(first.n_c)
-        for W in _cones([contacts[contact].kind for contacts in every_contact], friction)
+        for W in _cones(kinds[contact :: first.n_c], friction)
     ]
     leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
     found = []
