@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from synergrip.batch.lanes import all_of, any_above_zero, kept_apart, load, root, store, where_less
-from synergrip.batch.lanes_algebra import compiled, magnitude
+from synergrip.batch.lanes import all_of, kept_apart, load, root, store, where_less
+from synergrip.batch.lanes_algebra import compiled
 
 
 class Matrix(NamedTuple):
@@ -28,7 +28,7 @@ def product(w: Any, out: int, A: Any, B: Any, m: int, k: int, n: int, add: float
 
 @compiled
 def product_within(w: Any, out: int, A: Any, spans: Any, B: Any, m: int, n: int, add: float) -> None:
-    """Do the same for an A whose rows are 0 outside of their `spans` (m, 2), as `spans_of` finds them."""
+    """Do the same for an A whose rows are 0 outside of their `spans` (m, 2): from, to."""
     for i in range(0, m, 2):
         below = min(i + 1, m - 1)
         first, end = min(spans[i, 0], spans[below, 0]), max(spans[i, 1], spans[below, 1])
@@ -58,17 +58,6 @@ def _two_rows(
             _put(w, out + below * n + j, s10, times, add)
             if beside > j:
                 _put(w, out + below * n + beside, s11, times, add)
-
-
-@compiled
-def spans_of(w: Any, A: Any, m: int, k: int, spans: Any) -> None:
-    """Write from where to where (m, 2) the rows of A (m, k) are not 0 in all lanes; (k, 0) of rows that are."""
-    for i in range(m):
-        first, end = k, 0
-        for j in range(k):
-            if any_above_zero(magnitude(load(w, A.first + i * A.down + j * A.right))):
-                first, end = min(first, j), j + 1
-        spans[i, 0], spans[i, 1] = first, end
 
 
 @compiled

@@ -8,12 +8,12 @@ Numba is there.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from synergrip.batch.lanes import LANES, all_of, kept_apart, load, store, where_less
-from synergrip.batch.lanes_algebra import compiled, magnitude
+from synergrip.batch.lanes_algebra import compiled, magnitude, workspace
 from synergrip.batch.lanes_bases import bases
 from synergrip.batch.lanes_dense import (
     Matrix,
@@ -22,7 +22,6 @@ from synergrip.batch.lanes_dense import (
     lower_transposed_solved,
     product,
     product_within,
-    spans_of,
 )
 from synergrip.statics.saddle import APART, CAUTION, ROUNDOFF
 
@@ -30,31 +29,6 @@ AGREED = 1e-12
 """Share of a map that the arithmetic may have lost, at most: what the maps of one grasp and of many agree to."""
 PLAIN = 1e-8
 """A pivot above this share of its diagonal is far from rounding: no contact direction is rigid."""
-
-
-class Spans(NamedTuple):
-    """Where the rows of matrices, and of transposed ones (T), are not 0: fingers move their own contacts."""
-
-    J: Any  # (n_l, 2)
-    J_T: Any  # (n_q, 2)
-    S: Any  # (n_q, 2)
-    S_T: Any  # (n_z, 2)
-    C_s: Any  # (n_l, 2)
-    C_q: Any  # (n_q, 2)
-    C_z: Any  # (n_z, 2)
-
-
-@compiled
-def _spanned(w: Any, at: Any, spans: Any) -> None:
-    """Write the spans of the matrices of eight grasps."""
-    l, q, z = at.l, at.q, at.z  # noqa: E741
-    spans_of(w, Matrix(at.J, q, 1), l, q, spans.J)
-    spans_of(w, Matrix(at.J, 1, q), q, l, spans.J_T)
-    spans_of(w, Matrix(at.S, z, 1), q, z, spans.S)
-    spans_of(w, Matrix(at.S, 1, z), z, q, spans.S_T)
-    spans_of(w, Matrix(at.C_s, l, 1), l, l, spans.C_s)
-    spans_of(w, Matrix(at.C_q, q, 1), q, q, spans.C_q)
-    spans_of(w, Matrix(at.C_z, z, 1), z, z, spans.C_z)
 
 
 @compiled
@@ -246,7 +220,6 @@ def _in_place(w: Any, at: Any) -> None:
 @compiled
 def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
     """Work out the statics of eight grasps, whose numbers come first in the workspace."""
-    _spanned(w, at, spans)
     _about_centroid(w, at)
     clear = where_less(all_of(PLAIN), _factors(w, at, spans), all_of(1.0), all_of(0.0))
     _maps(w, at, spans)
@@ -259,16 +232,14 @@ def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
 def made(stamp: int) -> Any:
     """Return the function that works out the statics of grasps; its compiled form is kept for this `stamp` alone.
 
-    It takes the numbers of the grasps (N or 1, entries) one after the other, where things are, what the numbers of a
-    grasp are multiplied by to tell how far they are known, how many grasps there are, and which entries of the
-    workspace are wanted (from, to); it returns these (N, entries).
+    It takes the numbers of the grasps (N or 1, entries) one after the other, where things are, where rows are not 0,
+    what the numbers of a grasp are multiplied by to tell how far they are known, how many grasps there are, and which
+    entries of the workspace are wanted (from, to); it returns these (N, entries).
     """
 
-    def worked_out(given: Any, at: Any, half_units: Any, count: int, wanted: Any) -> Any:
+    def worked_out(given: Any, at: Any, spans: Any, half_units: Any, count: int, wanted: Any) -> Any:
         found = np.empty((count, wanted[1] - wanted[0]))
-        w = np.zeros(at.end * LANES + stamp * 0)
-        of_l, of_q, of_z = np.zeros((at.l, 2), np.int64), np.zeros((at.q, 2), np.int64), np.zeros((at.z, 2), np.int64)
-        spans = Spans(of_l, of_q, of_q.copy(), of_z, of_l.copy(), of_q.copy(), of_z.copy())
+        w = workspace(at.end + stamp * 0)
         for group in range((count + LANES - 1) // LANES):
             entry, here = 0, min(LANES, count - group * LANES)
             for part in given:
