@@ -47,11 +47,11 @@ class Assembled(Value):
     def bounds(self, places: Places) -> Array:
         """Return (N, n) bounds on |v| of the programs at some places, which the limits imply or no plan exceeds.
 
-        They are those with the cones of all: more friction lets contacts carry more.
+        They are those with the cones of all of these: more friction lets contacts carry more.
         """
         stated, first, far = self.stated, self.stated.grasps[0], self.far[:-1]
         stated_most = np.concatenate([contact.kind.most for contact in first.contacts])
-        larger = max(1.0, float((most(self.cones, first) / stated_most).max()))
+        larger = max(1.0, float((most([each.taken(places) for each in self.cones], first) / stated_most).max()))
         limits = [SlipMargin(stated.task.margin), *(_widest(stated, limit, larger) for limit in stated.task.limits)]
         known = variable_bounds(stated.formulation, limits, places)
         return np.where(known >= LARGEST, far, np.minimum(known / columns(stated, self.unit)[places], far))

@@ -19,7 +19,8 @@ from synergrip.statics.saddle import other_numbers
 from synergrip.statics.subspaces import Bases
 from synergrip.statics.theorem1 import Coordinates
 
-SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_statics.py", "numpy_kernel.py")
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_centroid.py", "lanes_statics.py",
+           "numpy_kernel.py")  # fmt: skip
 """What the compiled statics are made of."""
 
 

@@ -36,9 +36,7 @@ def product_within(w: Any, out: int, A: Any, spans: Any, B: Any, m: int, n: int,
 
 
 @compiled
-def _two_rows(
-    w: Any, out: int, A: Any, B: Any, i: int, below: int, first: int, end: int, n: int, add: float
-) -> None:
+def _two_rows(w: Any, out: int, A: Any, B: Any, i: int, below: int, first: int, end: int, n: int, add: float) -> None:
     """Write two rows of A B (..., n), or one where they are the same, by columns `first` to `end` of A."""
     kept_apart()
     times = all_of(add)

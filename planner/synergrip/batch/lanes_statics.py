@@ -15,6 +15,7 @@ import numpy as np
 from synergrip.batch.lanes import LANES, all_of, kept_apart, load, store, where_less
 from synergrip.batch.lanes_algebra import compiled, magnitude, workspace
 from synergrip.batch.lanes_bases import bases
+from synergrip.batch.lanes_centroid import about_centroid, in_place
 from synergrip.batch.lanes_dense import (
     Matrix,
     cholesky,
@@ -54,19 +55,6 @@ def _factors(w: Any, at: Any, spans: Any) -> Any:
     product(w, at.R, Matrix(at.Y, 1, 6), Matrix(at.Y, 6, 1), 6, l, 6, 0.0)
     of_motions = cholesky(w, at.R, 6)
     return where_less(of_forces, of_motions, of_forces, of_motions)
-
-
-@compiled
-def _about_centroid(w: Any, at: Any) -> None:
-    """Write G with moments about the centroid of the contacts."""
-    kept_apart()
-    for j in range(at.l):
-        for i in range(3):
-            store(w, at.turned + i * at.l + j, load(w, at.G + i * at.l + j))
-            total = load(w, at.G + (3 + i) * at.l + j)
-            for k in range(3):
-                total = total + load(w, at.motion + 6 * i + 3 + k) * load(w, at.G + k * at.l + j)
-            store(w, at.turned + (3 + i) * at.l + j, total)
 
 
 @compiled
@@ -177,7 +165,7 @@ def _doubts(w: Any, at: Any, spans: Any, half_units: Any) -> Any:
         store(w, i, load(w, i) * all_of(half_units[i]))
     for i in range((at.l + 6) * at.k):
         store(w, at.other + i, load(w, at.maps + i))
-    _about_centroid(w, at)
+    about_centroid(w, at)
     _followed(w, at, spans, at.other, 1.0)
     _corrected(w, at, spans, at.other, at.rest)
     _added(w, at, at.other, at.rest)
@@ -193,39 +181,14 @@ def _doubts(w: Any, at: Any, spans: Any, half_units: Any) -> Any:
 
 
 @compiled
-def _in_place(w: Any, at: Any) -> None:
-    """Turn motions and moments of the maps from the centroid back to B."""
-    kept_apart()
-    l, z, k = at.l, at.z, at.k  # noqa: E741
-    for j in range(k):
-        for i in range(3):
-            total = load(w, at.maps + (l + i) * k + j)
-            for m in range(3):
-                total = total + load(w, at.motion + 6 * m + 3 + i) * load(w, at.maps + (l + 3 + m) * k + j)
-            store(w, at.maps + (l + i) * k + j, total)
-    for i in range(at.n):
-        for j in range(3):
-            total = load(w, at.maps + i * k + z + j)
-            for m in range(3):
-                total = total + load(w, at.motion + 6 * m + 3 + j) * load(w, at.maps + i * k + z + 3 + m)
-            store(w, at.maps + i * k + z + j, total)
-    for i in range(6):
-        for j in range(i):
-            a, b = at.maps + (l + i) * k + z + j, at.maps + (l + j) * k + z + i
-            mean = all_of(0.5) * (load(w, a) + load(w, b))
-            store(w, a, mean)
-            store(w, b, mean)
-
-
-@compiled
 def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
     """Work out the statics of eight grasps, whose numbers come first in the workspace."""
-    _about_centroid(w, at)
+    about_centroid(w, at)
     clear = where_less(all_of(PLAIN), _factors(w, at, spans), all_of(1.0), all_of(0.0))
     _maps(w, at, spans)
     clear = clear * bases(w, at)
     clear = clear * _doubts(w, at, spans, half_units)
-    _in_place(w, at)
+    in_place(w, at)
     store(w, at.clear, clear)
 
 

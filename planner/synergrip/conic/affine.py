@@ -35,7 +35,8 @@ class Affine(Value):
             hint = "; one row is linear[None, :]" if found is not None and found.shape == (m,) else ""
             raise InputError.at("Affine.after.linear", f"expected {wanted}; got {described(linear)}{hint}")
         if found.ndim > self.matrix.ndim:  # one product with the rows of all knots is many times as fast
-            matrix = (found.reshape(T * found.shape[1], m) @ self.matrix).reshape(T, found.shape[1], self.matrix.shape[1])
+            p = found.shape[1]
+            matrix = (found.reshape(T * p, m) @ self.matrix).reshape(T, p, self.matrix.shape[1])
         else:
             matrix = found @ self.matrix
         return Affine(sealed(matrix), sealed(times(found, self.constant)))

@@ -40,7 +40,7 @@ def inverse(basis: sparse.csc_matrix) -> sparse.csr_matrix:
 def transposed_product(A: sparse.csc_matrix, y: Array) -> Array:
     """Return ``A'y`` (n,) for y (m,); of a small A it takes longer to make A' than to multiply by it."""
     columns = np.repeat(np.arange(A.shape[1]), np.diff(A.indptr))
-    return np.bincount(columns, A.data * y[A.indices], A.shape[1])
+    return np.asarray(np.bincount(columns, A.data * y[A.indices], A.shape[1]), dtype=np.float64)
 
 
 def moves(basis: sparse.csc_matrix, matrix: Array) -> bool:

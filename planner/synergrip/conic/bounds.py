@@ -47,8 +47,8 @@ def within_bounds(
     """Return the rows of `within` for arrays that are known to fit, as those of the limits of this package are."""
     result, whole = [], value.matrix / unit[:, None]
     for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
-        finite = np.isfinite(bound)
-        keep: NDArray[np.bool_] = finite if finite.ndim == 1 else finite.all(axis=0)
+        finite: NDArray[np.bool_] = np.isfinite(bound)
+        keep = finite if finite.ndim == 1 else np.all(finite, axis=0)
         if not keep.any():
             continue
         matrix, slack = whole if sign > 0 else -whole, sign * (value.constant - bound) / unit

@@ -24,7 +24,7 @@ FARTHEST = 1e12
 """A limit that is farther away than this is none, but the rounding of what it looks at."""
 
 NEAR = 1e3
-"""In normalised units. A box of this size is small enough to prove with: no further limit is asked for a smaller one."""
+"""In normalised units. A box of this size is small enough to prove with: no other limit is asked for a smaller one."""
 
 FAR_FROM_DEPENDENT = 1e5
 """Ratio of the eigenvalues of the squares of a matrix up to which its columns are."""
