@@ -88,10 +88,9 @@ def asked_grasp(
     relative_to: str | Path | None = None,
     anywhere: bool = False,
 ) -> AskedGrasp:
-    """Return what is to become a grasp, its parts judged each by itself; arguments as of `make_grasp`.
+    """Return what is to become a grasp, its parts judged each by itself; what is given is told at `make_grasp`.
 
-    Args:
-        anywhere: whether the object may have no position yet though the hand closes on it.
+    With `anywhere` the object may have no position yet though the hand closes on it.
 
     Raises:
         InputError: an argument that is none, unknown names, a posture outside the ranges of the joints.

@@ -210,6 +210,11 @@ class _Closing:
         return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
 
 
+def coupled(hand: Hand) -> tuple[Flags, Flags]:
+    """Return two tables (n_q, n_q): the joint of the row takes that of the column along, and the two are tied."""
+    return _takes(hand), _tied(hand)
+
+
 def _takes(hand: Hand) -> Flags:
     """Return (n_q, n_q) bool: the joint of the column follows that of the row, or the two are tied."""
     index = {name: i for i, name in enumerate(hand.joint_names)}

@@ -1,0 +1,54 @@
+"""The problem that a verb is about, with the object put where it is held best when the file leaves that open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.linalg import Array
+    from synergrip.problems.problem import Problem
+    from synergrip.tasks.task import Task
+
+
+def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
+    """Return a problem; where ``object.position = "auto"`` the place is looked for, and told as it would be written.
+
+    Raises:
+        InputError: everything that is wrong with the file; no place at which all contacts touch.
+    """
+    from synergrip.errors import InputError
+    from synergrip.problems.holding import UNPLACED
+    from synergrip.problems.problem import load_problem
+
+    given = list(overrides or [])
+    try:
+        return load_problem(name, given)
+    except InputError as error:
+        if all(issue.message != UNPLACED for issue in error.issues):
+            raise
+    return _placed(name, given)
+
+
+def _placed(name: str, given: list[str]) -> Problem:
+    from synergrip.batch.best_place import best_place, position_line
+    from synergrip.cli.beside import aside
+    from synergrip.cli.progress import shares
+    from synergrip.problems.problem import load_problem
+    from synergrip.problems.unplaced import unplaced
+
+    def put(position: Array) -> Problem:
+        return load_problem(name, [*given, f"object.{position_line(position).replace(' = ', '=')}"])
+
+    def made(position: Array) -> tuple[Grasp, Task]:
+        problem = put(position)
+        return problem.grasp, problem.task
+
+    with unplaced(name, given) as asked:
+        found = best_place(asked, made, shares())
+    margin = f"slip margin up to {found.margin:.3g} N; " if found.margin > 0 else ""
+    aside(f"placed   {found.line}  ({margin}all contacts touch at {found.touching} of {found.tried} places)")
+    for note in found.notes:
+        aside(f"note     {note}")
+    return put(found.position)
