@@ -24,7 +24,7 @@ from synergrip.reports.html import page
 from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
-from synergrip.reports.view.scene import scene_of
+from synergrip.reports.view.planned import scene_of
 
 HOSTILE = (
     "<script>boom()</script>",

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from synergrip.batch.asked import LIMITS
+from synergrip.batch.placed_object import PlacedObject
 from synergrip.batch.plan_many import plan_many
 from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.normal_force import NormalForce
-from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
-from synergrip.grasps.asked_grasp import AskedGrasp, Posture, Synergies, asked_grasp, grasp_of
+from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.closing_at_many import Closer
-from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.in_postures import grasps_in_postures
-from synergrip.grasps.objects import Object
 from synergrip.grasps.place_search import (
     TouchingPlaces,
     around,
@@ -29,11 +26,9 @@ from synergrip.grasps.place_search import (
     space,
     touching_places,
 )
-from synergrip.hands.hand import Hand
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.hold import Hold
 from synergrip.tasks.task import Task
-from synergrip.values import Value
 
 INSTANTS = 5
 """Knots of the task, from end to end, at which margins are looked at."""
@@ -50,100 +45,6 @@ ALIKE = 0.02
 ENOUGH = 10.0
 """Times the largest load to which normal forces are held where no limit bounds the margin."""
 Progress = Callable[[str, float], None]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class PlacedObject(Value):
-    """Where an object is held best."""
-
-    grasp: Grasp
-    """The grasp there."""
-    margin: float
-    """[N] The largest slip margin that all contacts can keep in the linear model of this posture, at the worst of the
-    instants that were looked at; nan where the load is not held at all of them."""
-    tried: int
-    """Places that were closed on."""
-    touching: int
-    """Places of these at which all contacts touch."""
-    notes: tuple[str, ...] = ()
-    """What is doubtful."""
-
-    @property
-    def position(self) -> Array:
-        """(3,) centre of the object in the palm frame [m]."""
-        assert self.grasp.held is not None
-        return self.grasp.held.body.position
-
-    @property
-    def line(self) -> str:
-        """The position as it stands in a problem file."""
-        return position_line(self.position)
-
-
-def position_line(position: Array) -> str:
-    """Return how a position (3,) [m] is written under [object]."""
-    texts = (f'"{round(1e3 * float(value), 4) + 0.0:.10g} mm"' for value in position)
-    return f"position = [{', '.join(texts)}]"
-
-
-@naming_arguments
-def place_object(
-    hand: Hand | str | Path,
-    object: Object,
-    *,
-    posture: Posture,
-    contacts: Sequence[ContactAt],
-    close: str | Mapping[str, float],
-    task: Task,
-    synergies: Synergies | None = None,
-    joint_compliance: float | Sequence[float] | Array | None = None,
-    synergy_compliance: float | Sequence[float] | Array = 0.0,
-    title: str = "",
-    relative_to: str | Path | None = None,
-    progress: Progress | None = None,
-) -> PlacedObject:
-    """Return where an object is held best by a hand that closes on it, and the grasp there.
-
-    Places all over the space that the pads sweep are closed on at once. Where all contacts touch, the largest slip
-    margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts and
-    references; around the best ones it is looked again, until places are 1 mm apart. A place at which the skeleton of
-    the hand stays outside the object goes before one where it does not. The same question has the same answer.
-
-    Args:
-        hand: as of `make_grasp`, and so are the other arguments that it has.
-        object: with a shape; its position, if it has one, does not count.
-        posture: an open one, from which the hand closes.
-        contacts: all of which are to touch.
-        close: the synergy, joint or weights by name along which the hand closes.
-        task: whose load is to be held, at up to five of its knots.
-        synergies: as of `make_grasp`.
-        joint_compliance: as of `make_grasp`.
-        synergy_compliance: as of `make_grasp`.
-        title: of the grasp.
-        relative_to: folder of a synergy file.
-        progress: told what is under way and which share of it is done.
-
-    Raises:
-        InputError: arguments as of `make_grasp`; no place at which all contacts touch, with the nearest one and how far
-            pads are away there.
-
-    Example:
-        >>> from synergrip import Gravity, HardFinger, NormalForce, Sphere
-        >>> tips = [f"finger{i}/tip" for i in (1, 2, 3)]
-        >>> found = place_object(
-        ...     "barrett", Object(mass=0.2, shape=Sphere(radius=0.05)), posture="open", close="close",
-        ...     contacts=[ContactAt(tip, HardFinger(friction=0.6), stiffness=8e3) for tip in tips],
-        ...     task=Task(loads=[Gravity((0, 0, -9.81))], limits=[NormalForce(upper=20.0)]),
-        ... )
-        >>> found.margin > 1, found.grasp.n_c
-        (True, 3)
-    """
-    asked = asked_grasp(
-        hand, object, posture=posture, contacts=contacts, synergies=synergies, close=close, title=title,
-        joint_compliance=joint_compliance, synergy_compliance=synergy_compliance, relative_to=relative_to,
-        anywhere=True,
-    )  # fmt: skip
-    return best_place(asked, lambda position: (grasp_of(asked.at(position)), task), progress)
 
 
 def best_place(

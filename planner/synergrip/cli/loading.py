@@ -32,7 +32,8 @@ def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
 
 
 def _placed(name: str, given: list[str]) -> Problem:
-    from synergrip.batch.best_place import best_place, position_line
+    from synergrip.batch.best_place import best_place
+    from synergrip.batch.placed_object import position_line
     from synergrip.cli.beside import aside
     from synergrip.cli.progress import shares
     from synergrip.problems.problem import load_problem

@@ -102,5 +102,5 @@ def _object(table: ObjectTable | None) -> Object:
     shape = table.shape.value() if table.shape is not None else None
     if shape is not None and table.orientation is not None and not isinstance(shape, Sphere):
         shape = Turned(shape, turn(table.orientation.axis, table.orientation.angle))
-    position = None if table.position is None or table.position == AUTO else frozen(table.position)
-    return Object(title=table.title, mass=table.mass or 0.0, shape=shape, position=position)
+    position = {} if table.position is None or table.position == AUTO else {"position": frozen(table.position)}
+    return Object(title=table.title, mass=table.mass or 0.0, shape=shape, **position)

@@ -12,7 +12,7 @@ from synergrip.linalg import Array
 from synergrip.reports.html.lines import Lines
 from synergrip.reports.pictures.contact_colors import COLORS, contact_colors
 from synergrip.reports.pictures.sheet import FAINT, INK, VERMILION, Sheet, no_noise, svg_text
-from synergrip.reports.view.scene import thinned
+from synergrip.reports.view.planned import thinned
 
 WIDE, HIGH = 5.6, 1.9
 LEFT, RIGHT, ABOVE, BELOW = 0.62, 0.12, 0.42, 0.36

@@ -87,7 +87,7 @@ def _scene(document: Mapping[str, Any], folder: Path) -> tuple[str, str]:
     if "execution" not in document:
         return "", ""
     from synergrip.reports.view.drawn import page
-    from synergrip.reports.view.scene import scene_of
+    from synergrip.reports.view.planned import scene_of
 
     scene = scene_of(document, folder)
     told = "palm frame; arrows: forces of the hand on the object; cones: friction; squares of 10 mm"

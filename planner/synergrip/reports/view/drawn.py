@@ -1,17 +1,15 @@
-"""A scene drawn with viser: on a page that plays it without a network. The only module that imports viser."""
+"""A scene as nodes of a viewer, and the page that plays it without a network."""
 
 from __future__ import annotations
 
-import contextlib
-import io
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
-from synergrip.reports.view.scene import Scene
+from synergrip.reports.view.scene import Frame, Scene
+from synergrip.reports.view.serving import serving
 from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
 from synergrip.vectors import quaternions
 
@@ -31,32 +29,16 @@ STILL = 1.0
 
 def page(scene: Scene) -> str:
     """Return a page (HTML) that plays a scene and opens without a network."""
-    with _server() as server:
+    with serving() as server:
         drawn = Drawn(server.scene, scene)
-        server.initial_camera.position, server.initial_camera.look_at = drawn.camera
-        server.initial_camera.up = tuple(scene.up[0])
-        drawn.show(0)
+        drawn.look(server)
         recorder = server.get_scene_serializer()
         for k, wait in enumerate(np.diff(scene.times)):
-            drawn.show(k)
+            drawn.show(scene.frame(k))
             recorder.insert_sleep(float(wait))
-        drawn.show(len(scene.times) - 1)
+        drawn.show(scene.frame(len(scene.times) - 1))
         recorder.insert_sleep(STILL if len(scene.times) == 1 else float(np.diff(scene.times)[-1]))
         return str(recorder.as_html())
-
-
-@contextlib.contextmanager
-def _server() -> Iterator[Any]:
-    """Serve on a free port of this machine alone, without a word, for as long as the block runs."""
-    import viser
-
-    with contextlib.redirect_stdout(io.StringIO()):
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    try:
-        yield server
-    finally:
-        with contextlib.redirect_stdout(io.StringIO()):
-            server.stop()
 
 
 class Drawn:
@@ -70,7 +52,6 @@ class Drawn:
             scene: what is drawn.
         """
         self.scene, size = scene, scene.size
-        self._turned = quaternions(scene.rotation)
         largest = float(np.linalg.norm(scene.forces, axis=2).max(initial=0.0))
         self._force = LONGEST * size / largest if largest > 0 else 0.0
         colors = [_rgb(color) for color in contact_colors(scene.contacts).values()]
@@ -79,13 +60,13 @@ class Drawn:
         nodes.add_frame("/palm", axes_length=0.35 * size, axes_radius=0.012 * size)
         self._ground(nodes)
         self._gravity = nodes.add_arrows(
-            "/gravity", self._weight(0), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
+            "/gravity", self._weight(scene.up[0]), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
             head_length=0.1 * size,
         )  # fmt: skip
         bones, joints = len(scene.bones[0]), 2 * len(scene.bones[0])
         self._bones = _several(nodes, "/palm/bones", rod(), bones, HAND)
         self._joints = _several(nodes, "/palm/joints", ball(), joints, HAND)
-        self._pads = _several(nodes, "/palm/pads", ball(), len(scene.contacts), HAND)
+        self._pads = _several(nodes, "/palm/pads", ball(), len(scene.pad_names), HAND)
         self._object = _body(nodes, scene)
         self._cones = _several(nodes, "/palm/cones", cone(), len(scene.contacts), np.array(colors), opacity=0.3)
         self._arrows = nodes.add_arrows(
@@ -95,7 +76,13 @@ class Drawn:
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
         self._time = nodes.add_label("/time", "", anchor="bottom-center")
         self._time.position = tuple(self._middle + 1.9 * size * scene.up[0])
-        self.show(0)
+        self._gravity.visible = scene.gravity
+        self.show(scene.frame(0))
+
+    def look(self, server: Any) -> None:
+        """Let everybody who opens the page look at it from where hand and object are seen."""
+        server.initial_camera.position, server.initial_camera.look_at = self.camera
+        server.initial_camera.up = tuple(self.scene.up[0])
 
     @property
     def camera(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -111,37 +98,33 @@ class Drawn:
 
     @property
     def _middle(self) -> Array:
-        return np.asarray(self.scene.position[0])
+        return self.scene.middle
 
     @property
     def _around(self) -> Array:
         """(., 3) where the hand and the object are at the start."""
         return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self._middle])
 
-    def show(self, k: int) -> None:
-        """Move everything to frame `k`."""
+    def show(self, frame: Frame) -> None:
+        """Move everything to where it is in a frame."""
         scene = self.scene
-        self._gravity.points = self._weight(k)
-        _lay(self._bones, scene.bones[k], scene.thickness)
-        _put(self._joints, scene.bones[k].reshape(-1, 3), np.full(2 * len(scene.bones[k]), scene.thickness))
-        _put(self._pads, scene.pads[k], np.maximum(scene.radii, 0.5 * scene.thickness))
+        self._gravity.points = self._weight(frame.up)
+        _lay(self._bones, frame.bones, scene.thickness)
+        _put(self._joints, frame.bones.reshape(-1, 3), np.full(2 * len(frame.bones), scene.thickness))
+        _put(self._pads, frame.pads, np.maximum(scene.radii, 0.5 * scene.thickness))
         if self._object is not None:
-            self._object.position, self._object.wxyz = tuple(scene.position[k]), tuple(self._turned[k])
+            turned = quaternions(frame.rotation[None])[0]
+            self._object.position, self._object.wxyz = tuple(frame.position), tuple(turned)
         high = CONE * scene.size
-        ends = np.stack([scene.places[k], scene.places[k] + high * scene.normals[k]], axis=1)
+        ends = np.stack([frame.places, frame.places + high * frame.normals], axis=1)
         _lay(self._cones, ends, high * scene.friction)
-        forces = np.stack([scene.places[k], scene.places[k] + self._force * scene.forces[k]], axis=1)
-        self._arrows.points = forces.astype(np.float32)
-        sizes = np.linalg.norm(scene.forces[k], axis=1)
-        for label, name, size, ends_at in zip(self._labels, scene.contacts, sizes, forces, strict=True):
-            label.text = f"{name} {size:.3g} N" if size > 0 else name
-            away = ends_at[0] - self._middle
-            label.position = tuple(ends_at[0] + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
-        least = "the posture of the start"
-        if scene.margins is not None:
-            i = int(np.argmin(scene.margins[k]))
-            least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
-        self._time.text = f"t = {scene.times[k]:.2f} s, {least}"
+        forces = np.stack([frame.places, frame.places + self._force * frame.forces], axis=1)
+        if len(forces):
+            self._arrows.points = forces.astype(np.float32)
+        for label, text, place in zip(self._labels, frame.labels, frame.places, strict=True):
+            label.text, away = text, place - frame.position
+            label.position = tuple(place + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
+        self._time.text = frame.caption
 
     def _ground(self, nodes: Any) -> None:
         """Draw squares of 10 mm below everything, across gravity at the start."""
@@ -153,9 +136,9 @@ class Drawn:
                        position=tuple(low), wxyz=tuple(_upright(up[None])[0]))  # fmt: skip
         nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
 
-    def _weight(self, k: int) -> Array:
-        """Return the arrow (1, 2, 3) of gravity in a frame, above what is held."""
-        up, size = self.scene.up[k], self.scene.size
+    def _weight(self, up: Array) -> Array:
+        """Return the arrow (1, 2, 3) of gravity, above what is held."""
+        size = self.scene.size
         return np.array([[self._middle + 1.8 * size * up, self._middle + 1.3 * size * up]], dtype=np.float32)
 
 
