@@ -48,6 +48,7 @@ ONLY_IN = {
             "synergies",
             "margins",
             "report",
+            "view",
         )
     },
     "numba": {"batch/lanes.py", "batch/lanes_algebra.py"},

@@ -17,6 +17,7 @@ from synergrip.cli.report import report
 from synergrip.cli.simulate import simulate
 from synergrip.cli.synergies import synergies
 from synergrip.cli.validate import validate
+from synergrip.cli.view import view
 
 app = typer.Typer(
     name="synergrip",
@@ -31,6 +32,7 @@ app = typer.Typer(
 for verb in (
     plan,
     report,
+    view,
     explain,
     margins,
     simulate,

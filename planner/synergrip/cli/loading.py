@@ -36,18 +36,22 @@ def _placed(name: str, given: list[str]) -> Problem:
     from synergrip.batch.placed_object import position_line
     from synergrip.cli.beside import aside
     from synergrip.cli.progress import shares
+    from synergrip.errors import InputError
     from synergrip.problems.problem import load_problem
-    from synergrip.problems.unplaced import unplaced
+    from synergrip.problems.unplaced import unplaced_problem
 
     def put(position: Array) -> Problem:
         return load_problem(name, [*given, f"object.{position_line(position).replace(' = ', '=')}"])
 
     def made(position: Array) -> tuple[Grasp, Task]:
-        problem = put(position)
-        return problem.grasp, problem.task
+        there = put(position)
+        return there.grasp, there.task
 
-    with unplaced(name, given) as asked:
-        found = best_place(asked, made, shares())
+    problem = unplaced_problem(name, given)
+    try:
+        found = best_place(problem.asked, made, shares())
+    except InputError as error:
+        raise problem.located(error) from None
     margin = f"slip margin up to {found.margin:.3g} N; " if found.margin > 0 else ""
     aside(f"placed   {found.line}  ({margin}all contacts touch at {found.touching} of {found.tried} places)")
     for note in found.notes:

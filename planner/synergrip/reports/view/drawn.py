@@ -69,13 +69,13 @@ class Drawn:
         self._pads = _several(nodes, "/palm/pads", ball(), len(scene.pad_names), HAND)
         self._object = _body(nodes, scene)
         self._cones = _several(nodes, "/palm/cones", cone(), len(scene.contacts), np.array(colors), opacity=0.3)
-        self._arrows = nodes.add_arrows(
+        self._arrows = None if scene.margins is None else nodes.add_arrows(
             "/palm/forces", np.zeros((len(colors), 2, 3)), np.array(colors, dtype=np.uint8),
             shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
         )  # fmt: skip
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
         self._time = nodes.add_label("/time", "", anchor="bottom-center")
-        self._time.position = tuple(self._middle + 1.9 * size * scene.up[0])
+        self._time.position = tuple(self._above)
         self._gravity.visible = scene.gravity
         self.show(scene.frame(0))
 
@@ -91,19 +91,20 @@ class Drawn:
         side = np.cross(up, [0.0, 0.0, 1.0] if abs(up[2]) < 0.9 else [1.0, 0.0, 0.0])
         side /= np.linalg.norm(side)
         from_there = 1.2 * np.cross(side, up) + 0.8 * side + 0.7 * up
-        ends = np.vstack([self._around - self.scene.size, self._around + self.scene.size])
+        ends = np.vstack([self._around - self.scene.size, self._around + self.scene.size, self._above])
         middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
         far = FAR * float(np.linalg.norm(ends - middle, axis=1).max())
         return tuple(middle + far * from_there / np.linalg.norm(from_there)), tuple(middle)
 
     @property
-    def _middle(self) -> Array:
-        return self.scene.middle
-
-    @property
     def _around(self) -> Array:
         """(., 3) where the hand and the object are at the start."""
-        return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self._middle])
+        return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self.scene.middle])
+
+    @property
+    def _above(self) -> Array:
+        """(3,) where the time stands: above all that is held."""
+        return np.asarray(self.scene.middle + 1.9 * self.scene.size * self.scene.up[0])
 
     def show(self, frame: Frame) -> None:
         """Move everything to where it is in a frame."""
@@ -119,7 +120,7 @@ class Drawn:
         ends = np.stack([frame.places, frame.places + high * frame.normals], axis=1)
         _lay(self._cones, ends, high * scene.friction)
         forces = np.stack([frame.places, frame.places + self._force * frame.forces], axis=1)
-        if len(forces):
+        if self._arrows is not None:
             self._arrows.points = forces.astype(np.float32)
         for label, text, place in zip(self._labels, frame.labels, frame.places, strict=True):
             label.text, away = text, place - frame.position
@@ -129,8 +130,8 @@ class Drawn:
     def _ground(self, nodes: Any) -> None:
         """Draw squares of 10 mm below everything, across gravity at the start."""
         scene, up = self.scene, self.scene.up[0]
-        points = np.vstack([self._around, [self._middle - scene.size * up]]) - self._middle
-        low = self._middle + up * (points @ up).min()
+        points = np.vstack([self._around, [self.scene.middle - scene.size * up]]) - self.scene.middle
+        low = self.scene.middle + up * (points @ up).min()
         wide = float(np.ceil(2.2 * np.linalg.norm(points, axis=1).max() / CELL) * CELL)
         nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
                        position=tuple(low), wxyz=tuple(_upright(up[None])[0]))  # fmt: skip
@@ -139,7 +140,7 @@ class Drawn:
     def _weight(self, up: Array) -> Array:
         """Return the arrow (1, 2, 3) of gravity, above what is held."""
         size = self.scene.size
-        return np.array([[self._middle + 1.8 * size * up, self._middle + 1.3 * size * up]], dtype=np.float32)
+        return np.array([[self.scene.middle + 1.8 * size * up, self.scene.middle + 1.3 * size * up]], dtype=np.float32)
 
 
 def _body(nodes: Any, scene: Scene) -> Any:
@@ -155,7 +156,9 @@ def _body(nodes: Any, scene: Scene) -> Any:
 
 
 def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacity: float = 1.0) -> Any:
-    """Draw `count` copies of a solid, which are placed later."""
+    """Draw `count` copies of a solid, which are placed later; None for none."""
+    if not count:
+        return None
     return nodes.add_batched_meshes_simple(
         name, solid.points.astype(np.float32), solid.triangles.astype(np.uint32), np.tile([1.0, 0, 0, 0], (count, 1)),
         np.zeros((count, 3)), batched_scales=np.ones((count, 3)), batched_colors=np.asarray(color, dtype=np.uint8),
@@ -165,12 +168,16 @@ def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacit
 
 def _put(node: Any, places: Array, radii: Array) -> None:
     """Place copies of a ball."""
+    if node is None:
+        return
     node.batched_positions = places.astype(np.float32)
     node.batched_scales = np.repeat(radii[:, None], 3, axis=1).astype(np.float32)
 
 
 def _lay(node: Any, ends: Array, radii: Array | float) -> None:
     """Place copies of what reaches from z = 0 to z = 1 from each end (n, 0, 3) to the other (n, 1, 3)."""
+    if node is None:
+        return
     along = ends[:, 1] - ends[:, 0]
     lengths = np.linalg.norm(along, axis=1)
     node.batched_positions = ends[:, 0].astype(np.float32)

@@ -11,6 +11,7 @@ import numpy as np
 
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array
+from synergrip.reports.pictures.bones import SHORTEST
 from synergrip.values import Value
 
 THICK = 0.12
@@ -113,4 +114,5 @@ def thickness_of(bones: Array, radii: Array) -> float:
     if np.any(radii > 0):
         return SLIM * float(np.median(radii[radii > 0]))
     lengths = np.linalg.norm(bones[:, 1] - bones[:, 0], axis=1)
+    lengths = lengths[lengths > SHORTEST]
     return THICK * float(np.median(lengths)) if len(lengths) else 0.005
