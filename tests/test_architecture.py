@@ -49,6 +49,8 @@ ONLY_IN = {
             "margins",
             "report",
             "view",
+            "lists",
+            "pictures",
         )
     },
     "numba": {"batch/lanes.py", "batch/lanes_algebra.py"},

@@ -21,6 +21,7 @@ ROOM = 0.3
 """[m] How far the object is moved along each axis from where it is at the start."""
 BEGUN = "as it began"
 """The first of the postures that can be chosen."""
+NOTED = " · see Notes below"
 Change = Callable[[Posing, int, float], Posing]
 
 
@@ -47,7 +48,7 @@ class Panel:
         scene = posed.scene(posing.q, posing.position)
         self.drawn, self.marks = Drawn(server.scene, scene), Marks(server.scene, scene, names=not posed.touches)
         self.drawn.look(server)
-        self.said = gui.add_markdown(plain(title))
+        self.said = gui.add_markdown(plain(title + (NOTED if notes else "")))
         self._whole(gui)
         with gui.add_folder("Synergies (from where it began)") as self.folder:
             self._choice(gui)

@@ -66,8 +66,8 @@ class Posed(Value):
         return Frame(
             caption=_caption(gaps) if self.touches else self.hand.name, bones=places[ends],
             links=places[:first], turned=turned[:first], pads=places[first:last], pushing=pushing[: len(pads)],
-            position=position, rotation=np.eye(3), places=contacts, normals=normals, forces=np.zeros_like(contacts),
-            labels=labels, up=self._up,
+            position=position, rotation=np.eye(3), tips=places[last:], places=contacts, normals=normals,
+            forces=np.zeros_like(contacts), labels=labels, up=self._up,
         )  # fmt: skip
 
     def _contacts(self, points: Array, pushing: Array, position: Array) -> tuple[Array, Array, list[float | None]]:

@@ -34,6 +34,7 @@ class Frame(Value):
     pushing: Array  # (p, 3) unit vectors in which the pads push, 0 where none is known
     position: Array  # (3,) of the object
     rotation: Array  # (3, 3) of its shape
+    tips: Array  # (m, 3) the pads' points, from which contacts are looked for
     places: Array  # (m, 3) of the contacts
     normals: Array  # (m, 3) into the object
     forces: Array  # (m, 3) on the object [N]
@@ -96,8 +97,8 @@ class Scene(Value):
         return Frame(
             caption=f"t = {self.times[k]:.2f} s, {least}", bones=self.bones[k], links=self.links[k],
             turned=self.turned[k], pads=self.pads[k], pushing=self.pushing[k], position=self.position[k],
-            rotation=self.rotation[k], places=self.places[k], normals=self.normals[k], forces=self.forces[k],
-            labels=tuple(labels), up=self.up[k],
+            rotation=self.rotation[k], tips=self.places[k], places=self.places[k], normals=self.normals[k],
+            forces=self.forces[k], labels=tuple(labels), up=self.up[k],
         )  # fmt: skip
 
     @property

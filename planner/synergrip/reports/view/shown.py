@@ -75,8 +75,7 @@ def problem_shown(
     sets = {asked.synergies.name: asked.synergies, **asked.hand.synergy_sets}
     sets[asked.synergies.name] = asked.synergies
     begin = Posing.at(asked.hand, asked.synergies, q, body.position)
-    title = f"{asked.title}{' · this is no grasp yet: see Notes' if refused else ''}"
-    return Shown(posed, begin, sets, _closing(asked), title, tuple(notes))
+    return Shown(posed, begin, sets, _closing(asked), asked.title, tuple(notes))
 
 
 def _closing(asked: AskedGrasp) -> Callable[[Array], Array] | None:
