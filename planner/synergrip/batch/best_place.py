@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from synergrip.batch.asked import LIMITS
 from synergrip.batch.placed_object import PlacedObject
 from synergrip.batch.plan_many import plan_many
 from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
@@ -42,8 +44,10 @@ DIGITS = 4
 """Of the place in metres, so that it can be written down."""
 ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
+FORCES = (NormalForce, JointTorque, ActuatorEffort)
+"""Limits of how hard a hand may press."""
 ENOUGH = 10.0
-"""Times the largest load to which normal forces are held where no limit bounds the margin."""
+"""Times the largest load to which normal forces are held where no limit says how hard the hand may press."""
 Progress = Callable[[str, float], None]
 
 
@@ -96,7 +100,7 @@ class _Judge:
     task: Task
     wrenches: Array  # (K, 6)
     added: float
-    """[N] The bound on normal forces that no limit of the task is; 0 for none."""
+    """[N] The bound on normal forces where the task has no limit of forces; else 0."""
 
     @classmethod
     def of(cls, asked: AskedGrasp, touching: TouchingPlaces, made: Callable[[Array], tuple[Grasp, Task]]) -> _Judge:
@@ -105,20 +109,13 @@ class _Judge:
         timed = task.timed(grasp)
         knots = np.unique(np.round(np.linspace(0, len(timed.times) - 1, INSTANTS)).astype(int))
         loads = timed.wrench[knots]
-        still = Task(
-            knots=1, target=Hold(), limits=[each for each in task.limits if type(each) in LIMITS],
-            goals=[LargestMargin()], linearise="once",
-        )  # fmt: skip
-        judge = cls(asked, made, grasp, still, loads, 0.0)
-        try:
-            judge.margins(touching.taken(np.arange(1)))
-        except InputError as error:
-            if error.issues[0].key != "goal.maximise":
-                raise
+        limits = [each for each in task.limits if type(each) in LIMITS]
+        bound = 0.0
+        if not any(isinstance(each, FORCES) for each in limits):
             bound = ENOUGH * (float(np.linalg.norm(loads[:, :3], axis=1).max()) or 1.0)
-            limits = [*(each for each in still.limits if not isinstance(each, NormalForce)), NormalForce(upper=bound)]
-            return replace(judge, task=still.replace(limits=limits), added=bound)
-        return judge
+            limits = [*limits, NormalForce(upper=bound)]
+        still = Task(knots=1, target=Hold(), limits=limits, goals=[LargestMargin()], linearise="once")
+        return cls(asked, made, grasp, still, loads, bound)
 
     def margins(self, places: TouchingPlaces) -> Array:
         """Return the largest margin (N,) [N] at each place, at its worst load; -inf where a load is not held."""
@@ -156,7 +153,7 @@ class _Judge:
         if not np.isfinite(margin):
             return ("all contacts touch there, but at no place that was judged is the load held with these limits",)
         if self.added:
-            return (f"no limit bounds the margin: it was judged with normal forces of {self.added:.4g} N at most",)
+            return (f"no limit says how hard the hand may press: normal forces were held to {self.added:.4g} N",)
         return ()
 
 

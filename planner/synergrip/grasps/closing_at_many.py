@@ -17,10 +17,10 @@ from synergrip.values import Value
 
 STRIDE = 2.0
 """A look at the distances takes so many times `STEP` of the fastest joint; what is thinner may be missed."""
-TOUCHING = 1e-7
+TOUCHING = 1e-6
 """A pad this close to the surface touches it [m]."""
-HALVINGS = 40
-"""Times at most that the moment of a touch is narrowed down."""
+NARROWED = 60
+"""Times at most that the moment of a touch is narrowed down; some 8 do."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,7 +80,7 @@ class Closer:
         gaps, outward = self.shape.surface(motions.position - positions[:, None])
         own = np.array([pad.normal for pad in self.pads])
         pushing = np.einsum("kmij,mj->kmi", motions.rotation, own)
-        aimed = np.any(own != 0, axis=1)
+        aimed = np.array([touch.aimed for touch in self.asked.touches])
         facing = np.where(aimed, -(pushing * outward).sum(axis=-1), 1.0)
         return ClosedAtMany(positions, q, np.asarray(gaps - self.radii), np.asarray(outward), np.asarray(facing))
 
@@ -133,7 +133,7 @@ class _Way:
         nearest = self._nearest(who, self.q[who] + far[:, None] * rate)
         hit = np.flatnonzero(nearest < 0)
         if len(hit):
-            far[hit] = self._touch(who[hit], rate[hit], far[hit])
+            far[hit] = self._touch(who[hit], rate[hit], far[hit], nearest[hit])
         self.q[who] = np.clip(self.q[who] + far[:, None] * rate, self.of.lower, self.of.upper)
         self._stop(who)
 
@@ -142,15 +142,26 @@ class _Way:
         gaps = self.of.seen(self.positions[who], q).gaps
         return np.asarray(np.where(self.waiting[who], gaps, np.inf).min(axis=1))
 
-    def _touch(self, who: Places, rate: Array, far: Array) -> Array:
-        """Return the share of a step at which the first pad touches, just outside: it does at `far` (k,) at most."""
-        low, high = np.zeros(len(who)), far.copy()
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            gaps = self._nearest(who, self.q[who] + middle[:, None] * rate)
-            high, low = np.where(gaps < 0, middle, high), np.where(gaps < 0, low, middle)
-            if np.all((gaps >= 0) & (gaps < TOUCHING / 2)):
+    def _touch(self, who: Places, rate: Array, far: Array, beyond: Array) -> Array:
+        """Return the share of a step at which the first pad touches, just outside, by false position.
+
+        Args:
+            who: (k,) the hands.
+            rate: (k, n_q) their motion in a step.
+            far: (k,) a share at which a pad is inside.
+            beyond: (k,) how deep, below 0 [m].
+        """
+        low, high, inside = np.zeros(len(who)), far.copy(), beyond.copy()
+        outside = gap = self._nearest(who, self.q[who])
+        for turn in range(NARROWED):
+            if np.all(gap < TOUCHING / 2):
                 break
+            share = (low + high) / 2 if turn % 4 == 3 else low + (high - low) * outside / (outside - inside)
+            found = self._nearest(who, self.q[who] + share[:, None] * rate)
+            deep = found < 0
+            outside = np.where(deep, outside / 2, found)  # the end that stays counts less, or it would stay for good
+            inside = np.where(deep, found, inside / 2)
+            low, high, gap = np.where(deep, low, share), np.where(deep, share, high), np.where(deep, gap, found)
         return low
 
     def _stop(self, who: Places) -> None:
