@@ -13,7 +13,7 @@ from urllib.parse import unquote
 import pytest
 import yaml
 from command_line import run
-from pages import ROOT, blocks, run_page, user_pages
+from pages import ROOT, blocks, judge_block, ran, user_pages
 from typer.main import get_command
 
 from synergrip.cli.app import app
@@ -28,7 +28,8 @@ def test_a_page_runs_from_top_to_bottom_and_prints_what_it_shows(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    run_page(PAGES[name])
+    for block, printed in ran(PAGES[name]):
+        judge_block(block, printed)
 
 
 def test_every_block_is_of_a_kind_that_is_run_or_shown() -> None:
