@@ -137,7 +137,8 @@ class _Judge:
         margins = self.margins(together)
         top = float(margins[together.clear].max(initial=-np.inf))
         alike = margins >= (1 - ALIKE) * top if np.isfinite(top) else np.isneginf(margins)
-        order = np.lexsort((off_centre(self.asked, together), -np.where(alike, np.inf, margins), ~together.clear))
+        middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
+        order = np.lexsort((middle, -np.where(alike, np.inf, margins), ~together.clear))
         return together.taken(order[:BEST])
 
     def written(self, places: TouchingPlaces) -> tuple[Grasp, float]:
