@@ -13,13 +13,19 @@ from synergrip.values import Value
 @made_by("place_object(hand, object, ...)")
 @dataclass(frozen=True, eq=False, repr=False)
 class PlacedObject(Value):
-    """Where an object is held best."""
+    """Where an object is held best.
+
+    Example:
+        >>> found = PlacedObject(grasp=grasp, margin=11.3, tried=1800, touching=643)  # as place_object returns it
+        >>> found.line
+        'position = ["0 mm", "3.3454 mm", "148.8372 mm"]'
+    """
 
     grasp: Grasp
     """The grasp there."""
     margin: float
     """[N] The largest slip margin that all contacts can keep in the linear model of this posture, at the worst of the
-    instants that were looked at; nan where the load is not held at all of them."""
+    instants that were looked at; minus infinity where the load is not held at all of them."""
     tried: int
     """Places that were closed on."""
     touching: int

@@ -23,6 +23,8 @@ CELL = 0.01
 """[m] The side of a square of the ground."""
 FAR = 1.6
 """How far the camera is, in radii of what is seen."""
+THREAD = 0.12
+"""Radius of what joins a pad to where it would touch, in those of bones."""
 STILL = 1.0
 """[s] How long a single frame is shown."""
 
@@ -73,12 +75,8 @@ class Drawn:
             "/palm/forces", np.zeros((len(colors), 2, 3)), np.array(colors, dtype=np.uint8),
             shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
         )  # fmt: skip
-        self._missing = None
-        if scene.margins is None and scene.contacts:  # lines from pads to where the object is nearest
-            ends = np.array(colors, dtype=np.uint8)[:, None].repeat(2, axis=1)
-            self._missing = nodes.add_line_segments(
-                "/palm/missing", np.zeros((len(colors), 2, 3)), ends, line_width=2.0
-            )
+        apart = len(scene.contacts) if scene.margins is None else 0  # from pads to where the object is nearest
+        self._apart = _several(nodes, "/palm/apart", rod(), apart, np.array(colors))
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
         self._time = nodes.add_label("/time", "", anchor="bottom-center")
         self._time.position = tuple(self._above)
@@ -128,8 +126,7 @@ class Drawn:
         forces = np.stack([frame.places, frame.places + self._force * frame.forces], axis=1)
         if self._arrows is not None:
             self._arrows.points = forces.astype(np.float32)
-        if self._missing is not None:
-            self._missing.points = np.stack([frame.tips, frame.places], axis=1).astype(np.float32)
+        _lay(self._apart, np.stack([frame.tips, frame.places], axis=1), THREAD * scene.thickness)
         for label, text, place in zip(self._labels, frame.labels, frame.places, strict=True):
             label.text, away = text, place - frame.position
             label.position = tuple(place + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
