@@ -16,7 +16,7 @@ from synergrip.statics.analysis import Analysis
 
 PER_TORQUE = "rad/(N\u00a0m)"
 """Kept on one line."""
-MOTION_NOTE = "Grey: the posture. Blue: one synergy moved by its step. Light: moved back as far."
+MOTION_NOTE = "Grey: the posture. Violet: one synergy moved by its step. Light violet: moved back as far."
 
 
 def left_out(count: int) -> str:
@@ -33,17 +33,16 @@ def subtitle(analysis: Analysis) -> str:
     return f"{many(analysis.grasp.n_z, 'synergy')} · {dimensions} · {contacts}"
 
 
-def grasp_notes(problem: Problem, analysis: Analysis) -> Iterator[str]:
-    """Yield the footnotes of a picture of forces."""
+def grasp_notes(problem: Problem, analysis: Analysis, spins: bool) -> Iterator[str]:
+    """Yield the footnotes of a picture of forces, in which there are spin moments or not."""
     if problem.held:
         yield MOTION_NOTE
-    names = ", ".join(f"{k} {contact.name}" for k, contact in enumerate(analysis.grasp.contacts, start=1))
-    yield f"Contacts: {names}. Dashed: their normals.{left_out(analysis.grasp.n_z)}"
-    spins = any(is_moment(component) for _, component in analysis.grasp.components)
+    yield f"Dashed at the contacts: their normals.{left_out(analysis.grasp.n_z)}"
     yield (
-        "Red: internal forces of the hand on the object that one synergy alone generates, equation (28) with dw = 0"
-        f"{'; green: their spin moments' if spins else ''}. Each panel has its own scale; the largest stands above it. "
-        "What squeezes is the part of J S_k that no rigid motion of the object follows."
+        "Arrows in the colours of the contacts: internal forces of the hand on the object that one synergy alone "
+        f"generates, equation (28) with dw = 0{'; arcs: their spin moments' if spins else ''}. Each panel has its own "
+        "scale of forces; the largest stands above it. What squeezes is the part of J S_k that no rigid motion of the "
+        "object follows."
     )
     yield f"The forces depend on the compliances, here {', '.join(_compliances(problem, analysis))}."
 
