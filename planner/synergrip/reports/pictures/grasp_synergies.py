@@ -10,7 +10,6 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array, frozen
-from synergrip.problems.problem import Problem
 from synergrip.reports.data.execution import surroundings
 from synergrip.reports.pictures.bearings import HIGH, WIDE, draw_bearings, draw_scale
 from synergrip.reports.pictures.contact_colors import contact_colors
@@ -18,7 +17,7 @@ from synergrip.reports.pictures.effects import Effect, effects
 from synergrip.reports.pictures.forces import places_known
 from synergrip.reports.pictures.key import Key
 from synergrip.reports.pictures.layout import MARGIN, MOST, Columns, Window, size_that_fits, window
-from synergrip.reports.pictures.legend import grasp_notes, subtitle
+from synergrip.reports.pictures.legend import Asked, grasp_notes, subtitle
 from synergrip.reports.pictures.motions import Motions, draw_motion, motions
 from synergrip.reports.pictures.page import SPACE, Foot, Page
 from synergrip.reports.pictures.paper import Paper
@@ -32,15 +31,17 @@ from synergrip.statics.analysis import Analysis
 TITLE, TITLES = 0.32, 0.5  # [inch]
 ARROW = 1.6
 """The longest arrow for each length of a normal."""
+OFF = 0.15
+"""How far from its contact a number stands at least [inch]."""
 SCALE, WIDTH_MM = 1.05, 180.0
 """Room for a bar of length [inch], and the usual width of a picture in a paper [mm]."""
 
 
-def draw_grasp_synergies(problem: Problem, analysis: Analysis, path: Path, paper: Paper | None = None) -> str:
+def draw_grasp_synergies(asked: Asked, analysis: Analysis, path: Path, paper: Paper | None = None) -> str:
     """Draw each synergy of a problem in a column: the motion of the hand, and the forces at the contacts.
 
     Args:
-        problem: without a hand only the forces are drawn.
+        asked: title, hand and task; without a hand only the forces are drawn.
         analysis: of its grasp.
         path: ends in .svg, .png or .pdf.
         paper: of a picture for a paper, in which the notes are left to its caption.
@@ -52,7 +53,7 @@ def draw_grasp_synergies(problem: Problem, analysis: Analysis, path: Path, paper
         InputError: matrices that do not say where the contacts are, or a suffix that says no format.
         OSError: the file cannot be written.
     """
-    grasp, held = analysis.grasp, problem.held
+    grasp, held = analysis.grasp, asked.held
     if not places_known(grasp):
         message = "nothing can be drawn: the matrices do not say where the contacts are; give their point_m and normal"
         raise InputError.at("", message)
@@ -61,16 +62,16 @@ def draw_grasp_synergies(problem: Problem, analysis: Analysis, path: Path, paper
     moved = motions(held.hand, held.synergies, held.q, [touch.pad for touch in held.touches], MOST) if held else None
     units = [motion.step.unit for motion in moved.each] if moved else [PLAIN] * min(grasp.n_z, MOST)
     body = held.body if held else Object(position=frozen(np.zeros(3)))
-    picture = _Picture(problem, analysis, moved, effects(analysis, units), body, paper)
+    picture = _Picture(asked, analysis, moved, effects(analysis, units), body, paper)
     picture.write(path)
-    return " ".join([f"{problem.title}: {subtitle(analysis)}.", *picture.notes])
+    return " ".join([f"{asked.title}: {subtitle(analysis)}.", *picture.notes])
 
 
 @dataclass(frozen=True)
 class _Picture:
     """All that is drawn, before it is known where on the sheet."""
 
-    problem: Problem
+    asked: Asked
     analysis: Analysis
     moved: Motions | None
     effects: tuple[Effect, ...]
@@ -85,7 +86,7 @@ class _Picture:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be said of it."""
-        return tuple(grasp_notes(self.problem, self.analysis, any(e.forces.largest_spin > 0 for e in self.effects)))
+        return tuple(grasp_notes(self.asked, self.analysis, any(e.forces.largest_spin > 0 for e in self.effects)))
 
     @property
     def view(self) -> View:
@@ -130,7 +131,7 @@ class _Picture:
                 draw_motion(panel, view, self.moved.rest, self.moved.each[index])
             self._forces(sheet, view, below, index, left, top + upper)
 
-        title, under, notes, letters = self.problem.title, subtitle(self.analysis), True, USUAL
+        title, under, notes, letters = self.asked.title, subtitle(self.analysis), True, USUAL
         if self.paper is not None:
             title, under, notes, letters = self.paper.title, "", False, self.paper.letters
         page = Page(
@@ -148,12 +149,13 @@ class _Picture:
         panel = sheet.panel(left, top + TITLES, column, shown.height, shown.middle, shown.span)
         contacts = self.analysis.grasp.contacts
         draw_object(panel, view, self.body, np.zeros(3), contacts)
-        draw_forces(panel, view, contacts, effect.forces, self.normal, ARROW * self.normal)
+        off = max(0.36 * self.normal, OFF * shown.span / column)
+        draw_forces(panel, view, contacts, effect.forces, self.normal, ARROW * self.normal, off)
 
     def _foot(self, view: View, above: Window | None, below: Window) -> Foot:
         """Return axes, gravity, lengths and the names of the contacts."""
-        columns, held = self.columns, self.problem.held
-        gravity = surroundings(self.problem.timed, held.body.mass)[0] if held else None
+        columns, held = self.columns, self.asked.held
+        gravity = surroundings(self.asked.timed, held.body.mass)[0] if held else None
         names = [contact.name for contact in self.analysis.grasp.contacts]
         numbered = [(f"{k} {name}", contact_colors(names)[name]) for k, name in enumerate(names, start=1)]
         left = MARGIN + (2 if gravity is not None else 1) * WIDE

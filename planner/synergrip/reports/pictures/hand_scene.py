@@ -76,7 +76,7 @@ class _Drawn:
         """(m, 3) as long as they are drawn [m]."""
         forces = self.scene.forces[self.k]
         largest = float(np.linalg.norm(self.scene.forces, axis=2).max(initial=0.0))
-        return forces * (FORCE * self.scene.size / largest) if largest > 0 else 0 * forces
+        return np.asarray(forces * (FORCE * self.scene.size / largest) if largest > 0 else 0 * forces)
 
     @property
     def _thickness(self) -> float:

@@ -29,8 +29,8 @@ def draw_bounds(axes: Any, lines: Lines, scale: float, upright: bool) -> None:
     """
     stroke = axes.axhline if upright else axes.axvline
     near, low_far, high_far = apart(lines)
-    for bound in near:
-        stroke(bound, color=INK, lw=scale, ls=DASHED, zorder=1.5)
+    for level in near:
+        stroke(level, color=INK, lw=scale, ls=DASHED, zorder=1.5)
     if low_far is None and high_far is None:
         return
     get, put = (axes.get_ylim, axes.set_ylim) if upright else (axes.get_xlim, axes.set_xlim)
@@ -63,17 +63,16 @@ def _beyond(axes: Any, unit: str, bound: float, end: float, edge: float, scale: 
     """Draw one bound between the end of the axis and its edge before, where the axis is broken."""
     at, middle = edge + 0.55 * (end - edge), edge + 0.22 * (end - edge)
     word = f"limit {bound:.4g}{'%' if unit.startswith('%') else f' {unit}'.rstrip()}".replace("-", "−")
+    letters = {"textcoords": "offset points", "va": "bottom", "fontsize": SIZE * scale, "color": INK}
     if upright:
+        across, where, mark = axes.get_yaxis_transform(), ([0.0], [middle]), (1.0, 0.45)
         axes.axhline(at, color=INK, lw=scale, ls=DASHED, zorder=1.5)
-        axes.annotate(word, (0.995, at), xycoords=axes.get_yaxis_transform(), xytext=(0, 1.5 * scale),
-                      textcoords="offset points", ha="right", va="bottom", fontsize=SIZE * scale, color=INK)  # fmt: skip
-        where, mark, transform = ([0.0], [middle]), (1.0, 0.45), axes.get_yaxis_transform()
+        axes.annotate(word, (0.995, at), xycoords=across, xytext=(0, 1.5 * scale), ha="right", **letters)
     else:
+        across, where, mark = axes.get_xaxis_transform(), ([middle], [0.0]), (0.45, 1.0)
         axes.axvline(at, color=INK, lw=scale, ls=DASHED, zorder=1.5)
-        axes.annotate(word, (at, 1.0), xycoords=axes.get_xaxis_transform(), xytext=(0, scale),
-                      textcoords="offset points", ha="center", va="bottom", fontsize=SIZE * scale, color=INK)  # fmt: skip
-        where, mark, transform = ([middle], [0.0]), (0.45, 1.0), axes.get_xaxis_transform()
-    slash, style = [(-mark[0], -mark[1]), mark], {"ls": "none", "clip_on": False, "transform": transform}
+        axes.annotate(word, (at, 1.0), xycoords=across, xytext=(0, scale), ha="center", **letters)
+    slash, style = [(-mark[0], -mark[1]), mark], {"ls": "none", "clip_on": False, "transform": across}
     axes.plot(*where, marker=slash, ms=10 * scale, mec="white", mew=4 * scale, zorder=5, **style)
     for shift in (-0.5, 0.5):  # two short strokes across the axis, with paper between them
         moved = [(x + shift * (not upright), y + shift * upright) for x, y in slash]

@@ -48,7 +48,13 @@ def front_and_back(line: Array, view: View) -> Iterator[tuple[Array, bool]]:
 
 
 def draw_forces(
-    panel: Panel, view: View, contacts: Sequence[Contact], forces: ContactForces, length: float, longest: float
+    panel: Panel,
+    view: View,
+    contacts: Sequence[Contact],
+    forces: ContactForces,
+    length: float,
+    longest: float,
+    off: float,
 ) -> None:
     """Draw contact points with their numbers, normals and forces, each contact in its colour.
 
@@ -59,6 +65,7 @@ def draw_forces(
         forces: on the object.
         length: of a normal [m].
         longest: length of the longest arrow [m].
+        off: how far from its contact a number stands [m].
     """
     colors = list(contact_colors([contact.name for contact in contacts]).values())
     points, vectors = view.flat(forces.points), view.flat(arrows(forces, longest))
@@ -74,7 +81,7 @@ def draw_forces(
         panel.area(_head(flat, 0.15 * length), colors[index], 1.0, 10.0)
         drawn.append(flat)
     outward = -view.flat(np.array([contact.frame[:, 0] for contact in contacts]))
-    for number, place in enumerate(free_places(points, outward, drawn, 0.36 * length), start=1):
+    for number, place in enumerate(free_places(points, outward, drawn, off), start=1):
         panel.note(place, str(number), colors[number - 1], bold=True)
 
 

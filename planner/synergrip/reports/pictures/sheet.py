@@ -26,7 +26,7 @@ BLUE, SKY, VERMILION, GREEN = "#0072b2", "#8cc8ec", "#d55e00", "#009e73"
 """Colours that stay apart for the colour-blind (Okabe and Ito)."""
 SETTINGS = {"svg.hashsalt": "synergrip", "svg.fonttype": "none", "pdf.fonttype": 42, "text.parse_math": False}
 NO_DATE: dict[str, dict[str, Any]] = {
-    ".svg": {"Date": None}, ".png": {"Software": None}, ".pdf": {"CreationDate": None}
+    ".svg": {"Date": None, "Creator": None}, ".png": {"Software": None}, ".pdf": {"CreationDate": None}
 }  # fmt: skip
 DOTS_PER_INCH = 160
 LEAST = {"mm": 0.01, "deg": 0.01, "N": 1e-3, "% of limit": 0.1, "% of its range": 0.1}
@@ -94,13 +94,14 @@ class Panel:
                thick: float = 0.028) -> None:  # fmt: skip
         """Draw arrows from points (n, 2), as long as their vectors (n, 2), in one colour or one for each."""
         size = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "units": "inches"}
-        head = {"width": thick * self.scale, "headwidth": 4.2, "headlength": 5.0, "headaxislength": 4.5, "minlength": 0.5}
-        self.axes.quiver(*points.T, *vectors.T, color=color, zorder=near, **size, **head)
+        head = {"headwidth": 4.2, "headlength": 5.0, "headaxislength": 4.5, "minlength": 0.5}
+        self.axes.quiver(*points.T, *vectors.T, color=color, zorder=near, width=thick * self.scale, **size, **head)
 
     def note(self, point: Array, text: str, color: str = GREY, across: str = "center", bold: bool = False) -> None:
         """Write small lines at a point (2,), by default around it."""
-        self.axes.text(*point, "\n".join(map(readable, text.split("\n"))), color=color, ha=across, va="center", fontsize=8 * self.scale, zorder=20,
-                       weight="bold" if bold else "normal")  # fmt: skip
+        lines, weight = "\n".join(map(readable, text.split("\n"))), "bold" if bold else "normal"
+        self.axes.text(*point, lines, color=color, ha=across, va="center", fontsize=8 * self.scale, zorder=2e3,
+                       weight=weight)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -59,6 +59,4 @@ def _chart(
 ) -> Lines:
     """Return lines of what was seen (N, m) beside what was promised (N or more, m), which goes on where it ended."""
     gone = np.full((len(target) - len(seen), seen.shape[1]), np.nan)
-    return Lines(
-        title, unit, names, np.vstack([seen, gone]), bounds, target=target, of_contacts=names != AXES
-    )
+    return Lines(title, unit, names, np.vstack([seen, gone]), bounds, target=target, of_contacts=names != AXES)

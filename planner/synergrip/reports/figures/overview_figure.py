@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.reports.figures.margin_figure import note_required
 from synergrip.reports.pictures.cone_sections import first_worst
 from synergrip.reports.pictures.hand_scene import draw_hand
-from synergrip.reports.pictures.layout import LETTERS
 from synergrip.reports.pictures.line_chart import Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines, lines_of
-from synergrip.reports.pictures.page import SPACE, Heading
+from synergrip.reports.pictures.page import Heading
 from synergrip.reports.pictures.paper import Paper
 from synergrip.reports.pictures.sheet import INK, Sheet, write_picture
 from synergrip.reports.view.scene import Scene, scene_of
@@ -73,18 +73,6 @@ def _charts(sheet: Sheet, parts: list[Lines], times: np.ndarray, at: float, box:
         if lines.title == "slip margin":
             note_required(axes, lines, sheet.scale)
         top += head + high + BELOW
-
-
-def note_required(axes: Any, lines: Lines, scale: float) -> None:
-    """Write at the dashed line what margin is required, and let the chart begin at 0."""
-    low, high = axes.get_ylim()
-    for bound in lines.bounds:  # with room below it for the words
-        low = min(low, -0.04 * high, bound - 0.2 * (high - bound))
-    axes.set_ylim(low, high)
-    for bound in lines.bounds:
-        axes.annotate(f"required {bound:.4g} N", (0.995, bound), xycoords=axes.get_yaxis_transform(), ha="right",
-                      va="top", xytext=(0, -2 * scale), textcoords="offset points", fontsize=6.5 * scale,
-                      color=INK)  # fmt: skip
 
 
 def caption(document: Mapping[str, Any], scene: Scene, k: int) -> str:
