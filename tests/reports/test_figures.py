@@ -215,6 +215,21 @@ def test_the_picture_of_the_readme_is_what_the_command_makes(saved: Path, tmp_pa
     assert OVERVIEW.stat().st_size < 200_000
 
 
+def test_in_a_narrow_column_the_charts_stand_below_the_hand(saved: Path, tmp_path: Path) -> None:
+    found = document("figure", "overview", str(saved), "-o", str(tmp_path / "narrow.svg"), "--width", "88")
+    assert "Below: slip margin" in found["caption"]
+    width, height = size(tmp_path / "narrow.svg")
+    assert height > 1.5 * width
+
+
+def test_the_code_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
+    for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        exec(code, {})
+    assert {path.name for path in tmp_path.iterdir()} == {"margin.pdf", "synergies.svg"}
+
+
 def test_the_viewer_of_a_plan_is_a_frame_with_its_page(saved: Path, tmp_path: Path) -> None:
     pytest.importorskip("viser")
     problem = synergrip.load_problem("gripper-box", ["task.knots=5"])

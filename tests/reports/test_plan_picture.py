@@ -108,7 +108,7 @@ def test_a_limit_far_away_is_drawn_beyond_a_break_of_the_axis(tmp_path: Path) ->
 
 def test_ticks_say_what_they_stand_for(tmp_path: Path) -> None:
     times, level = np.linspace(0, 1, 5), np.linspace(0, 2e-5, 5)[:, None]
-    for lines in (Lines("high", "", ("a",), 1234.5 + level), Lines("low", "", ("a",), level)):
+    for lines in (Lines("high", "", ("a",), 1234.5 + 200 * level), Lines("low", "", ("a",), level)):
         draw_charts([lines], times, "", "", tmp_path / "ticks.svg")
         drawn = re.findall(r">([^<>]+)</text>", (tmp_path / "ticks.svg").read_text(encoding="utf-8"))
         assert not [text for text in drawn if "1e" in text or text.startswith("+")], drawn
@@ -163,3 +163,9 @@ def test_the_command_draws_a_plan_and_says_when_there_is_none(tmp_path: Path, mo
     wrong = run("plan", "pinch-soft", "--picture", str(tmp_path / "plan.gif"))
     assert wrong.exit_code == 2
     assert "--picture" in wrong.stderr
+
+
+def test_a_limit_that_the_axis_reaches_is_not_beyond_a_break(tmp_path: Path) -> None:
+    slip = Lines("slip", "mm", ("a",), np.full((5, 1), 1e-4), (0.05,))
+    draw_charts([slip], np.linspace(0, 1, 5), "", "", tmp_path / "slip.svg")
+    assert "limit" not in (tmp_path / "slip.svg").read_text(encoding="utf-8")

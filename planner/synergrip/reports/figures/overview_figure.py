@@ -20,8 +20,8 @@ from synergrip.reports.view.scene import Scene, scene_of
 
 WIDE_MM, HIGH = 180.0, 3.3
 """Usual width [mm] and height [inch]."""
-LEAST = 2.4
-"""The lowest it can be [inch]."""
+LEAST, NARROW = 2.4, 5.5
+"""The lowest it can be, and the width below which the charts stand below the hand [inch]."""
 HAND, LEFT, BELOW, RIGHT = 0.57, 0.5, 0.42, 0.18
 """Share of the width that the hand takes; room around a chart [inch]."""
 
@@ -49,15 +49,21 @@ def draw_overview(document: Mapping[str, Any], folder: Path, path: Path, paper: 
     width, times = paper.wide(WIDE_MM), np.array(document["time_s"])
     heading = Heading.of(paper.title, "", width)
     top = heading.height if paper.title else 0.05
-    height = paper.high(HIGH + top, LEAST + top)
+    beside = width >= NARROW
+    height = paper.high((HIGH if beside else 2 * HIGH) + top, (LEAST if beside else 2 * LEAST) + top)
+    hand = Box(0.1, top, HAND * width - 0.2, height - top - 0.05)
+    charts = Box(HAND * width, top, (1 - HAND) * width - RIGHT, height - top)
+    if not beside:
+        half = (height - top) / 2
+        hand, charts = Box(0.1, top, width - 0.2, half), Box(0.05, top + half, width - 0.05 - RIGHT, half)
 
     def fill(sheet: Sheet) -> None:
         heading.write(sheet)
-        draw_hand(sheet, Box(0.1, top, HAND * width - 0.2, height - top - 0.05), scene, k)
-        _charts(sheet, parts, times, scene.times[k], Box(HAND * width, top, (1 - HAND) * width - RIGHT, height - top))
+        draw_hand(sheet, hand, scene, k)
+        _charts(sheet, parts, times, scene.times[k], charts)
 
     write_picture(path, width, height, fill, paper.letters)
-    return caption(document, scene, k)
+    return _caption(document, scene, k, ("Left", "Right") if beside else ("Above", "Below"))
 
 
 def _charts(sheet: Sheet, parts: list[Lines], times: np.ndarray, at: float, box: Box) -> None:
@@ -75,12 +81,12 @@ def _charts(sheet: Sheet, parts: list[Lines], times: np.ndarray, at: float, box:
         top += head + high + BELOW
 
 
-def caption(document: Mapping[str, Any], scene: Scene, k: int) -> str:
+def _caption(document: Mapping[str, Any], scene: Scene, k: int, places: tuple[str, str]) -> str:
     """Return what is seen, in words."""
-    margin = document["margin"]
+    margin, (hand, charts) = document["margin"], places
     return (
-        f"{document['title']}. Left: the hand at t = {scene.times[k]:.3g} s; arrows are the forces of the hand on the "
-        "object, translucent cones the friction cones, in the colours of their contacts; axes of the palm, gravity "
-        f"g. Right: slip margin and normal force of each contact over time, dashed where they are limited; the least "
-        f"slip margin is {margin['worst_N']:.4g} N at {margin['contact']}."
+        f"{document['title']}. {hand}: the hand at t = {scene.times[k]:.3g} s; arrows are the forces of the hand on "
+        "the object, translucent cones the friction cones, in the colours of their contacts; axes of the palm, "
+        f"gravity g. {charts}: slip margin and normal force of each contact over time, dashed where they are limited; "
+        f"the least slip margin is {margin['worst_N']:.4g} N at {margin['contact']}."
     )

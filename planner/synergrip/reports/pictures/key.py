@@ -27,7 +27,7 @@ class Key:
         left = 0.0
         for name, color in self.entries:
             text = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
-            room = STROKE + 0.05 + (len(text) + 1) * 0.9 * SIZE / LETTERS + APART
+            room = STROKE + 0.05 + (len(text) + 1) * 0.96 * SIZE / LETTERS + APART
             if rows[-1] and left + room - APART > self.width:
                 rows.append([])
                 left = 0.0

@@ -28,12 +28,13 @@ def draw_bounds(axes: Any, lines: Lines, scale: float, upright: bool) -> None:
         upright: whether values go up, else from left to right.
     """
     stroke = axes.axhline if upright else axes.axvline
-    near, low_far, high_far = apart(lines)
+    get, put = (axes.get_ylim, axes.set_ylim) if upright else (axes.get_xlim, axes.set_xlim)
+    low, high = get()
+    near, low_far, high_far = apart(lines, low, high)
     for level in near:
         stroke(level, color=INK, lw=scale, ls=DASHED, zorder=1.5)
     if low_far is None and high_far is None:
         return
-    get, put = (axes.get_ylim, axes.set_ylim) if upright else (axes.get_xlim, axes.set_xlim)
     low, high = get()
     ticks = [tick for tick in (axes.get_yticks() if upright else axes.get_xticks()) if low <= tick <= high]
     room = BEYOND * (high - low)
@@ -45,14 +46,22 @@ def draw_bounds(axes: Any, lines: Lines, scale: float, upright: bool) -> None:
             _beyond(axes, lines.unit, bound, end, edge, scale, upright)
 
 
-def apart(lines: Lines) -> tuple[tuple[float, ...], float | None, float | None]:
-    """Return the bounds near the lines, and those far below and far above; of percent only on a side that is used."""
+def apart(
+    lines: Lines, low: float = np.inf, high: float = -np.inf
+) -> tuple[tuple[float, ...], float | None, float | None]:
+    """Return the bounds near the lines, and those far below and far above; of percent only on a side that is used.
+
+    Args:
+        lines: with their bounds.
+        low: the axis begins here at most.
+        high: the axis ends here at least.
+    """
     values = lines.values[np.isfinite(lines.values)]
     if not values.size:
         return lines.bounds, None, None
     reach = FAR * float(np.abs(values).max())
-    near = tuple(bound for bound in lines.bounds if abs(bound) <= reach)
-    far = [bound for bound in lines.bounds if abs(bound) > reach]
+    near = tuple(bound for bound in lines.bounds if abs(bound) <= reach or low <= bound <= high)
+    far = [bound for bound in lines.bounds if bound not in near]
     sides = [bound for bound in far if lines.bounds != PERCENT or bound * values.min() > 0 or bound * values.max() > 0]
     sides = sides or far[-1:]
     below, above = [b for b in sides if b < values.min()], [b for b in sides if b > values.max()]

@@ -14,10 +14,10 @@ from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
 from synergrip.linalg import Array
 from synergrip.reports.pictures.key import SIZE as KEY
 from synergrip.reports.pictures.layout import MARGIN
-from synergrip.reports.pictures.line_chart import LABEL, TICKS
+from synergrip.reports.pictures.line_chart import LABEL, OTHERS, TICKS
 from synergrip.reports.pictures.page import SPACE, Heading
 from synergrip.reports.pictures.paper import Paper
-from synergrip.reports.pictures.sheet import BLUE, GREY, USUAL, VERMILION, Sheet, write_picture
+from synergrip.reports.pictures.sheet import GREY, USUAL, Sheet, write_picture
 
 WIDTH, HEIGHT, LOWEST, LABELS, BETWEEN = 9.0, 2.0, 0.7, 0.7, 0.6  # [inch]
 WIDTH_MM = 180.0
@@ -68,7 +68,8 @@ def draw_needed(needed: SynergiesNeeded, path: Path, title: str, paper: Paper | 
             axes.set_ylabel(label, fontsize=LABEL * sheet.scale)
             axes.set_xlabel("synergies", fontsize=LABEL * sheet.scale)
             if index < 2:  # the second has crosses, too
-                axes.legend(frameon=False, loc="lower right", fontsize=KEY * sheet.scale, ncols=1 + index)
+                axes.legend(loc="lower right", fontsize=KEY * sheet.scale, ncols=1 + index, facecolor="white",
+                            edgecolor="none", framealpha=0.9)  # fmt: skip
 
     write_picture(path, width, high, draw, USUAL if paper is None else paper.letters)
     return f"{title}: {under}. Crosses: no plan."
@@ -78,7 +79,7 @@ def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float, scale:
     """Draw one figure over the number of synergies; a cross where there is no plan."""
     count = max(len(needed.first), len(needed.best), 1)
     for points, color, label, marker, height in (
-        (needed.first, BLUE, "first k", "o", 0.10), (needed.best, VERMILION, "best k", "D", 0.04),
+        (needed.first, OTHERS[0], "first k", "o", 0.10), (needed.best, OTHERS[1], "best k", "D", 0.04),
     ):  # fmt: skip
         numbers = np.arange(1, len(points) + 1)
         axes.plot(numbers, _values(points, name, factor), color=color, marker=marker, ms=4.5 * scale, lw=1.6 * scale,
