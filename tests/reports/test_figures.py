@@ -222,14 +222,6 @@ def test_in_a_narrow_column_the_charts_stand_below_the_hand(saved: Path, tmp_pat
     assert height > 1.5 * width
 
 
-def test_the_code_of_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    page = (ROOT / "docs" / "figures.md").read_text(encoding="utf-8")
-    for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
-        exec(code, {})
-    assert {path.name for path in tmp_path.iterdir()} == {"margin.pdf", "synergies.svg"}
-
-
 def test_the_viewer_of_a_plan_is_a_frame_with_its_page(saved: Path, tmp_path: Path) -> None:
     pytest.importorskip("viser")
     problem = synergrip.load_problem("gripper-box", ["task.knots=5"])
