@@ -91,6 +91,8 @@ def _answered(subject: Subject, form: Format) -> Subject:
         outcome = found_by(plan, problem, telling(answerer("clarabel")))
         if not isinstance(outcome, Plan):
             end_without_plan(form, problem, outcome)
+        if outcome.interrupted:  # of a plan that not all goals have led to there is no figure
+            raise KeyboardInterrupt
         return outcome
 
     return subject.answered(planned)

@@ -57,6 +57,8 @@ def _synergies(subject: Subject, path: Path, paper: Paper, told: Told) -> str:
 def _needed(subject: Subject, path: Path, paper: Paper, told: Told) -> str:
     asked = subject.asked()
     found = synergies_needed(asked.grasp, asked.timed, told=told)
+    if found.interrupted:  # half of the curves are no figure
+        raise KeyboardInterrupt
     return draw_needed(found, path, asked.title, paper)
 
 

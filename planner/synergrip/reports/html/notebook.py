@@ -9,6 +9,7 @@ import numpy as np
 from synergrip.documents.quantities import plain, read_as
 from synergrip.errors import shortened
 from synergrip.planning.outcome import Plan
+from synergrip.problems.in_short import many
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.pictures.lines import plan_lines
 
@@ -20,11 +21,11 @@ def plan_html(plan: Plan) -> str:
     """Return a plan as HTML; what comes from the user is escaped, nothing is fetched."""
     times, worst = plan.time, plan.usages[0]
     k, i = worst.worst()
-    knots = f"{len(times)} knot{'s' * (len(times) != 1)}"
     span = f" over {plain(times[-1] - times[0])} s" if len(times) > 1 else ""
-    told = f"{plan.grasp.n_z} synergies, {plan.grasp.n_c} contacts, {knots}{span}"
+    told = ", ".join(many(*each) for each in ((plan.grasp.n_z, "synergy"), (plan.grasp.n_c, "contact"),
+                                             (len(times), "knot")))  # fmt: skip
     least = f"least slip margin {read_as(float(worst.value[k, i]), 'N')} at {_short(worst.items[i])}"
-    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, t = {worst.times[k]:.3g} s · {escape(told)}</p>"
+    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, t = {worst.times[k]:.3g} s · {escape(told + span)}</p>"
     chart = charts_of(times, plan_lines(plan)[:1])[0].svg
     return f'{shown}{_table(plan)}<div style="{WIDE}">{chart}</div>'
 

@@ -12,11 +12,11 @@ from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
 from synergrip.margin.measures import ALIKE
 from synergrip.reports.pictures.contact_colors import contact_colors
-from synergrip.reports.pictures.layout import LETTERS, MARGIN
+from synergrip.reports.pictures.layout import LETTERS, MARGIN, size_that_fits
 from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.strips import WIDTH, Strip
 
-ACROSS, GAP, SMALLEST, LARGEST = 5, 0.2, 1.15, 2.0
+ACROSS, GAP, SMALLEST, LARGEST = 5, 0.2, 0.95, 2.0
 """Cross-sections in a row at most, the room between them, and how small and large one gets [inch]."""
 CAPTION, NAME, UNDER = 0.4, 8.0, 7.0
 """Room above a cross-section [inch], and sizes of the letters there [points]."""
@@ -54,16 +54,22 @@ def draw_cones(sheet: Sheet, cones: Cones, left: float, top: float, width: float
     """Draw the cross-sections in a width, from the left and the top on [inch]."""
     across, side = _grid(cones, width)
     colors = contact_colors([contact.name for contact in cones.contacts])
+    told = [_told(cones, index) for index in range(len(cones.contacts))]
+    size = min(size_that_fits(each, side, UNDER) for each in told)
     for index, (contact, forces) in enumerate(zip(cones.contacts, cones.forces, strict=True)):
         row, column = divmod(index, across)
         begin, above = left + column * (side + GAP), top + row * (side + CAPTION + GAP)
-        worst = first_worst(cones.margins[:, index])
         sheet.write(begin, above + 0.15, _short(contact.name, side), NAME, colors[contact.name], bold=True)
-        told = f"least {cones.margins[worst, index]:.3g} N"
-        when = f", t = {cones.times[worst]:.3g} s" if len(cones.times) > 1 else ""
-        sheet.write(begin, above + 0.3, told + when, UNDER, GREY)
+        sheet.write(begin, above + 0.3, told[index], size, GREY)
         panel = sheet.panel(begin, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
-        _section(panel, contact, forces, worst, colors[contact.name])
+        _section(panel, contact, forces, first_worst(cones.margins[:, index]), colors[contact.name])
+
+
+def _told(cones: Cones, index: int) -> str:
+    """Return the least slip margin of a contact, and when it has it."""
+    worst = first_worst(cones.margins[:, index])
+    when = f", t = {cones.times[worst]:.3g} s" if len(cones.times) > 1 else ""
+    return f"least {cones.margins[worst, index]:.3g} N{when}"
 
 
 def _grid(cones: Cones, width: float) -> tuple[int, float]:

@@ -53,7 +53,7 @@ def head_of(lines: Lines, times: Array, width: float, *, key: bool = True) -> fl
 
 
 def draw_chart(
-    sheet: Sheet, box: Box, times: Array, lines: Lines, *, missing: Sequence[tuple[float, float]] = (), title: str = "",
+    sheet: Sheet, box: Box, times: Array, lines: Lines, *, missing: Sequence[tuple[float, float]] = (),
     title_left: float | None = None, label: bool = True, key: bool = True,
 ) -> Any:  # fmt: skip
     """Draw lines over times (T,) with what stands above them, and return the axes.
@@ -64,7 +64,6 @@ def draw_chart(
         times: of the knots [s].
         lines: what is drawn.
         missing: stretches of time that have no plan.
-        title: instead of that of the lines.
         title_left: where the title begins [inch]; above the axes without it.
         label: whether there is a title above the axes.
         key: whether the names of the lines are told.
@@ -72,7 +71,8 @@ def draw_chart(
     single, names = len(times) == 1, key_of(lines, box.width)
     if label:
         above = box.top - (names.height if key and not single else 0.0) - 0.08
-        sheet.write(box.left if title_left is None else title_left, above, title or lines.label, TITLE)
+        some = f", the first {MOST_BARS} of {len(lines.names)}" if single and len(lines.names) > MOST_BARS else ""
+        sheet.write(box.left if title_left is None else title_left, above, lines.label + some, TITLE)
     if single:
         return _bars(sheet, box, lines)
     if key:
