@@ -11,9 +11,9 @@ from synergrip.hands.hand import Hand
 from synergrip.hands.spots import spots_of
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_problem import many
 from synergrip.reports.text.text_spots import spots_table, triple
 from synergrip.reports.text.unbroken import TIED
 
