@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import re
 import signal
 import subprocess
@@ -90,7 +91,7 @@ def test_what_is_shown_goes_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None
         (("gripper", "--posture", "shut"), "error --posture: posture 'shut' is not"),
         (("tripod",), "given as matrices: there is no hand to be seen"),
         (("nothing",), "no such bundled problem"),
-        (("plan.json",), "plan 'plan.json' not found"),
+        (("plan.json",), "'plan.json' not found"),
     ):
         result = run("view", *arguments)
         assert (result.exit_code, told in " ".join(result.stderr.split())) == (2, True), result.stderr
@@ -131,12 +132,14 @@ def test_an_object_without_a_place_gets_one_that_can_be_written_into_the_file(mo
     monkeypatch.setattr(best_place, "JUDGED", 8)
     sets = ("hand.posture=open", "hand.close=close", "task.knots=2", "task.between=report")
     asked = ("barrett-ball-hold", *(part for each in sets for part in ("--set", each)))
-    auto = document("validate", *asked, "--set", "object.position=auto")
-    (note,) = auto.pop("notes")
+    auto = document("plan", *asked, "--set", "object.position=auto", "-o", "auto")
+    (note,) = auto["notes"]
     line = re.search(r"placed   (position = \[.*\])  \(slip margin up to [\d.]+ N; all contacts touch at", note)
     assert line is not None
-    written = document("validate", *asked, "--set", f"object.{line[1]}")
-    assert (written.pop("notes"), written) == ([], auto)
+    written = document("plan", *asked, "--set", f"object.{line[1]}")
+    assert (written["notes"], written["dz_r"]) == ([], auto["dz_r"])
+    saved = json.loads(Path("auto/plan.json").read_text(encoding="utf-8"))
+    assert saved["provenance"]["overrides"][-1].replace(" ", "") == f"object.{line[1]}".replace(" ", "")
     with pytest.raises(InputError, match='"auto" is looked for by the command line'):
         load_problem("barrett-ball-hold", [*sets, "object.position=auto"])
     far = run("validate", *asked, "--set", "object.position=auto", "--set", "object.shape.sphere.radius=1 mm")

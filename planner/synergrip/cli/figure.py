@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.loading import is_unplaced, load_placed
 from synergrip.cli.progress import counted, tell_what_takes_long, telling
 from synergrip.cli.running import (
     Format,
@@ -56,6 +57,7 @@ def figure(
 ) -> None:
     """Draw a figure for a paper, and print a caption for it. A saved plan is not planned again."""
     with answering(form), _of_options():
+        from synergrip.errors import InputError
         from synergrip.files import refuse_unwritable
         from synergrip.reports.figures.figure import figure_of
         from synergrip.reports.figures.subject import subject_of
@@ -65,7 +67,12 @@ def figure(
         chosen, paper = figure_of(what), Paper(width, height, font, font_size, title)
         picture_suffix(output, "path")
         possible("--output", output, refuse_unwritable)
-        subject = subject_of(source, overrides or [])
+        try:
+            subject = subject_of(source, overrides or [])
+        except InputError as error:
+            if not is_unplaced(error):
+                raise
+            subject = subject_of(load_placed(source, overrides))
         if chosen.of_plan:
             subject = _answered(subject, form)
 

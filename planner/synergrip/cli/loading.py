@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from synergrip.errors import InputError
     from synergrip.grasps.grasp import Grasp
     from synergrip.linalg import Array
     from synergrip.problems.problem import Problem
@@ -19,16 +20,22 @@ def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
         InputError: everything that is wrong with the file; no place at which all contacts touch.
     """
     from synergrip.errors import InputError
-    from synergrip.problems.holding import UNPLACED
     from synergrip.problems.problem import load_problem
 
     given = list(overrides or [])
     try:
         return load_problem(name, given)
     except InputError as error:
-        if all(issue.message != UNPLACED for issue in error.issues):
+        if not is_unplaced(error):
             raise
     return _placed(name, given)
+
+
+def is_unplaced(error: InputError) -> bool:
+    """Tell whether a problem is refused because its object is still to be placed."""
+    from synergrip.problems.holding import UNPLACED
+
+    return any(issue.message == UNPLACED for issue in error.issues)
 
 
 def _placed(name: str, given: list[str]) -> Problem:

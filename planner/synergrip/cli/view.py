@@ -5,13 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from synergrip.cli.beside import tell
 from synergrip.cli.loading import load_placed
 from synergrip.cli.running import Format, SetOption, answering, heard, say
+
+if TYPE_CHECKING:
+    from synergrip.reports.view.shown import Shown
 
 LOOK = 0.04
 """[s] between two looks at the clock."""
@@ -60,16 +63,16 @@ def _page(what: str, posture: str | None, overrides: list[str]) -> Page:
     from synergrip.hands.folder import bundled_hands
     from synergrip.hands.hand_file import FILE
     from synergrip.hands.models.model_file import SUFFIXES
-    from synergrip.planning.references import plan_file
+    from synergrip.reports.html.saved_answer import saved_file
 
-    path, file = Path(what), plan_file(Path(what))
-    a_plan = path.name == "plan.json" or (path.is_dir() and file.is_file())
+    path = Path(what)
+    file = saved_file(path)
     a_hand = what in bundled_hands() or path.suffix.lower() in SUFFIXES or path.name == FILE or path.is_dir()
-    if posture is not None and (a_plan or not a_hand):
+    if posture is not None and (file is not None or not a_hand):
         raise InputError.at("--posture", "is for a hand; a problem says its own, and a plan moves")
-    if overrides and (a_plan or a_hand):
+    if overrides and (file is not None or a_hand):
         raise InputError.at("--set", "overrides keys of a problem; a hand and a plan have none")
-    if a_plan:
+    if file is not None:
         return _plan(file)
     return _hand(what, posture) if a_hand else _problem(what, overrides)
 
@@ -98,7 +101,7 @@ def _problem(name: str, overrides: list[str]) -> Page:
     return _posed(problem_shown(asked.asked, held, asked.file.task.gravity, refused))
 
 
-def _posed(shown: Any) -> Page:
+def _posed(shown: Shown) -> Page:
     def page(server: Any) -> None:
         from synergrip.reports.view.panel import Panel
 

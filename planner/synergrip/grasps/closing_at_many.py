@@ -10,7 +10,6 @@ from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.closing import AT_LIMIT, MOST_STEPS, STEP, coupled
-from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
@@ -176,8 +175,3 @@ class _Way:
         stopped |= (carriers[:, :, None] & of.tied).any(axis=1)
         self.moving[who] &= ~stopped
         self.waiting[who] &= ~touched
-
-
-def half_size(shape: Shape) -> Array:
-    """Return how far a shape reaches along each axis of the palm (3,) [m]."""
-    return np.array([abs(float(shape.farthest(axis) @ axis)) for axis in np.eye(3)])

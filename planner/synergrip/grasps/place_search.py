@@ -11,7 +11,8 @@ from synergrip.errors import Issue
 from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.clearance import DEEP, deepest
-from synergrip.grasps.closing_at_many import ClosedAtMany, Closer, half_size
+from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
+from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
@@ -45,7 +46,7 @@ class TouchingPlaces(Value):
 
 def space(closer: Closer) -> tuple[Array, float]:
     """Return places (N, 3) all over where pads can touch the object as they close, and how far they are apart [m]."""
-    path, half = closer.path().reshape(-1, 3), half_size(closer.shape) + closer.radii.max(initial=0.0)
+    path, half = closer.path().reshape(-1, 3), _half_size(closer.shape) + closer.radii.max(initial=0.0)
     lower, upper = path.min(axis=0) - half, path.max(axis=0) + half
     apart = float((upper - lower).max()) / (ACROSS - 1)
     counts = np.ceil((upper - lower) / apart).astype(int)
@@ -140,3 +141,8 @@ def _shift(outward: Array, gaps: Array) -> Array:
 def _box(begin: Array, apart: float, counts: Array) -> Array:
     axes = [begin[i] + apart * np.arange(int(counts[i])) for i in range(3)]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def _half_size(shape: Shape) -> Array:
+    """Return how far a shape reaches along each axis of the palm (3,) [m]."""
+    return np.array([abs(float(shape.farthest(axis) @ axis)) for axis in np.eye(3)])

@@ -6,11 +6,10 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
-from os.path import exists, isfile
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
-from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, kind_of
 from synergrip.files import bundled
 from synergrip.grasps.grasp import Grasp
@@ -19,7 +18,7 @@ from synergrip.planning.answer import Answer
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
-from synergrip.reports.html.saved_answer import read_answer
+from synergrip.reports.html.saved_answer import read_answer, saved_file
 from synergrip.tasks.timed_task import TimedTask
 
 KEY = "SOURCE"
@@ -101,7 +100,7 @@ def subject_of(source: object, overrides: Sequence[str] = ()) -> Subject:
         return answered(source)  # type: ignore[arg-type]
     if not isinstance(source, str | Path):
         raise InputError.at(KEY, f"expected a problem, a plan, or the path of one, got {kind_of(source)}")
-    file = _saved(Path(source))
+    file = saved_file(Path(source), KEY)
     if file is None:
         return _of_problem(load_problem(source, overrides))
     if overrides:
@@ -112,17 +111,6 @@ def subject_of(source: object, overrides: Sequence[str] = ()) -> Subject:
 
 def _of_problem(problem: Problem) -> Subject:
     return Subject(problem, Question(problem.title, problem.grasp, problem.timed))
-
-
-def _saved(path: Path) -> Path | None:
-    """Return the file of a saved answer, None for a problem."""
-    inside = path / "plan.json"
-    if isfile(inside):
-        return inside
-    if path.suffix != ".json" or not exists(path):
-        return None
-    data = read_document(path, "problem or plan", KEY, numbers=True).data
-    return path if "verdict" in data else None
 
 
 def _of_provenance(document: Mapping[str, Any]) -> Question:
