@@ -223,16 +223,10 @@ def raise_issues(issues: Sequence[Issue]) -> None:
 
 def suggest(word: str, valid: Iterable[str]) -> str:
     """Return ``; did you mean 'x'?`` for the nearest valid word, or an empty string."""
-    close = closest(word, valid)
-    return f"; did you mean '{close}'?" if close else ""
-
-
-def closest(word: str, valid: Iterable[str]) -> str:
-    """Return the nearest valid word, or an empty string where none is near."""
     if len(word) > LONGEST_NAME:
         return ""  # no misspelling of anything, and slow to compare
     close = get_close_matches(str(word), [name for name in valid if len(name) <= 2 * LONGEST_NAME], n=1, cutoff=0.6)
-    return close[0] if close else ""
+    return f"; did you mean '{close[0]}'?" if close else ""
 
 
 def one_of(word: object, valid: Iterable[str]) -> str:

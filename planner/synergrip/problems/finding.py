@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from os.path import exists, isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 
-from synergrip.errors import InputError, Issue, closest, one_of
+from synergrip.errors import InputError, Issue, one_of, suggest
 from synergrip.files import bundled
 from synergrip.plain_file import neighbours
 
@@ -48,4 +48,5 @@ def _shipped(path: Path, names: Sequence[str]) -> str:
     except OSError:
         return ""
     shipped = {f"{name}{path.suffix}": name for name in names}
-    return shipped.get(closest(path.name, [*beside, *shipped]), "")
+    near = suggest(path.name, [*beside, *shipped])
+    return next((name for file, name in shipped.items() if file not in beside and f"'{file}'" in near), "")

@@ -26,7 +26,7 @@ from synergrip.reports.text.text_cases import judged_cases
 from synergrip.reports.text.text_claims import claims_document, claims_lines
 from synergrip.reports.text.text_plan import refused_lines, verdict_word
 from synergrip.reports.text.text_problem import many, problem_lines
-from synergrip.reports.text.text_usages import usage_rows
+from synergrip.reports.text.text_usages import error_rows, limit_rows
 
 STANDS_IN = (
     "the figures are those of the linear model at the start posture, as the hand is at no equilibrium with these "
@@ -50,7 +50,8 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False, 
     for told in _notes(judgement):
         lines += wrapped("note     ", told)
     head = ("", "linear model" if judgement.stands_in else "worst", "at", "limit")
-    lines += [table(head, [row for usage in judgement.usages for row in usage_rows(usage)]), ""]
+    rows = limit_rows(judgement.usages, judgement.task, judgement.analysis.grasp)
+    lines += [table(head, [*rows, *error_rows(judgement.motion, judgement.task, judgement.analysis)]), ""]
     lines += [*_checked(judgement, details=details)]
     if judgement.between is not None:
         lines += looked_at(judgement.between, judgement.task.between, judgement.motion.times)
