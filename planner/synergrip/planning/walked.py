@@ -26,6 +26,7 @@ from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
 from synergrip.planning.rolling import rolling_notes
 from synergrip.planning.solvers import Answerer
+from synergrip.planning.springs import spring_notes
 from synergrip.planning.until import figures_until, kept_until
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walker
@@ -232,7 +233,8 @@ def _with(
         plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, between=found.between,
         executed=walk.executed, fixed=fixed, passes=walk.passes, first_passes=walk.first,
-        notes=(*told, *course_notes(found.between, plan.task), *rolling_notes(walk.executed, fixed)),
+        notes=(*told, *course_notes(found.between, plan.task), *rolling_notes(walk.executed, fixed),
+               *spring_notes(walk.executed, found.motion.torques, plan.task)),
         checks=(*found.checks, *cases.checks, *samples.checks), cases=cases.cases, fresh=samples.fresh,
         elastic_motion=found.elastic_motion,
     )  # fmt: skip

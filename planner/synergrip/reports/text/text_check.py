@@ -10,6 +10,7 @@ from synergrip.errors import Refusal
 from synergrip.planning.between import LIMIT
 from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.outcome import BETWEEN
+from synergrip.planning.springs import spring_notes
 from synergrip.planning.told import (
     between_document,
     cases_document,
@@ -72,8 +73,10 @@ def _why(judgement: Judgement) -> str:
 
 
 def _notes(judgement: Judgement) -> list[str]:
-    """Return what is to be known of the figures: of what model they are, and what they are of contacts that let go."""
-    return [*not_holding(judgement), *[STANDS_IN] * judgement.stands_in]
+    """Return what is to be known of the figures: of what model they are, what contacts let go, what springs take."""
+    executed, torques = judgement.executed, judgement.motion.torques
+    of_springs = () if executed is None else spring_notes(executed, torques, judgement.task)
+    return [*not_holding(judgement), *[STANDS_IN] * judgement.stands_in, *of_springs]
 
 
 def _checked(judgement: Judgement, *, details: bool) -> Iterator[str]:
