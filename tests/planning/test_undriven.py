@@ -1,15 +1,17 @@
 """Problems on model files with joints that no motor drives, and on arms that carry a hand."""
 
 import re
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
 from mjcf_texts import with_masses
 
-from synergrip import Infeasible, InputError, Plan, load_problem, plan
+from synergrip import Infeasible, InputError, JointTorque, Plan, load_problem, plan
 from synergrip.planning.check import judge_references
 from synergrip.planning.references import References
+from synergrip.planning.springs import spring_notes
 from synergrip.reports.data.json_grasp import in_order_document
 from synergrip.reports.text.text_check import judgement_document
 from synergrip.reports.text.text_grasp import in_order_text
@@ -335,3 +337,16 @@ def test_limits_with_room_for_springs_are_not_noted(free, tmp_path):
         planned_with(tmp_path, f"limits.actuator_effort={0.99 * np.abs(alone + takes).max()}")[1].notes
     )
     assert "limits.actuator_effort does not count, 'l tip' needs" in note
+
+
+def test_joints_without_springs_may_be_at_their_limits(free, tmp_path):
+    """The springs of the left tip take nothing of the motors of the right finger."""
+    _, found, alone, takes = free
+    i = list(found.grasp.joints).index("r")
+    enough = [10.0] * alone.shape[1]
+    enough[i] = float(np.abs(alone[:, i]).max()) * (1 - 1e-9)
+    assert not takes[:, i].any()
+    assert not list(spring_notes(found.executed, alone, replace(found.task, limits=(JointTorque(enough),))))
+    tip = list(found.grasp.joints).index("l tip")
+    enough[tip] = float(np.abs(alone[:, tip]).max())
+    assert len(list(spring_notes(found.executed, alone, replace(found.task, limits=(JointTorque(enough),))))) == 1

@@ -16,6 +16,9 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array
 from synergrip.tasks.timed_task import TimedTask
 
+LITTLE = 1e-3
+"""Share of a limit that springs may take without being told of: to about that limits are kept."""
+
 
 def spring_notes(executed: Execution, torques: Array, task: TimedTask) -> Iterator[str]:
     """Yield a note for each limit that motors would not keep with the springs that they hold back.
@@ -43,12 +46,13 @@ def _missed(
     limit: JointTorque | ActuatorEffort, whole: Array, of_contacts: Array, names: tuple[str, ...], times: Array
 ) -> Iterator[str]:
     """Yield a note where values (T, m) with springs are beyond a limit, beside those of contacts alone."""
-    share = np.abs(whole) / np.broadcast_to(np.asarray(limit.limit, dtype=float), whole.shape)
-    k, i = np.unravel_index(int(np.argmax(share)), share.shape)
-    if share[k, i] > 1:
-        most = float(np.broadcast_to(np.asarray(limit.limit, dtype=float), whole.shape)[k, i])
+    most = np.broadcast_to(np.asarray(limit.limit, dtype=float), whole.shape)
+    share, more = np.abs(whole) / most, (np.abs(whole) - np.abs(of_contacts)) / most
+    k, i = np.unravel_index(int(np.argmax(np.where(more > LITTLE, share, 0.0))), share.shape)
+    if share[k, i] > 1 and more[k, i] > LITTLE:
+        needs, alone = abs(whole[k, i]), abs(of_contacts[k, i])
         yield (
-            f"with the springs of the model file, which {limit.key} does not count, '{names[i]}' needs "
-            f"{abs(whole[k, i]):.4g} of its {most:.4g} at t = {times[k]:.3g} s, {abs(of_contacts[k, i]):.4g} of it for "
-            "contacts: no motor within this limit can do that; lower it by what springs take"
+            f"with the springs of the model file, which {limit.key} does not count, '{names[i]}' needs {needs:.4g} of "
+            f"its {most[k, i]:.4g} at t = {times[k]:.3g} s, {alone:.4g} of it for contacts: no motor within this limit "
+            "can do that; lower it by what springs take"
         )
