@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import typer
+from typer.core import TyperGroup
 
 from synergrip import __version__
 from synergrip.cli.analyse import analyse
@@ -17,9 +20,21 @@ from synergrip.cli.report import report
 from synergrip.cli.simulate import simulate
 from synergrip.cli.synergies import synergies
 from synergrip.cli.validate import validate
+from synergrip.files import bundled
+
+
+class _Documented(TyperGroup):
+    """The verbs; their help ends with the place of the documentation, on a line that no width of a screen splits."""
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Print the help, or write it into the formatter, and then where more is to be read."""
+        super().format_help(ctx, formatter)
+        (formatter.write if formatter.getvalue() else typer.echo)(f" Documentation: {bundled('README.md')}")
+
 
 app = typer.Typer(
     name="synergrip",
+    cls=_Documented,
     help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers.",
     epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
     "5 the answer could not be printed or written, 130 interrupted.",
