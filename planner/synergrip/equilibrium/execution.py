@@ -20,6 +20,9 @@ from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Maps
 from synergrip.values import Value
 
+ALIKE = 0.01
+"""Share by which motions may be resisted differently and be alike: which of them is softest, rounding would say."""
+
 
 @made_by("execute(grasp, times, references, loads)")
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,17 +150,17 @@ class Execution(Value):
 
     @property
     def softest(self) -> Array | None:
-        """The motion of the object against which it is held least, where it is.
+        """The motions of the object against which it is held least, where it is.
 
-        (6,) a twist about its origin [m, rad], axes of the palm, of length 1 where turns count with the length of the
-        grasp; None where hand and object give way together.
+        (m, 6) independent twists about its origin [m, rad], axes of the palm, of length 1 where turns count with the
+        length of the grasp: one, or all that are resisted alike. None where hand and object give way together.
         """
         k = int(np.argmin(self.stiffness))
         if self._lacking[k] < 0 or not self.regular[k]:
             return None
         values, vectors = np.linalg.eigh(self._given[k])
-        twist = vectors[:, 0 if values[0] < 0 else -1]
-        return frozen(twist / np.array([1.0, 1.0, 1.0, *[self.setting.length] * 3]))
+        twists = vectors.T[values >= (1 - ALIKE) * values[-1]][::-1]
+        return frozen(twists / np.array([1.0, 1.0, 1.0, *[self.setting.length] * 3]))
 
     @cached_property
     def _given(self) -> Array:

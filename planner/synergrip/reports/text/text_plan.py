@@ -128,8 +128,11 @@ def _executed(plan: Plan) -> Iterator[str]:
 def _held_with(executed: Execution) -> str:
     """Return how stiffly the object is held, and against which motion."""
     held = f"the object is held with {plain(1e-3 * float(executed.stiffness.min()), 3)} N/mm at least"
-    twist = executed.softest
-    return held if twist is None else f"{held}, against {describe_kind(twist, executed.setting.length)}"
+    softest = executed.softest
+    if softest is None:
+        return held
+    one = describe_kind(softest[0], executed.setting.length) if len(softest) == 1 else f"{len(softest)} motions alike"
+    return f"{held}, against {one}"
 
 
 def _model(executed: Execution, otherwise: str = "") -> str:
