@@ -45,6 +45,7 @@ ONLY_IN = {
             "check",
             "simulate",
             "export",
+            "figure",
             "synergies",
             "margins",
             "report",

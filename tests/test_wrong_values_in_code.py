@@ -140,7 +140,7 @@ OTHERS = {
     "ExactProof", "NoExactProof",
     "SynergripError", "InputError", "VerdictError", "Refusal", "SelfCheckError", "OutputError",
     "__version__",
-    "simulate", "export", "Simulation", "Explanation", "Repair", "When",
+    "simulate", "export", "figure", "Simulation", "Explanation", "Repair", "When",
     "missing_synergies", "MissingSynergies", "SynergiesNeeded", "margins", "Margins", "Measure", "DirectNumber",
     "disturbances", "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
     "sensitivities", "Sensitivities", "Sensitivity", "fastest_timing", "FastestTiming", "InCase",

@@ -132,5 +132,6 @@ from synergrip.margin.timing.fastest_timing import FastestTiming as FastestTimin
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 from synergrip.reports.data.exports.exporting import export as export
+from synergrip.reports.figures.figure import figure as figure
 
 __version__: str

@@ -33,6 +33,7 @@ COMMANDS += [
     ("margins", "tripod", "--only", "least_peak_N", "--only", "sensitivities", "--only", "disturbance", "--all"),
     ("margins", "tripod", "--only", "quality"),
     ("front", "tripod", "-n", "3"), ("front", "tripod", "-n", "2", "--against", "friction"),
+    ("figure", "margin", "tripod", "-o", "margin.svg"), ("figure", "synergies", "gripper-box", "-o", "synergies.svg"),
     ("problems",), ("hands",), ("synergies", "list"), ("synergies", "show", "human", "--posture", "ball"),
     ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
 ]  # fmt: skip

@@ -21,9 +21,9 @@ from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.html import page
-from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
+from synergrip.reports.pictures.lines import lines_of
 from synergrip.reports.view.scene import scene_of
 
 HOSTILE = (

@@ -12,6 +12,7 @@ from synergrip.cli.analyse import analyse
 from synergrip.cli.check import check
 from synergrip.cli.explain import explain
 from synergrip.cli.export import export
+from synergrip.cli.figure import figure
 from synergrip.cli.front import front
 from synergrip.cli.lists import hands, problems, schema
 from synergrip.cli.margins import margins
@@ -50,6 +51,7 @@ for verb in (
     margins,
     simulate,
     export,
+    figure,
     front,
     analyse,
     check,

@@ -161,7 +161,7 @@ def picture_place(picture: Path | None) -> None:
         possible("--picture", picture, refuse_unwritable)
 
 
-def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
+def draw_at(picture: Path, draw: Callable[[Path], object]) -> None:
     """Draw a picture, and keep it whatever ends the program after that."""
     with writing("--picture", picture):
         draw(picture)

@@ -26,6 +26,7 @@ from synergrip.problems.finding import find_problem
 from synergrip.problems.limits_table import limits_of
 from synergrip.problems.loads import Keys, stated_at, task_of
 from synergrip.problems.problem_file import ProblemFile, parsed, read_problem_file
+from synergrip.problems.problem_table import problem_html
 from synergrip.problems.problem_values import document_of
 from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
@@ -79,6 +80,10 @@ class Problem(Value):
         """Its text as it was read, or the dict it was made of, and what was put over it."""
         document = self.document
         return Source(self.name, document.text or document.data, tuple(each.text for each in document.overrides))
+
+    def _repr_html_(self) -> str:
+        """Return a table for notebooks: grasp, contacts, task and limits."""
+        return problem_html(self)
 
 
 @naming_arguments

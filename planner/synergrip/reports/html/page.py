@@ -21,8 +21,8 @@ from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.tables import missing_of, tables_of, why_of
+from synergrip.reports.pictures.lines import lines_of
 
 LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""

@@ -19,6 +19,7 @@ from synergrip.planning.told import (
     structure_document,
     usage_document,
 )
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at
@@ -26,7 +27,7 @@ from synergrip.reports.text.text_broken import broken, names_of, not_holding
 from synergrip.reports.text.text_cases import judged_cases
 from synergrip.reports.text.text_claims import claims_document, claims_lines
 from synergrip.reports.text.text_plan import refused_lines, verdict_word
-from synergrip.reports.text.text_problem import many, problem_lines
+from synergrip.reports.text.text_problem import problem_lines
 from synergrip.reports.text.text_usages import error_rows, limit_rows
 
 STANDS_IN = (

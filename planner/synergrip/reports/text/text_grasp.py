@@ -9,9 +9,9 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_problem import many
 from synergrip.reports.text.unbroken import TIED
 
 HEADER = ("contact", "link", "kind", "point [mm]", "normal", "gap [mm]", "friction")

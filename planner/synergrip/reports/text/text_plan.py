@@ -12,6 +12,7 @@ from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.told import notes_together
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
@@ -19,7 +20,7 @@ from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
-from synergrip.reports.text.text_problem import many, problem_lines
+from synergrip.reports.text.text_problem import problem_lines
 from synergrip.reports.text.text_usages import on_bound, used_rows
 from synergrip.statics.twists import describe_kind
 
