@@ -19,7 +19,7 @@ def problems(form: FormatOption = Format.TEXT) -> None:
     """List the bundled problems."""
     with answering(form):
         from synergrip.files import bundled
-        from synergrip.problems.problem import bundled_problems
+        from synergrip.problems.finding import bundled_problems
         from synergrip.problems.problem_file import read_problem_file
         from synergrip.reports.text.tables import table
 
