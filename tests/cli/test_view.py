@@ -21,13 +21,15 @@ from synergrip.grasps import place_search
 from synergrip.problems.problem import load_problem
 
 PLACES = "[...document.querySelectorAll('table tr')].map(each => each.innerText).join('\\n')"
+HOSTILE = "export default {a: 1} <img src=x onerror=boom()> ${7 * 7} **b** | c"
 DIALS = "document.querySelectorAll('[role=slider]')"
 
 
 @pytest.fixture
 def served() -> Iterator[subprocess.Popen[str]]:
     """The view of a problem whose contacts do not touch, in a process of its own."""
-    command = [sys.executable, "-m", "synergrip", "view", "gripper-box", "--set", "hand.posture=open", "--port", "0"]
+    sets = ["--set", "hand.posture=open", "--set", f"title={HOSTILE}"]
+    command = [sys.executable, "-m", "synergrip", "view", "gripper-box", *sets, "--port", "0"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     yield process
     process.kill()
@@ -70,6 +72,7 @@ def test_dials_move_the_hand(served: subprocess.Popen[str]) -> None:
         page.go(address_of(served))
         page.until(f"{PLACES}.includes('link left_tip')")
         assert "contact left/tip 58 mm away" in page.value(PLACES)
+        assert HOSTILE in page.value("document.body.innerText")
         for turned in (0, 2):  # the first synergy, the first joint
             first = page.value(PLACES)
             page.value(f"{DIALS}[{turned}].focus()")
@@ -90,7 +93,9 @@ def test_what_is_shown_goes_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None
         (("gripper", "--set", "task.knots=2"), "error --set: overrides keys of a problem"),
         (("gripper", "--posture", "shut"), "error --posture: posture 'shut' is not"),
         (("tripod",), "given as matrices: there is no hand to be seen"),
-        (("nothing",), "no such bundled problem"),
+        (("baret",), "no such file, and no such bundled hand or problem: 'baret'; did you mean 'barrett'?"),
+        (("n" * 5000,), "no such bundled hand or problem"),
+        (("nothing.toml",), "problem file 'nothing.toml' not found"),
         (("plan.json",), "'plan.json' not found"),
     ):
         result = run("view", *arguments)

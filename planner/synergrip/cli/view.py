@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from os.path import exists  # unlike that of Path, no error for a name that is too long
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -59,13 +60,17 @@ def view(
 
 def _page(what: str, posture: str | None, overrides: list[str]) -> Page:
     """Return what is to be seen, by what its name is the name of."""
-    from synergrip.errors import InputError
+    from synergrip.errors import InputError, suggest
     from synergrip.hands.folder import bundled_hands
     from synergrip.hands.hand_file import FILE
     from synergrip.hands.models.model_file import SUFFIXES
+    from synergrip.problems.finding import bundled_problems
     from synergrip.reports.html.saved_answer import saved_file
 
-    path = Path(what)
+    path, names = Path(what), (*bundled_hands(), *bundled_problems())
+    if what not in names and not path.suffix and not exists(path):
+        said = f"no such file, and no such bundled hand or problem: '{what}'{suggest(what, names)}"
+        raise InputError.at("HAND|PROBLEM|PLAN", f"{said}; `synergrip hands` and `synergrip problems` list them")
     file = saved_file(path)
     a_hand = what in bundled_hands() or path.suffix.lower() in SUFFIXES or path.name == FILE or path.is_dir()
     if posture is not None and (file is not None or not a_hand):

@@ -36,6 +36,11 @@ def notes_text(notes: Sequence[str]) -> str:
     return "\n".join(f"- {plain(note)}" for note in notes)
 
 
+def headline(text: str) -> str:
+    """Return a title as Markdown: bold, so that no word of it begins a line and is taken for a statement."""
+    return f"**{plain(text)}**" if text.strip() else ""
+
+
 def plain(text: str) -> str:
     """Return a text of the user as Markdown that shows it as it is."""
     return "".join(f"\\{mark}" if mark in "\\`*_{}[]()<>#+|!~$&" else mark for mark in " ".join(text.split()))

@@ -10,7 +10,7 @@ from synergrip.errors import InputError
 from synergrip.hands.hand import SynergySet
 from synergrip.linalg import Array
 from synergrip.reports.view.drawn import Drawn
-from synergrip.reports.view.looks import looks, notes_text, plain, table_of
+from synergrip.reports.view.looks import headline, looks, notes_text, table_of
 from synergrip.reports.view.marks import Marks
 from synergrip.reports.view.posed import Posed
 from synergrip.reports.view.posing import Dial, Posing
@@ -48,7 +48,7 @@ class Panel:
         scene = posed.scene(posing.q, posing.position)
         self.drawn, self.marks = Drawn(server.scene, scene), Marks(server.scene, scene, names=not posed.touches)
         self.drawn.look(server)
-        self.said = gui.add_markdown(plain(title + (NOTED if notes else "")))
+        self.said = gui.add_markdown(headline(title + (NOTED if notes else "")))
         self._whole(gui)
         with gui.add_folder("Synergies (from where it began)") as self.folder:
             self._choice(gui)
