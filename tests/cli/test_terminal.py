@@ -34,7 +34,8 @@ COMMANDS += [
     ("margins", "tripod", "--only", "quality"),
     ("front", "tripod", "-n", "3"), ("front", "tripod", "-n", "2", "--against", "friction"),
     ("figure", "margin", "tripod", "-o", "margin.svg"), ("figure", "synergies", "gripper-box", "-o", "synergies.svg"),
-    ("problems",), ("hands",), ("hands", "human-graspit"), ("synergies", "list"), ("synergies", "show", "human", "--posture", "ball"),
+    ("problems",), ("hands",), ("hands", "human-graspit"), ("synergies", "list"),
+    ("synergies", "show", "human", "--posture", "ball"),
     ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
 ]  # fmt: skip
 """Each verb; those that take seconds on hands are asked for little of them, and for all of smaller grasps."""
