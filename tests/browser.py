@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-OFFLINE = ("--host-resolver-rules=MAP * ~NOTFOUND", "--disable-background-networking", "--no-first-run")
+NOWHERE = "--host-resolver-rules=MAP * ~NOTFOUND"
+OFFLINE = ("--disable-background-networking", "--no-first-run")
 QUIET = ("--headless=new", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 WAIT = 60.0
 """[s] How long anything is waited for."""
@@ -62,7 +63,11 @@ class Page:
 
     def open(self, path: Path) -> None:
         """Open a file."""
-        self.call("Page.navigate", url=path.resolve().as_uri())
+        self.go(path.resolve().as_uri())
+
+    def go(self, address: str) -> None:
+        """Open what is at an address."""
+        self.call("Page.navigate", url=address)
         self.until("document.readyState === 'complete'")
 
     def value(self, expression: str) -> Any:
@@ -84,12 +89,13 @@ class Page:
 
 
 @contextmanager
-def browsing(wide: int = 1260, high: int = 1000) -> Iterator[Page]:
-    """Open an empty page in a browser of its own."""
+def browsing(wide: int = 1260, high: int = 1000, *, this_machine: bool = False) -> Iterator[Page]:
+    """Open an empty page in a browser of its own, which reaches nothing, or servers of this machine alone."""
     path = browser_path()
     assert path is not None
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as own:
-        options = [*QUIET, *OFFLINE, f"--window-size={wide},{high}", f"--user-data-dir={own}"]
+        reached = NOWHERE + ", EXCLUDE 127.0.0.1" * this_machine
+        options = [*QUIET, *OFFLINE, reached, f"--window-size={wide},{high}", f"--user-data-dir={own}"]
         options += ["--remote-debugging-port=0"] + ["--no-sandbox"] * (os.geteuid() == 0)
         process = subprocess.Popen([path, *options, "about:blank"], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         try:

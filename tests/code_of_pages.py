@@ -1,4 +1,4 @@
-"""Writes the Python code of README.md and docs/*.md into one file each, for a type checker to read.
+"""Writes the Python code of README.md and docs into one file for each page, for a type checker to read.
 
 Usage: python tests/code_of_pages.py FOLDER
 """
@@ -17,10 +17,11 @@ def write(folder: Path) -> list[Path]:
     """Write one file for each page that has code, and return them."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
-        if blocks := PYTHON.findall(page.read_text(encoding="utf-8")):
-            file = folder / f"{page.stem.replace('-', '_').lower()}_page.py"
-            file.write_text("\n".join(blocks), encoding="utf-8")
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+        if code := PYTHON.findall(page.read_text(encoding="utf-8")):
+            name = "_".join(page.relative_to(ROOT).with_suffix("").parts).replace("-", "_").lower()
+            file = folder / f"{name}_page.py"
+            file.write_text("\n".join(code), encoding="utf-8")
             written.append(file)
     return written
 

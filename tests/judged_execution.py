@@ -34,7 +34,8 @@ from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.errors import SynergripError
 from synergrip.planning.outcome import Outcome, Plan, Unknown
 from synergrip.planning.planning import plan
-from synergrip.problems.problem import Problem, bundled_problems, load_problem
+from synergrip.problems.finding import bundled_problems
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.moves import ModeMove, Moves

@@ -28,7 +28,7 @@ ONLY_IN = {
     "clarabel": {"conic/solvers/clarabel_.py", "conic/semidefinite.py"},
     "qpsolvers": {"conic/solvers/qpsolvers_.py"},
     "osqp": set(),  # only by way of qpsolvers
-    "viser": {"reports/view/drawn.py"},
+    "viser": {"reports/view/serving.py"},
     "jinja2": {"reports/html/page.py"},
     "cvxpy": {
         f"referee/{name}.py" for name in ("judge", "maps", "model", "formulas", "motion_formulas", "motion_goals")
@@ -45,9 +45,13 @@ ONLY_IN = {
             "check",
             "simulate",
             "export",
+            "figure",
             "synergies",
             "margins",
             "report",
+            "view",
+            "lists",
+            "pictures",
         )
     },
     "numba": {"batch/lanes.py", "batch/lanes_algebra.py"},

@@ -7,7 +7,8 @@ import pytest
 from synergrip.grasps.plausible import grasp_doubts
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan
-from synergrip.problems.problem import Problem, bundled_problems, load_problem
+from synergrip.problems.finding import bundled_problems
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.statics.analysis import analyse
 from synergrip.tasks.plausible import task_doubts
 

@@ -19,7 +19,7 @@ MADE_BY_OTHERS = {
     "Explanation", "Repair", "When",
     "MissingSynergies", "SynergiesNeeded", "Margins", "Measure", "DirectNumber", "GraspProperties",
     "Disturbances", "WithstoodAlong", "Withstood", "WrenchSpaceQuality",
-    "Sensitivities", "Sensitivity", "FastestTiming", "InCase", "ManyPlans", "ManyMargins",
+    "Sensitivities", "Sensitivity", "FastestTiming", "InCase", "ManyPlans", "ManyMargins", "PlacedObject",
 }  # fmt: skip
 """Values that functions return: their fields are told where they stand, and no arguments of the user's."""
 

@@ -104,6 +104,8 @@ from synergrip.batch.plan_many import plan_many as plan_many
 from synergrip.batch.many_plans import ManyPlans as ManyPlans
 from synergrip.batch.margins_many import margins_many as margins_many
 from synergrip.batch.margins_many import ManyMargins as ManyMargins
+from synergrip.batch.place_object import place_object as place_object
+from synergrip.batch.placed_object import PlacedObject as PlacedObject
 from synergrip.explain.explanation import Explanation as Explanation
 from synergrip.explain.repairs import Repair as Repair
 from synergrip.explain.when import When as When
@@ -132,5 +134,6 @@ from synergrip.margin.timing.fastest_timing import FastestTiming as FastestTimin
 from synergrip.simulation.simulation import simulate as simulate
 from synergrip.simulation.simulation import Simulation as Simulation
 from synergrip.reports.data.exports.exporting import export as export
+from synergrip.reports.figures.figure import figure as figure
 
 __version__: str

@@ -20,9 +20,10 @@ IMPOSSIBLE = (errno.ENOTDIR, errno.EEXIST, errno.ENAMETOOLONG, errno.ELOOP)
 
 
 def bundled(kind: str) -> Path:
-    """Return the folder of the bundled ``"models"`` or ``"problems"``.
+    """Return the folder of the bundled ``"models"``, ``"problems"`` or ``"docs"``, or the file ``"README.md"``.
 
-    In a checkout they stand at the top of the repository; a wheel carries them inside the package.
+    In a checkout they stand at the top of the repository; a wheel carries them inside the package, beside each other as
+    there, so that links from page to page lead where they lead in a checkout.
     """
     return (_CARRIED if _CARRIED.is_dir() else _CHECKOUT) / kind
 

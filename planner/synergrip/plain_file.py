@@ -107,8 +107,13 @@ def _check_plain(state: os.stat_result) -> None:
         raise _NotPlainError(_SORTS.get(stat.S_IFMT(state.st_mode), "special file"))
 
 
+def neighbours(path: Path) -> list[str]:
+    """Return the names in the folder of a file, in order; of very many some."""
+    return sorted(entry.name for entry in islice(path.parent.iterdir(), MOST_NEIGHBOURS))
+
+
 def _similar(path: Path) -> str:
     try:
-        return suggest(path.name, sorted(entry.name for entry in islice(path.parent.iterdir(), MOST_NEIGHBOURS)))
+        return suggest(path.name, neighbours(path))
     except OSError:
         return f"; there is no directory '{path.parent}'"

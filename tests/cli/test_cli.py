@@ -25,7 +25,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.files import bundled
 from synergrip.planning import planning, solvers, verified
-from synergrip.problems.problem import bundled_problems
+from synergrip.problems.finding import bundled_problems
 from synergrip.reports.data import plan_files
 
 TOO_MUCH = "limits.margin=100 N"

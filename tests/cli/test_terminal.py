@@ -33,7 +33,9 @@ COMMANDS += [
     ("margins", "tripod", "--only", "least_peak_N", "--only", "sensitivities", "--only", "disturbance", "--all"),
     ("margins", "tripod", "--only", "quality"),
     ("front", "tripod", "-n", "3"), ("front", "tripod", "-n", "2", "--against", "friction"),
-    ("problems",), ("hands",), ("synergies", "list"), ("synergies", "show", "human", "--posture", "ball"),
+    ("figure", "margin", "tripod", "-o", "margin.svg"), ("figure", "synergies", "gripper-box", "-o", "synergies.svg"),
+    ("problems",), ("hands",), ("hands", "human-graspit"), ("synergies", "list"),
+    ("synergies", "show", "human", "--posture", "ball"),
     ("synergies", "compare", "dlr-hand-ii", "eigengrasps", "actuators"),
 ]  # fmt: skip
 """Each verb; those that take seconds on hands are asked for little of them, and for all of smaller grasps."""

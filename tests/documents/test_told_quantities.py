@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from synergrip.documents.quantities import both_apart, in_g, in_mm, plain
+from synergrip.documents.quantities import both_apart, in_g, in_mm, plain, read_as
 
 
 @pytest.mark.parametrize(
@@ -31,3 +31,12 @@ def test_a_value_and_its_limit_have_their_units_and_digits_that_tell_them_apart(
     assert both_apart(0.00200001, 0.002, "m") == ("2.00001 mm", "2 mm")
     assert both_apart(20000.0, 30000.0, "N") == ("20000 N", "30000 N")
     assert both_apart(0.5, 1.0, "") == ("0.5", "1")
+
+
+def test_noise_of_the_arithmetic_is_told_as_zero() -> None:
+    assert in_mm(2e-34) == in_mm(-3e-19) == "0 mm"
+    assert in_mm(2e-12) == "2e-09 mm"
+    assert both_apart(-4e-17, 0.0, "N") == ("0 N", "0 N")
+    assert both_apart(2e-34, 1e-3, "m") == ("0 mm", "1 mm")
+    assert read_as(1e-15, "rad") == "0 deg"
+    assert read_as(1e-15, "") == "1e-15", "what is no quantity is told as it is"

@@ -77,3 +77,15 @@ def test_two_ways_to_an_equilibrium_agree_to_its_digits(name: str) -> None:
     second = executor.run(first.times, first.references, answer.task.wrench, first.interpolated(first.times))
     assert max(first.residual, second.residual) <= 1e-12
     assert np.allclose(first.du, second.du, rtol=0, atol=1e-12)
+
+
+def test_states_that_come_with_those_of_the_first_squeeze_are_those_of_their_instants() -> None:
+    """Also where there are several steps from one instant to the next."""
+    problem = load_problem("dlr-ball-turn", ["task.knots=5"])
+    answer = plan(problem.grasp, problem.task)
+    known, executor = answer.executed, Executor.of(analyse(problem.grasp), answer.task)
+    assert np.diff(known.kept).max() > 1
+    without = executor.run(known.times, known.references, answer.task.wrench, known.states)
+    along = known.interpolated(known.times)
+    assert len(along) > len(known.times)
+    assert executor.run(known.times, known.references, answer.task.wrench, along).iterations <= without.iterations

@@ -44,8 +44,3 @@ def test_the_smallest_subsets_have_plans_and_lose_them_with_any_synergy() -> Non
         picks = [some.grasp.synergies.index(name) for name in names.split()]
         assert looking.at(picks).stage == ""
         assert {looking.at([at for at in picks if at != out]).stage for out in picks} == {"magnitude"}
-
-
-def test_the_code_of_the_page_runs() -> None:
-    (code,) = re.findall(r"```python\n(.*?)\n```", PAGE, re.DOTALL)
-    exec(compile(code, "synergies-needed.md", "exec"), {})

@@ -18,7 +18,8 @@ from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.planning.references import read_references
 from synergrip.planning.sizes import Sizes
-from synergrip.problems.problem import Problem, bundled_problems, load_problem
+from synergrip.problems.finding import bundled_problems
+from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import write_outcome
 

@@ -1,12 +1,19 @@
 """Problems on model files with joints that no motor drives, and on arms that carry a hand."""
 
 import re
+from dataclasses import replace
 
+import mujoco
 import numpy as np
 import pytest
+from mjcf_texts import with_masses
 
-from synergrip import Infeasible, InputError, load_problem, plan
+from synergrip import Infeasible, InputError, JointTorque, Plan, load_problem, plan
+from synergrip.planning.check import judge_references
+from synergrip.planning.references import References
+from synergrip.planning.springs import spring_notes
 from synergrip.reports.data.json_grasp import in_order_document
+from synergrip.reports.text.text_check import judgement_document
 from synergrip.reports.text.text_grasp import in_order_text
 
 PINCH = """<mujoco><compiler angle="degree"/><worldbody><body name="palm">
@@ -274,3 +281,72 @@ def test_a_wrist_that_nothing_drives_may_be_left_out_by_the_palm(tmp_path):
     with pytest.raises(InputError, match=r"known to drive 'w' .* or hand\.palm = \"palm\", to leave out what is above"):
         load_problem(tmp_path / "problem.toml")
     assert load_problem(tmp_path / "problem.toml", ['hand.palm="palm"']).grasp.n_z == 4
+
+
+ALL = MOTORS + '<position joint="l tip"/><position joint="r tip"/>'
+STRONG = 'stiffness="0.8" springref="-60"'
+FEW = ("task.knots=5", "task.move[0].lift=0.4 mm")
+
+
+def planned_with(folder, *limits):
+    held = problem(folder, actuators=ALL, left=STRONG, changes=[*FEW, *limits])
+    found = plan(held.grasp, held.task)
+    assert isinstance(found, Plan)
+    return held, found
+
+
+def of_springs(notes):
+    return [note for note in notes if "springs of the model file, which" in note]
+
+
+@pytest.fixture(scope="module")
+def free(tmp_path_factory):
+    """A plan without a limit, and what its motors need: of contacts, and with MuJoCo's own springs."""
+    held, found = planned_with(tmp_path_factory.mktemp("free"))
+    hand = PINCH.replace("TENDONS", "").replace("ACTUATORS", ALL).replace("LEFT", STRONG).replace("RIGHT", "")
+    model = with_masses(hand)
+    takes = []
+    for q in found.executed.states.q:
+        data = mujoco.MjData(model)
+        data.qpos[[model.joint(name).qposadr[0] for name in found.grasp.joints]] = q
+        mujoco.mj_forward(model, data)
+        takes.append([-data.qfrc_spring[model.joint(name).dofadr[0]] for name in found.grasp.joints])
+    return held, found, np.array(found.motion.torques), np.array(takes)
+
+
+def test_what_motors_need_with_springs_is_that_of_mujoco(free, tmp_path):
+    held, found, alone, takes = free
+    whole, i = np.abs(alone + takes), list(found.grasp.joints).index("l tip")
+    assert whole[:, i].max() > np.abs(alone).max(), "or this test says nothing"
+    assert not of_springs(found.notes), "no limit is asked for"
+    between = (whole[:, i].max() + np.abs(alone).max()) / 2
+    _, bound = planned_with(tmp_path, f"limits.joint_torque={between}")
+    (note,) = of_springs(bound.notes)
+    k = int(np.argmax(whole[:, i]))
+    assert f"limits.joint_torque does not count, 'l tip' needs {whole[k, i]:.4g} of its {between:.4g}" in note
+    assert f"{abs(alone[k, i]):.4g} of it for contacts" in note
+    judged = judge_references(held.grasp, bound.task, References(bound.time, bound.dz_r, {}))
+    assert of_springs(judgement_document(judged)["notes"]) == [note]
+
+
+def test_limits_with_room_for_springs_are_not_noted(free, tmp_path):
+    alone, takes = free[2:]
+    enough = 1.01 * np.abs(alone + takes).max()
+    assert not of_springs(planned_with(tmp_path, f"limits.joint_torque={enough}")[1].notes)
+    (note,) = of_springs(
+        planned_with(tmp_path, f"limits.actuator_effort={0.99 * np.abs(alone + takes).max()}")[1].notes
+    )
+    assert "limits.actuator_effort does not count, 'l tip' needs" in note
+
+
+def test_joints_without_springs_may_be_at_their_limits(free, tmp_path):
+    """The springs of the left tip take nothing of the motors of the right finger."""
+    _, found, alone, takes = free
+    i = list(found.grasp.joints).index("r")
+    enough = [10.0] * alone.shape[1]
+    enough[i] = float(np.abs(alone[:, i]).max()) * (1 - 1e-9)
+    assert not takes[:, i].any()
+    assert not list(spring_notes(found.executed, alone, replace(found.task, limits=(JointTorque(enough),))))
+    tip = list(found.grasp.joints).index("l tip")
+    enough[tip] = float(np.abs(alone[:, tip]).max())
+    assert len(list(spring_notes(found.executed, alone, replace(found.task, limits=(JointTorque(enough),))))) == 1

@@ -1,39 +1,16 @@
-"""What docs/export.md shows is what happens, and its tables have a row for each format and column."""
+"""The tables of docs/export.md have a row for each format and column."""
 
 from __future__ import annotations
 
-import contextlib
-import io
 import re
-import shlex
 from pathlib import Path
 
 import pytest
-from command_line import run
-from test_in_code import judge
 
 import synergrip as sg
 from synergrip.reports.data.exports.exporting import EXPORTERS
 
 TEXT = (Path(__file__).parents[2] / "docs" / "export.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.DOTALL | re.MULTILINE)
-
-
-def test_the_page_prints_what_it_shows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (indented,) = re.findall(r"^    synergrip (plan .*)$", TEXT, re.MULTILINE)
-    assert run(*shlex.split(indented)).exit_code == 0
-    kinds = [kind for kind, _ in BLOCKS]
-    assert kinds == ["bash", "text", "python", "text"]
-    command, shown, code, printed = (text for _, text in BLOCKS)
-    result = run(*shlex.split(command)[1:])
-    assert result.exit_code == 0, result.output
-    assert result.stdout.split() == shown.split()
-    with contextlib.redirect_stdout(io.StringIO()) as out:
-        exec(compile(code, "export.md", "exec"), {"__name__": "page"})
-    judge(out.getvalue(), printed)
-    files = {path.name for path in (tmp_path / "out" / "gripper-peg" / "export").iterdir()}
-    assert files == {Path(word).name for word in shown.split() if "/" in word}
 
 
 def test_each_format_has_a_row_with_its_files_and_its_package() -> None:

@@ -25,8 +25,12 @@ from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.linalg import Array, frozen
 from synergrip.problems.problem import load_problem
+from synergrip.reports.pictures.bearings import round_length
+from synergrip.reports.pictures.contact_colors import COLORS
+from synergrip.reports.pictures.depth import Depth, darkened, faded
 from synergrip.reports.pictures.effects import effects, squeeze_shares
 from synergrip.reports.pictures.forces import ContactForces, contact_forces, places_known
+from synergrip.reports.pictures.free_places import apart, distances, free_places
 from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 from synergrip.reports.pictures.layout import Columns, fitted, window
 from synergrip.reports.pictures.motions import motions
@@ -188,6 +192,48 @@ def test_the_best_view_does_not_look_along_a_motion() -> None:
         assert best_view(cloud[::-1], [along]).toward == pytest.approx(view.toward)
 
 
+def test_another_direction_may_be_up() -> None:
+    up = np.array([0.6, 0.0, -0.8])
+    view = view_from(0.7, 0.5, up)
+    axes = np.column_stack([view.right, view.up, view.toward])
+    assert np.allclose(axes.T @ axes, np.eye(3), atol=1e-15)
+    assert view.flat(up) == pytest.approx([0.0, math.cos(0.5)])
+
+
+def test_what_is_near_is_thicker_and_less_faint() -> None:
+    points = np.array([[0.0, 0.0, 0.0], VIEW.toward])
+    depth = Depth.of(VIEW, points)
+    far, near = (depth.drawn(point[None], "#204060", 2.0) for point in points)
+    assert far[1] < 2.0 < near[1]
+    assert near[0] == "#204060"
+    assert far[0] == faded("#204060", 0.5)
+    assert (faded("#204060", 1.0), darkened("#204060", 1.0)) == ("#ffffff", "#000000")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_numbers_stand_free_of_arrows_and_of_each_other(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    anchors = 3 * rng.normal(size=(5, 2))
+    lines = [np.array([anchor, anchor + rng.normal(size=2)]) for anchor in anchors]
+    places = free_places(anchors, rng.normal(size=(5, 2)), lines, 0.4)
+    assert np.linalg.norm(places - anchors, axis=1) == pytest.approx(0.4)
+    for number, place in enumerate(places):
+        others = [*lines, *(other[None] for k, other in enumerate(places) if k != number)]
+        assert min(float(distances(place[None], line)[0]) for line in others) > 0.15
+
+
+def test_names_below_each_other_keep_their_order_and_distance() -> None:
+    moved = apart(np.array([0.0, 5.0, 0.1, 0.05]), 1.0)
+    assert list(np.argsort(moved)) == [0, 3, 2, 1]
+    assert np.diff(np.sort(moved)).min() > 0.99
+    assert moved.mean() == pytest.approx(1.2875)
+
+
+@pytest.mark.parametrize(("most", "found"), [(0.0631, 0.05), (0.05, 0.05), (0.019, 0.01), (0.9, 0.5), (0.0021, 0.002)])
+def test_a_bar_is_a_round_length(most: float, found: float) -> None:
+    assert round_length(most) == pytest.approx(found)
+
+
 # Solids
 
 
@@ -311,7 +357,8 @@ def test_spin_arcs_turn_about_the_normal_as_far_as_the_moment_is_large() -> None
     found = replace(effects(analysis, [DEGREE] * 4)[0].forces, spins=frozen([2.0, -1.0, 0.001]))
     arcs = spin_arcs(contacts, found, 0.01)
     turns = []
-    for contact, arc in zip(contacts[:2], arcs, strict=True):  # the third moment is too small to be seen
+    assert [index for index, _ in arcs] == [0, 1]  # the third moment is too small to be seen
+    for contact, (_, arc) in zip(contacts[:2], arcs, strict=True):
         arms = arc - contact.point
         assert np.linalg.norm(arms, axis=1) == pytest.approx(0.01)
         assert arms @ contact.frame[:, 0] == pytest.approx(0, abs=1e-15)
@@ -390,11 +437,17 @@ def test_figure_three_of_the_paper(name: str, tmp_path: Path) -> None:
     dims = "dim E_s {}, dim Γ_ucs {}, dim Γ_zr {}".format(*analysis.spaces.dimensions)
     notes = " ".join(written)
     assert dims in notes
-    for word in (problem.title, "contacts 0.125 mm/N", "1 finger1/tip, 2 finger2/tip", "synergies 0"):
+    for word in (problem.title, "contacts 0.125 mm/N", "1 finger1/tip 2 finger2/tip", "synergies 0"):
         assert word in notes
+    for number in range(1, analysis.grasp.n_c + 1):
+        assert written.count(str(number)) == 4  # beside its contact, for every synergy
+        assert COLORS[number - 1] in path.read_text()
+    assert set("xyzg") <= set(written)
+    assert [text for text in written if re.fullmatch(r"(hand|forces) [125]0* mm", text)]
+    assert ("arcs: their spin moments" in notes) == (name == "table2-soft-motors")
     arrows_drawn = ElementTree.parse(path).iter(f"{SVG}g")
     groups = [node for node in arrows_drawn if node.get("id", "").startswith("Quiver")]
-    assert len(groups) == 4
+    assert len(groups) == 4 + 4  # of the synergies, the axes and gravity
 
 
 def test_a_grasp_given_as_matrices_shows_its_forces(tmp_path: Path) -> None:
@@ -403,7 +456,7 @@ def test_a_grasp_given_as_matrices_shows_its_forces(tmp_path: Path) -> None:
     written = texts(path)
     assert [f"z{k}" for k in range(1, 5)] == [text for text in written if re.fullmatch(r"z\d", text)]
     assert written.count("no internal force") == 2
-    assert not [text for text in written if "Blue" in text]
+    assert not [text for text in written if "iolet" in text]
 
 
 def test_matrices_that_do_not_say_where_the_contacts_are(tmp_path: Path) -> None:
@@ -426,8 +479,10 @@ def test_synergies_of_a_hand(barrett: Hand, tmp_path: Path) -> None:
     path = tmp_path / "hand.svg"
     draw_synergies(barrett, barrett.synergy_sets["close"], barrett.postures["ball"], path)
     written = texts(path)
-    assert written[:2] == [barrett.title, barrett.synergy_sets["close"].title]
-    assert [text.split()[0] for text in written[2:4]] == ["spread", "close"]
+    told = [text for text in written if text not in ("x", "y", "z")]
+    assert told[:2] == [barrett.title, barrett.synergy_sets["close"].title]
+    assert [text.split()[0] for text in told[2:4]] == ["spread", "close"]
+    assert "50 mm" in told
 
 
 def test_explained_variance(tmp_path: Path) -> None:

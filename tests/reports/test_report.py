@@ -19,12 +19,13 @@ from synergrip.errors import InputError
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
+from synergrip.reports import libraries
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.html import page
-from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
-from synergrip.reports.view.scene import scene_of
+from synergrip.reports.pictures.lines import lines_of
+from synergrip.reports.view.planned import scene_of
 
 HOSTILE = (
     "<script>boom()</script>",
@@ -170,7 +171,7 @@ def test_an_answer_that_is_not_as_it_was_written_has_no_report(tmp_path: Path, c
 
 
 def test_what_is_not_installed_is_said_before_anything_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page, "find_spec", lambda name: None if name == "viser" else object())
+    monkeypatch.setattr(libraries, "find_spec", lambda name: None if name == "viser" else object())
     with pytest.raises(InputError, match=r"needs viser, which is not installed: pip install 'synergrip\[view\]'"):
         page.refuse_without_libraries()
 

@@ -25,7 +25,8 @@ from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.view import drawn
-from synergrip.reports.view.scene import MOST, Scene, scene_of
+from synergrip.reports.view.planned import MOST, scene_of
+from synergrip.reports.view.scene import Scene
 from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
 
 

@@ -186,3 +186,9 @@ def test_the_timeline_passes_all_knots_and_is_as_long_as_the_plan_at_its_own_spe
     assert line.duration == pytest.approx(plan.times[-1] - plan.times[0])
     for time, dz_r in zip(plan.times, plan.dz_r, strict=True):
         assert line.applied(time - plan.times[0]).dz_r == pytest.approx(dz_r, abs=1e-12)
+
+
+def test_once_is_told_apart_from_how_a_plan_is_linearised() -> None:
+    told = " ".join(run("simulate", "--help").stdout.replace("│", " ").split())
+    assert "not again at half the step" in told
+    assert 'task.linearise of the plan is: there "once" is how it was planned' in told

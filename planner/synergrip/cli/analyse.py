@@ -9,6 +9,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import aside
+from synergrip.cli.loading import load_placed
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -56,13 +57,12 @@ def analyse(
     """Show what the synergies control: internal forces, rigid motions, redundancy. Nothing is optimised."""
     with answering(form):
         from synergrip.errors import NotRestrainedError
-        from synergrip.problems.problem import load_problem
         from synergrip.statics.analysis import analyse as work_out
         from synergrip.statics.dimensions import dimension_table
         from synergrip.statics.grasp_properties import grasp_properties
 
         picture_place(picture)
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
         found: Analysis | NotRestrainedError
         with placed(loaded):
             try:

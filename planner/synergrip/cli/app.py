@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import typer
+from typer.core import TyperGroup
 
 from synergrip import __version__
 from synergrip.cli.analyse import analyse
 from synergrip.cli.check import check
 from synergrip.cli.explain import explain
 from synergrip.cli.export import export
+from synergrip.cli.figure import figure
 from synergrip.cli.front import front
 from synergrip.cli.lists import hands, problems, schema
 from synergrip.cli.margins import margins
@@ -17,9 +21,22 @@ from synergrip.cli.report import report
 from synergrip.cli.simulate import simulate
 from synergrip.cli.synergies import synergies
 from synergrip.cli.validate import validate
+from synergrip.cli.view import view
+from synergrip.files import bundled
+
+
+class _Documented(TyperGroup):
+    """The verbs; their help ends with the place of the documentation, on a line that no width of a screen splits."""
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Print the help, or write it into the formatter, and then where more is to be read."""
+        super().format_help(ctx, formatter)
+        (formatter.write if formatter.getvalue() else typer.echo)(f" Documentation: {bundled('README.md')}")
+
 
 app = typer.Typer(
     name="synergrip",
+    cls=_Documented,
     help="Plans grasp forces and in-hand motion for robot hands driven by postural synergies, and proves its answers.",
     epilog="Exit codes: 0 feasible and verified, 1 proven infeasible, 2 bad input, 3 unknown, 4 own check failed, "
     "5 the answer could not be printed or written, 130 interrupted.",
@@ -31,10 +48,12 @@ app = typer.Typer(
 for verb in (
     plan,
     report,
+    view,
     explain,
     margins,
     simulate,
     export,
+    figure,
     front,
     analyse,
     check,

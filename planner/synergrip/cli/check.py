@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from synergrip.cli.loading import load_placed
 from synergrip.cli.running import (
     DetailsOption,
     Format,
@@ -31,9 +32,8 @@ def check(
     with answering(form):
         from synergrip.errors import Refusal
         from synergrip.planning.references import read_references
-        from synergrip.problems.problem import load_problem
 
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
         references = read_references(plan, loaded.grasp)  # what is wrong with files is told before the slow imports
 
         from synergrip.planning.check import judge_references

@@ -12,6 +12,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import aside, tell
+from synergrip.cli.loading import load_placed
 from synergrip.cli.progress import PATIENCE, tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -50,9 +51,7 @@ def explain(
 ) -> None:
     """Say why there is no plan, when, what clashes, and which changes of one number give one, each planned again."""
     with answering(form):
-        from synergrip.problems.problem import load_problem
-
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
 
         from synergrip.cli.plan import found_by
         from synergrip.planning.outcome import Plan

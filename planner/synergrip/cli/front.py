@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from synergrip.cli.loading import load_placed
 from synergrip.cli.progress import counted, telling
 from synergrip.cli.running import (
     Format,
@@ -48,10 +49,9 @@ def front(
     """Trade slip margin, or friction, against peak force: the least peak normal force for each (Pareto front)."""
     with answering(form):
         from synergrip.planning.outcome import Plan
-        from synergrip.problems.problem import load_problem
         from synergrip.reports.text.front_report import front_document, front_text
 
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
         with placed(loaded), heard():
             best = _best(loaded, against)
         if not isinstance(best, Plan):

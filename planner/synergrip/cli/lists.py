@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
-from synergrip.cli.running import Format, FormatOption, answering, say, show
+import typer
+
+from synergrip.cli.pictures import PictureOption, draw_shown
+from synergrip.cli.running import Format, FormatOption, answering, picture_place, say, show
 
 if TYPE_CHECKING:
     from synergrip.hands.hand import Hand
@@ -15,7 +19,7 @@ def problems(form: FormatOption = Format.TEXT) -> None:
     """List the bundled problems."""
     with answering(form):
         from synergrip.files import bundled
-        from synergrip.problems.problem import bundled_problems
+        from synergrip.problems.finding import bundled_problems
         from synergrip.problems.problem_file import read_problem_file
         from synergrip.reports.text.tables import table
 
@@ -28,19 +32,56 @@ def problems(form: FormatOption = Format.TEXT) -> None:
         show(form, lambda: table(keys, rows), lambda: {"problems": [dict(zip(keys, r, strict=True)) for r in rows]})
 
 
-def hands(form: FormatOption = Format.TEXT) -> None:
-    """List the bundled hands."""
+def hands(
+    which: Annotated[
+        str | None,
+        typer.Argument(metavar="HAND", help="One hand (bundled name, folder, .urdf, .xml, .mjcf), with its pads."),
+    ] = None,
+    posture: Annotated[
+        str | None, typer.Option("--posture", metavar="P", help="Posture of that hand; at rest when absent.")
+    ] = None,
+    picture: PictureOption = None,
+    form: FormatOption = Format.TEXT,
+) -> None:
+    """List the bundled hands; or tell of one where its pads and fingertips are in a posture."""
     with answering(form):
+        from synergrip.errors import InputError
         from synergrip.hands.folder import bundled_hands, load_hand
 
+        picture_place(picture)
+        if which is not None:
+            return _one(load_hand(which, key="HAND"), posture, picture, form)
+        for option, given in (("--posture", posture), ("--picture", picture)):
+            if given is not None:
+                raise InputError.at(option, "is for one hand; name it: synergrip hands HAND")
         loaded = [load_hand(name, relative_to=None) for name in bundled_hands()]
-        document = [
-            {"name": hand.name, "title": hand.title, "joints": list(hand.joint_names),
-             "synergy_sets": {s.name: list(s.synergies) for s in hand.synergy_sets.values()},
-             "pads": list(hand.pads), "postures": list(hand.postures)}
-            for hand in loaded
-        ]  # fmt: skip
-        show(form, lambda: "\n\n".join(_text(hand) for hand in loaded), lambda: {"hands": document})
+        show(form, lambda: "\n\n".join(_text(each) for each in loaded), lambda: {"hands": list(map(_names, loaded))})
+
+
+def _one(hand: Hand, posture: str | None, picture: Path | None, form: Format) -> None:
+    """Tell of one hand, in a posture."""
+    from synergrip.hands.spots import spots_of
+    from synergrip.reports.data.json_spots import posture_document
+    from synergrip.reports.text.text_grasp import posture_lines
+    from synergrip.reports.text.text_spots import spots_table
+    from synergrip.reports.view.shown import hand_shown
+
+    shown = hand_shown(hand, posture)
+    spots, q = spots_of(hand, shown.begin.q), shown.begin.q
+    written = draw_shown(shown, picture)
+    show(
+        form, lambda: "\n".join([_text(hand), "", *posture_lines(hand, q), "", spots_table(spots), *written]),
+        lambda: _names(hand) | posture_document(hand, q, spots) | ({"picture": str(picture)} if picture else {}),
+    )  # fmt: skip
+
+
+def _names(hand: Hand) -> dict[str, Any]:
+    """Return the names that a problem file may use of a hand."""
+    return {
+        "name": hand.name, "title": hand.title, "joints": list(hand.joint_names),
+        "synergy_sets": {s.name: list(s.synergies) for s in hand.synergy_sets.values()},
+        "pads": list(hand.pads), "postures": list(hand.postures),
+    }  # fmt: skip
 
 
 def _text(hand: Hand) -> str:

@@ -10,6 +10,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import tell
+from synergrip.cli.loading import load_placed
 from synergrip.cli.running import (
     Format,
     FormatOption,
@@ -80,11 +81,10 @@ def margins(
         from synergrip.files import refuse_unwritable
         from synergrip.margin.found import Margins
         from synergrip.margin.margins import margins as found_by
-        from synergrip.problems.problem import load_problem
         from synergrip.reports.data.json_margins import margins_document
         from synergrip.reports.text.text_margins import margins_text
 
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
         picture_place(picture)
         place = None if output is None else output / TIMED
         if place is not None:

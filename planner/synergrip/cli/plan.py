@@ -10,6 +10,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import aside
+from synergrip.cli.loading import load_placed
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -70,9 +71,7 @@ def plan(
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
-        from synergrip.problems.problem import load_problem
-
-        loaded = load_problem(problem, overrides or [])  # what is wrong with it is told before the slow imports
+        loaded = load_placed(problem, overrides)  # what is wrong with it is told before the slow imports
 
         from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared

@@ -25,7 +25,7 @@ _begun = 0.0
 def telling(answer: Answerer) -> Answerer:
     """Return the same solver, which says what it is about to solve when that, or what came before, takes long."""
     from synergrip.conic.decide import ALONG, ATTEMPTS
-    from synergrip.reports.text.text_problem import many
+    from synergrip.problems.in_short import many
 
     begun = time.monotonic()
 

@@ -147,6 +147,17 @@ def shown_anyway(form: Format, text: Callable[[], str], document: Callable[[], d
         raise typer.Exit(error.exit_code) from None
 
 
+def refuse_with(form: Format, error: InputError, text: Callable[[], str], more: dict[str, Any]) -> NoReturn:
+    """Leave with an error of the file, and what is known all the same: before it, or beside it in its document."""
+    if form is Format.TEXT:
+        say(_fitting(text))
+        raise error
+    from synergrip.reports.text.refusal_text import error_json
+
+    say(json.dumps(error_json(error) | more, allow_nan=False))
+    raise typer.Exit(error.exit_code)
+
+
 def _unwritable(path: Path, error: OSError) -> str:
     return f"cannot write '{path}': {error.strerror or error}"
 
@@ -161,7 +172,7 @@ def picture_place(picture: Path | None) -> None:
         possible("--picture", picture, refuse_unwritable)
 
 
-def draw_at(picture: Path, draw: Callable[[Path], None]) -> None:
+def draw_at(picture: Path, draw: Callable[[Path], object]) -> None:
     """Draw a picture, and keep it whatever ends the program after that."""
     with writing("--picture", picture):
         draw(picture)

@@ -46,7 +46,14 @@ def simulate(
     ] = Speed.SLOW,
     step: Annotated[float, typer.Option(metavar="SECONDS", help="Step of the simulation.")] = 2e-4,
     friction: Annotated[float, typer.Option(metavar="FACTOR", help="What all friction is multiplied by.")] = 1.0,
-    once: Annotated[bool, typer.Option("--once", help="Do not play it again at half the step.")] = False,
+    once: Annotated[
+        bool,
+        typer.Option(
+            "--once",
+            help="Play it one time, and not again at half the step, which tells what the step does. Whatever "
+            'task.linearise of the plan is: there "once" is how it was planned.',
+        ),
+    ] = False,
 ) -> None:
     """Play a saved plan in MuJoCo: exit code 0 when every contact held, 3 when one slipped, crept or was lost."""
     with answering(form):

@@ -9,6 +9,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from synergrip.cli import ending
+from synergrip.cli.loading import load_placed
 from synergrip.cli.progress import counted
 from synergrip.cli.running import (
     Format,
@@ -179,14 +180,13 @@ def needed(
     with answering(form):
         from synergrip.explain.synergies.synergies_needed import synergies_needed
         from synergrip.files import refuse_unwritable
-        from synergrip.problems.problem import load_problem
         from synergrip.reports.data.needed_files import needed_document, write_needed
         from synergrip.reports.text.text_needed import needed_text
 
         picture_place(picture)
         if csv is not None:
             possible("--csv", csv, refuse_unwritable)
-        loaded = load_problem(problem, overrides or [])
+        loaded = load_placed(problem, overrides)
 
         def told(size: int, done: int, of: int) -> None:
             counted(done, of, f"subsets of {size}")

@@ -38,6 +38,9 @@ USUAL: dict[str, tuple[float, float]] = {
 SHOWN_IN = {"rad": (180 / math.pi, "deg"), "m": (1e3, "mm"), "N": (1.0, "N"), "N m": (1.0, "N m")}
 """SI unit -> the factor and the unit in which people read it."""
 
+RESOLUTION = 1e-12
+"""[m, rad, N, N m] Values that are less are noise of the arithmetic, and told as 0."""
+
 PLAIN = 1e7
 """Size from which on a number is written with an exponent."""
 METRE, KILOGRAM = 1.0, 1.0
@@ -149,7 +152,8 @@ def plain(value: float, digits: int = 4) -> str:
 
 
 def in_mm(value: float, digits: int = 3) -> str:
-    """Return a length [m] as people read it: 2.6 mm, but 10 m."""
+    """Return a length [m] as people read it: 2.6 mm, but 10 m; 0 mm for what is less than `RESOLUTION`."""
+    value = _without_noise(value)
     return f"{plain(value, digits)} m" if abs(value) >= METRE else f"{plain(1e3 * value, digits)} mm"
 
 
@@ -161,14 +165,22 @@ def in_g(value: float, digits: int = 4) -> str:
 def read_as(value: float, unit: str, digits: int = 4) -> str:
     """Return a value [`unit`] with the unit in which people read it."""
     factor, name = SHOWN_IN.get(unit, (1.0, unit))
+    value = _without_noise(value) if unit in SHOWN_IN else value
     return f"{plain(factor * value, digits)} {name}".rstrip()
 
 
 def both_apart(one: float, other: float, unit: str) -> tuple[str, str]:
     """Return two values [`unit`] with the units that people read, and digits that tell them apart."""
+    if unit in SHOWN_IN:
+        one, other = _without_noise(one), _without_noise(other)
     far = [unit == "m" and abs(value) >= METRE for value in (one, other)]
     if any(far) and not all(far):
         return in_mm(one, 4), in_mm(other, 4)
     factor, name = (1.0, unit) if any(far) else SHOWN_IN.get(unit, (1.0, ""))
     first, second = (f"{number} {name}".rstrip() for number in apart(factor * one, factor * other))
     return first, second
+
+
+def _without_noise(value: float) -> float:
+    """Return a value in SI; 0 for one that is less than `RESOLUTION`."""
+    return 0.0 if abs(value) < RESOLUTION else value

@@ -14,7 +14,7 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.newton import AT_REST, ROUGH, at_rest, on_faces, settled, why_not
 from synergrip.equilibrium.setting import ContactModel, Setting, setting
 from synergrip.equilibrium.states import Loads, States
-from synergrip.equilibrium.way import SQUEEZE, Way, led_states, parts_of, squeezes, steps_between
+from synergrip.equilibrium.way import SQUEEZE, Way, led_states, squeezes, steps_between
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Response
@@ -56,52 +56,69 @@ def execute(
 
 def equilibria(
     own: Setting, times: Array, references: Array, loads: Loads, guess: States | Execution | None,
-    wrong: Callable[[Array], bool] | None = None, *, finely: bool = True,
+    wrong: Callable[[Array], bool] | None = None, *, finely: bool = True, asked: Places | None = None,
 ) -> Execution:  # fmt: skip
     """Return the equilibria that references lead through, as `execute` does.
 
     Args:
         own: the grasp.
-        times: (T,) [s].
-        references: (T, n_z).
-        loads: (T).
+        times: (P,) [s].
+        references: (P, n_z).
+        loads: (P).
         guess: (T) states near the equilibria, or an execution of references near these.
         wrong: says of forces (T, n_l) that are known to `ROUGH` whether they are not those that are looked for, so that
             more digits of them are of no use.
         finely: whether there are as many steps between instants as it takes; else one.
+        asked: (T,) which of the instants are asked for, the first among them: the others are gone through. None: all.
     """
+    asked = np.arange(len(times)) if asked is None else asked
     parts, found = steps_between(own, references) if finely else np.ones(len(times), dtype=np.intp), None
     if guess is not None:
-        found = _at_steps(own, times, references, loads, parts, _near(own, guess, parts), wrong)
-    return found or _followed(own, times, references, loads, parts)
+        way = Way.of(own, references, loads, parts)
+        near = _near(own, guess, way, parts, np.searchsorted(times[asked], times), asked)
+        found = _at_steps(own, times, references, way, near, asked, wrong)
+    return found or _followed(own, times, references, loads, parts, asked)
 
 
-def _near(own: Setting, guess: States | Execution, parts: Places) -> States | Balance:
-    """Return the equations at other equilibria of the same steps, where these are known, or else states."""
-    if isinstance(guess, States):
-        return guess
-    whole = guess.setting is own and len(guess.kept) == len(parts) and guess.kept[0] == squeezes(own)
-    return guess.path if whole and np.array_equal(parts_of(guess.kept), parts) else guess.states
+def _near(
+    own: Setting, guess: States | Execution, way: Way, parts: Places, beside: Places, asked: Places
+) -> States | Balance:
+    """Return the equations at other equilibria of the same steps, where these are known, or else states at all steps.
+
+    Args:
+        own: the grasp.
+        guess: (T) states, those of the first squeeze before them or not, or an execution.
+        way: all steps.
+        parts: (P,) how many there are from each instant to the next.
+        beside: (P,) the one among those asked for whose state each instant is guessed to have.
+        asked: (T,) the instants that are asked for.
+    """
+    if isinstance(guess, Execution):
+        same = guess.setting is own and len(guess.path.states) == len(way.references)
+        if same and np.array_equal(guess.kept, way.kept[asked]):
+            return guess.path
+        guess = guess.states
+    lead = len(guess) - len(asked)
+    states = guess.taken(slice(lead, None)) if len(beside) == len(asked) else guess.taken(lead + beside)
+    if len(states) + lead == len(way.references):
+        return States.joined([guess.taken(slice(lead)), states])
+    return led_states(own, states, parts)
 
 
 def _at_steps(
-    own: Setting, times: Array, references: Array, loads: Loads, parts: Places, near: States | Balance,
+    own: Setting, times: Array, references: Array, way: Way, near: States | Balance, asked: Places,
     wrong: Callable[[Array], bool] | None,
 ) -> Execution | None:  # fmt: skip
-    """Return the equilibria with `parts` (T,) steps from each instant to the next; None where none are near.
+    """Return the equilibria of all steps of a way; None where none are near.
 
-    `near` are the equations at other equilibria of these steps, or states of the instants, or of all steps.
+    `near` are the equations at other equilibria of these steps, or states near them.
     """
-    way = Way.of(own, references, loads, parts)
-    known = near if isinstance(near, Balance) else None
-    if isinstance(near, Balance):
-        near = near.states
-    elif len(near) != len(way.references):
-        near = led_states(own, near, parts)
-    enough = None if wrong is None else lambda forces: wrong(forces[way.kept])
-    balance, count = settled(own, near, way.loads, way.references, known, enough)
-    if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(near):
-        return Execution(times, references, balance, way.kept, count)
+    known, kept = near if isinstance(near, Balance) else None, way.kept[asked]
+    begun = near.states if isinstance(near, Balance) else near
+    enough = None if wrong is None else lambda forces: wrong(forces[kept])
+    balance, count = settled(own, begun, way.loads, way.references, known, enough)
+    if np.all(balance.error <= (AT_REST if wrong is None else ROUGH)) and on_faces(balance) == len(begun):
+        return Execution(times[asked], references[asked], balance, kept, count)
     return None
 
 
@@ -137,8 +154,8 @@ def _judged(
     return np.asarray(instants), references
 
 
-def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts: Places) -> Execution:
-    """Follow the equilibria from the start, in steps as short as it takes; `parts` (T,) from each instant, at least."""
+def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts: Places, asked: Places) -> Execution:
+    """Follow the equilibria from the start, in steps as short as it takes; `parts` (P,) from each instant, at least."""
     here, state, z, w = own, own.start, np.zeros((1, references.shape[1])), own.unloaded(loads)
     path, count, kept, why = list[tuple[States, Array, Loads]](), 0, list[int](), ""
     for k in range(len(times)):
@@ -159,9 +176,10 @@ def _followed(own: Setting, times: Array, references: Array, loads: Loads, parts
                 why = why_not(balance)
         if why:
             break
-        kept.append(len(path) - 1)
+        if k in asked:
+            kept.append(len(path) - 1)
     states, zs, ws = (
         zip(*path[: kept[-1] + 1], strict=True) if kept else ((own.start,), (0 * z,), (own.unloaded(loads),))
     )
     whole = Balance.of(own, States.joined(states), Loads.joined(ws), np.concatenate(zs))
-    return Execution(times, references, whole, np.array(kept, dtype=int), count, why)
+    return Execution(times[asked], references[asked], whole, np.array(kept, dtype=int), count, why)

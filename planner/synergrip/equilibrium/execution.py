@@ -20,6 +20,9 @@ from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Maps
 from synergrip.values import Value
 
+ALIKE = 0.01
+"""Share by which motions may be resisted differently and be alike: which of them is softest, rounding would say."""
+
 
 @made_by("execute(grasp, times, references, loads)")
 @dataclass(frozen=True, eq=False, repr=False)
@@ -140,15 +143,38 @@ class Execution(Value):
         It is 0 in a state whose tangent has no inverse, and the least of hand and object together where these give way
         there, or on the way there (`lacking_stiffness`).
         """
+        values = np.linalg.eigvalsh(self._given)
+        soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
+        held = np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0)
+        return frozen(np.where(self._lacking < 0, np.minimum(held, self._lacking), held))
+
+    @property
+    def softest(self) -> Array | None:
+        """The motions of the object against which it is held least, where it is.
+
+        (m, 6) independent twists about its origin [m, rad], axes of the palm, of length 1 where turns count with the
+        length of the grasp: one, or all that are resisted alike. None where hand and object give way together.
+        """
+        k = int(np.argmin(self.stiffness))
+        if self._lacking[k] < 0 or not self.regular[k]:
+            return None
+        values, vectors = np.linalg.eigh(self._given[k])
+        twists = vectors.T[values >= (1 - ALIKE) * values[-1]][::-1]
+        return frozen(twists / np.array([1.0, 1.0, 1.0, *[self.setting.length] * 3]))
+
+    @cached_property
+    def _given(self) -> Array:
+        """(K, 6, 6) how far the object gives to wrenches [m/N], turns and moments by the length of the grasp."""
         length = self.setting.length
         wrench = np.diag([1.0, 1.0, 1.0, length, length, length])
         given = wrench @ self.maps.du_dw @ wrench  # scaled twist for each scaled wrench
-        values = np.linalg.eigvalsh((given + given.mT) / 2)
-        soft = np.where(values.min(axis=1) < 0, values.min(axis=1), values.max(axis=1))
-        held = np.where(self.regular, 1.0 / np.where(self.regular, soft, 1.0), 0.0)
+        return np.asarray((given + given.mT) / 2)
+
+    @cached_property
+    def _lacking(self) -> Array:
+        """(K,) the least stiffness of hand and object together on the way to each instant, where it is not above 0."""
         begins = np.concatenate([[0], self.kept[:-1] + 1])
-        lacking = np.minimum.reduceat(lacking_stiffness(self.path), begins)
-        return frozen(np.where(lacking < 0, np.minimum(held, lacking), held))
+        return np.asarray(np.minimum.reduceat(lacking_stiffness(self.path), begins))
 
     @cached_property
     def du(self) -> Array:

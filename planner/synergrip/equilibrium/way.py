@@ -75,11 +75,6 @@ def steps_between(own: Setting, references: Array) -> Places:
     return parts
 
 
-def parts_of(kept: Places) -> Places:
-    """Return (T,) into how many steps what follows each instant was split."""
-    return np.append(np.diff(kept), 1)
-
-
 def _squeeze(own: Setting) -> Array:
     """Return which shares of the first references the steps before the first instant take."""
     lead = squeezes(own)

@@ -16,6 +16,8 @@ from synergrip.linalg import Array
 
 DEEP = 0.5e-3
 """A line of the skeleton that runs deeper inside the object is told [m]."""
+LOOKS = 9
+"""Points of a line that are looked at where many are judged at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +73,18 @@ def depth(shape: Shape, start: Array, end: Array) -> float:
     The signed distance to a convex body is convex along a line, so that its smallest value is found exactly.
     """
     return -lowest(lambda share: float(shape.surface(start + share * (end - start))[0]), 0.0, 1.0)[1]
+
+
+def deepest(hand: Hand, q: Array, shape: Shape, positions: Array, touches: Sequence[Touch]) -> Array:
+    """Return how deep [m] the skeleton runs at most inside an object at `positions` (N, 3), in postures (N, n_q).
+
+    Lines are looked at in `LOOKS` points each: quick, for a search. Negative (N,) where all stay outside.
+    """
+    ends = [(end.link, end.point) for line in _skeleton(hand, touches) for end in line]
+    places = hand.kinematics.along(q, ends).position - positions[:, None]
+    shares = np.linspace(0.0, 1.0, LOOKS)[:, None, None, None]
+    points = (1 - shares) * places[:, ::2] + shares * places[:, 1::2]
+    return np.asarray(-shape.surface(points)[0].min(axis=(0, 2)))
 
 
 def _skeleton(hand: Hand, touches: Sequence[Touch]) -> Iterator[tuple[_End, _End]]:

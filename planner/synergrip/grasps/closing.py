@@ -116,7 +116,7 @@ class _Closing:
         carriers = [set(hand.carriers(touch.pad.link)) for touch in gaps.touches]
         movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
         lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
-        return cls(hand, gaps, direction, step, lower, upper, movers, _takes(hand), _tied(hand))
+        return cls(hand, gaps, direction, step, lower, upper, movers, *coupled(hand))
 
     def start(self, q: Array) -> _State:
         """Return the state at the start; a value that rounding put past its limit is put back."""
@@ -208,6 +208,11 @@ class _Closing:
     def _waiting_gaps(self, state: _State) -> list[tuple[int, float]]:
         pads = [int(pad) for pad in np.flatnonzero(state.waiting)]
         return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
+
+
+def coupled(hand: Hand) -> tuple[Flags, Flags]:
+    """Return two tables (n_q, n_q): the joint of the row takes that of the column along, and the two are tied."""
+    return _takes(hand), _tied(hand)
 
 
 def _takes(hand: Hand) -> Flags:

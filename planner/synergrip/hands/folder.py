@@ -68,7 +68,7 @@ def load_hand(
         >>> load_hand("barrett").postures.keys()
         dict_keys(['open', 'ball'])
     """
-    path = _find(name_or_path, relative_to, key)
+    path = find_hand(name_or_path, relative_to, key)
     beside = key.rpartition(".")[0]
     at = f"{beside}.coupling" if beside else "coupling"
     if path.name != FILE:
@@ -107,8 +107,8 @@ def _model(path: Path, key: str, told: Collection[str] = (), palm: str = "", pal
         raise error.located(lambda issue: replace(issue, key=palm_key) if issue.key == "palm" else issue) from None
 
 
-def _find(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
-    """Return the hand.toml of a hand, or its model file."""
+def find_hand(name_or_path: str | Path, relative_to: Path | None, key: str) -> Path:
+    """Return the hand.toml of a hand, or its model file; an `InputError` at `key` where there is no such hand."""
     name = str(name_or_path)
     names = bundled_hands()
     if name in names:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from synergrip.explain.when import When
     from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
     from synergrip.planning.provenance import Asked
+    from synergrip.reports.data.viewer import Viewer
 
 FORMATS = ("json", "npz", "csv")
 """How an answer is written when nothing else is said; of an answer without a plan there is only the first."""
@@ -82,6 +83,25 @@ class Answer(Value):
         from synergrip.reports.data.saving import report
 
         return report(cast("Outcome", self), path, problem)
+
+    @naming_arguments
+    def viewer(self, *, height: int = 480) -> Viewer:
+        """Return the 3-D view for a notebook: hand, object, cones and forces, played in place and without a network.
+
+        Args:
+            height: of the view [pixels].
+
+        Raises:
+            InputError: viser is not installed, a grasp given as matrices, which has no hand to be seen, or a height
+                that is none.
+
+        Example:
+            >>> answer.viewer(height=600)  # doctest: +SKIP
+            <Viewer: 41 frames of a hand with 3 contacts; a notebook shows it, .save("view.html") writes it>
+        """
+        from synergrip.reports.data.saving import viewer
+
+        return viewer(cast("Outcome", self), height)
 
     if not TYPE_CHECKING:  # or every misspelt attribute would pass
 
@@ -156,6 +176,12 @@ class Tabled(Answer):
         from synergrip.reports.data.exports.exporting import export
 
         return export(cast("Plan", self), folder, to=to)
+
+    def _repr_html_(self) -> str:
+        """Return verdict, the worst value of every limit, and the slip margins over time, for notebooks."""
+        from synergrip.reports.data.saving import notebook
+
+        return notebook(cast("Plan", self))
 
 
 class Reasoned(Answer):

@@ -45,10 +45,12 @@ class Between(Value):
     knots too."""
     corners: tuple[float, ...] = ()
     """[s] the corners between the knots that were looked at, each once: lines of tables, starts, ends, peaks, jumps."""
-
     rooms: tuple[Array, ...] | None = None
     """(m,) for each usage, how far beyond its limit each item counts as kept where the hand really moves; None in the
     linear model."""
+    off_course: float = 0.0
+    """[m] how far the object is off where it is wanted between the knots, beyond what it is at these and what it sags,
+    where the hand really moves; rotations times the length."""
 
     def __post_init__(self) -> None:
         """Let limits be found by their names, too."""

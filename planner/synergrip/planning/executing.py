@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,11 +13,13 @@ from synergrip.equilibrium.execution import Execution
 from synergrip.equilibrium.setting import Setting, setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array, frozen
+from synergrip.planning.beside_jumps import gone_through
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
 from synergrip.statics.kept_dimensions import analyse_along
 from synergrip.statics.motion import Motion
 from synergrip.statics.response import Maps, Response
+from synergrip.tasks.marks import Jump
 from synergrip.tasks.pushes import pushes_in, shares_in_order
 from synergrip.tasks.timed_task import TimedTask
 
@@ -57,6 +60,8 @@ class Executor:
     ) -> Execution:  # fmt: skip
         """Return the equilibria at some times (T,) that references (T, n_z) lead through, under wrenches (T, 6).
 
+        Where the load jumps both sides of the jump are gone through, also where the times are those of knots alone.
+
         Args:
             times: [s].
             references: from those at the start.
@@ -65,8 +70,17 @@ class Executor:
             wrong: whether forces (T, n_l) known to a few digits are not those that are looked for: no more are found.
         """
         guess = _states(self.setting, near) if isinstance(near, Motion) else near
-        load = loads(self.task, times, wrench)
-        return equilibria(self.setting, times, references, load, guess, wrong, finely=self.finely)
+        gone = gone_through(self._jumps, times, references, wrench)
+        load = loads(self.task, gone.times, gone.wrench)
+        return equilibria(
+            self.setting, gone.times, gone.references, load, guess, wrong, finely=self.finely, asked=gone.asked
+        )
+
+    @cached_property
+    def _jumps(self) -> tuple[Jump, ...]:
+        """Those of the load; they count where contacts roll, which remember their way."""
+        course, rolls = self.task.course, self.setting.contact_model == "rolling"
+        return course.marks.jumps if course is not None and rolls else ()
 
 
 def analyses_of(execution: Execution, start: Analysis) -> Each:

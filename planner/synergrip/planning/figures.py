@@ -15,6 +15,7 @@ from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.equilibrium.execution import Execution
 from synergrip.linalg import Array, frozen, interpolated
 from synergrip.planning.between import LIMIT, Between
+from synergrip.planning.course import off_course
 from synergrip.planning.executing import analyses_of, motion_of, sag_of
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.told import nearest
@@ -45,6 +46,20 @@ class Figures(Value):
     checks: tuple[Check, ...]
     missed: tuple[str, ...]
     """What is beyond its limit, by how much, where and when, in words."""
+
+    @property
+    def said(self) -> str:
+        """What is missed at the true states; nothing when every check passes."""
+        failed = [check for check in self.checks if not check.passed]
+        if not failed:
+            return ""
+        told = [*self.missed, *(_of_state(check) for check in failed if "stability" in check.name)]
+        told = told or [f"{check.name}, by {check.error:.3g}" for check in failed]
+        return f"at the true equilibrium limits are missed: {'; '.join(told)}"
+
+
+def _of_state(check: Check) -> str:
+    return f"{check.name}: the equilibrium gives way, its least stiffness is {-check.error:.3g} N/m"
 
 
 def figures(walk: Walk, walker: Walker, formulation: Formulation, linear: Between | None) -> Figures:
@@ -89,7 +104,8 @@ def _between(
     usages = tuple(limit.usage(there, motion) for limit in limits)
     rooms = rooms_of(walk, walker, limits, usages)
     known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)
-    found = replace(known, samples=walker.samples, usages=usages, rooms=rooms)
+    astray = off_course(executed, looks, walk, walker)
+    found = replace(known, samples=walker.samples, usages=usages, rooms=rooms, off_course=astray)
     if task.between == "report":
         return found, (stable(executed, where),), ()
     return found, (stable(executed, where), *kept(usages, rooms, where)), tuple(missed_in(usages, rooms, where))

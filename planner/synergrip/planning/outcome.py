@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from html import escape
 from typing import ClassVar
 
 from synergrip.conic.certificate import Certificate
@@ -147,20 +145,6 @@ class Plan(Tabled):
             f"{grasp.n_q} joints, {grasp.n_c} contacts;\n     worst slip margin {worst.value.min():.6g} N at "
             f"{shortened(str(worst.items[i]))}, t = {times[k]:.6g} s)"
         )
-
-    def _repr_html_(self) -> str:
-        """Return a short table for notebooks: of every limit the value nearest to it."""
-        rows = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in self._worst())
-        head = "<tr><th></th><th>worst</th><th>at</th><th>t [s]</th><th>limit</th></tr>"
-        return f"<p>{escape(repr(self))}</p><table>{head}{rows}</table>"
-
-    def _worst(self) -> Iterator[tuple[str, ...]]:
-        """Yield the cells of each limit."""
-        for usage in self.usages:
-            k, i = usage.worst()
-            ends = " to ".join(f"{end:.4g}" for end in (usage.lower[i], usage.upper[i]))
-            value, when = f"{usage.value[k, i]:.4g} {usage.unit}", f"{usage.times[k]:.4g}"
-            yield usage.title, value, shortened(str(usage.items[i])), when, ends
 
 
 @made_by("plan(grasp, task)")

@@ -12,6 +12,7 @@ from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import frozen
 from synergrip.planning.accuracy import accuracy_notes
 from synergrip.planning.beginning import walk_from_plan
+from synergrip.planning.course import course_notes
 from synergrip.planning.executed_cases import ExecutedCases, executed_cases, kept_in_cases
 from synergrip.planning.executed_scenarios import Judged, in_scenarios
 from synergrip.planning.executing import Executor
@@ -20,10 +21,12 @@ from synergrip.planning.kept_between import MoreAtKnots
 from synergrip.planning.known_samples import unseen
 from synergrip.planning.let_go import undone_notes
 from synergrip.planning.otherwise import walked_harder
-from synergrip.planning.outcome import BETWEEN, Check, Plan, Unknown
+from synergrip.planning.outcome import BETWEEN, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.reach import hindrances, notes, off, reached_by
+from synergrip.planning.rolling import rolling_notes
 from synergrip.planning.solvers import Answerer
+from synergrip.planning.springs import spring_notes
 from synergrip.planning.until import figures_until, kept_until
 from synergrip.planning.verified import passed_over
 from synergrip.planning.walk import Walker
@@ -67,7 +70,7 @@ def _executed(walk: Walk, walker: Walker, plan: Plan) -> Plan | Unknown:
         got = figures_until(walk, walker, plan.formulation)
         return replace(_unknown(walker, plan, f"{why}; {ALONG}", walk, got), notes=tuple(kept_until(got, walker)))
     found = figures(walk, walker, plan.formulation, plan.between)
-    said = _missed(found)
+    said = found.said
     if (most := float(off(walk, walker).max())) > walker.allowed:
         strays = f"the object is up to {in_mm(most)} off the wanted motion"
         said = f"{said}; {strays}" if said else f"at the true equilibrium {strays}"
@@ -115,7 +118,7 @@ def answer_of(walk: Walk, walker: Walker, linear: Plan) -> Plan | Unknown:
     found = figures(walk, walker, linear.formulation, linear.between)
     if kept := _with_more(walk, walker, found):
         return answer_of(*kept, linear)
-    if said := _missed(found):
+    if said := found.said:
         inside = all(BETWEEN in check.name for check in found.checks if not check.passed)
         no = replace(_unknown(walker, linear, said, walk, found), between_only=inside)
         return _truer(walk, walker, linear) or no
@@ -189,7 +192,7 @@ def _best_so_far(walk: Walk, walker: Walker, linear: Plan) -> Plan:
         strays = f"the object is up to {in_mm(most)} off the wanted motion"
         raise KeyboardInterrupt(come + (strays if np.isfinite(most) else _until(walk, walker)))
     found = figures(walk, walker, linear.formulation, linear.between)
-    missed = _missed(found)
+    missed = found.said
     cases = ExecutedCases() if missed else executed_cases(walk, walker, linear.formulation)
     missed = missed or cases.said
     if not missed and walker.task.allowed is not None and walker.task.allowed.scenarios is not None:
@@ -229,7 +232,9 @@ def _with(
     return replace(
         plan, motion=found.motion, largest_margin=largest, alpha=frozen(alpha), beta=frozen(beta), gamma=frozen(gamma),
         margins=frozen(found.usages[0].value), usages=found.usages, between=found.between,
-        executed=walk.executed, fixed=fixed, passes=walk.passes, first_passes=walk.first, notes=tuple(told),
+        executed=walk.executed, fixed=fixed, passes=walk.passes, first_passes=walk.first,
+        notes=(*told, *course_notes(found.between, plan.task), *rolling_notes(walk.executed, fixed),
+               *spring_notes(walk.executed, found.motion.torques, plan.task)),
         checks=(*found.checks, *cases.checks, *samples.checks), cases=cases.cases, fresh=samples.fresh,
         elastic_motion=found.elastic_motion,
     )  # fmt: skip
@@ -243,17 +248,3 @@ def _unknown(walker: Walker, linear: Plan, why: str, walk: Walk, found: Figures 
         return answer
     executed = walk.executed.first(len(found.motion.times))
     return replace(answer, executed=executed, motion=found.motion, usages=found.usages)
-
-
-def _missed(found: Figures) -> str:
-    """Return what is missed at the true states; nothing when every check passes."""
-    failed = [check for check in found.checks if not check.passed]
-    if not failed:
-        return ""
-    told = [*found.missed, *(_of_state(check) for check in failed if "stability" in check.name)]
-    told = told or [f"{check.name}, by {check.error:.3g}" for check in failed]
-    return f"at the true equilibrium limits are missed: {'; '.join(told)}"
-
-
-def _of_state(check: Check) -> str:
-    return f"{check.name}: the equilibrium gives way, its least stiffness is {-check.error:.3g} N/m"

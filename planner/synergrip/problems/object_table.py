@@ -18,9 +18,12 @@ from synergrip.documents.fields import (
     unit_schema,
     with_unit,
 )
-from synergrip.errors import Issue
+from synergrip.errors import InputError, Issue
 from synergrip.grasps.shapes.shape import Shape, Size
 from synergrip.grasps.shapes.shapes import SHAPES
+
+AUTO = "auto"
+"""Position that is still to be found."""
 
 
 def _lengths(size: Size) -> Any:
@@ -82,6 +85,14 @@ class OrientationTable(Table):
     angle: Angle = Field(description="angle of the turn about it")
 
 
+def _position(value: object) -> tuple[float, ...] | str:
+    if isinstance(value, str) and value == AUTO:
+        return AUTO
+    if isinstance(value, str):
+        raise InputError.at("", f'expected "{AUTO}" or a list of 3 lengths such as ["0 mm", "0 mm", "80 mm"]')
+    return listed(with_unit("length"), value, 3, "lengths")
+
+
 class ObjectTable(Table):
     """The grasped object."""
 
@@ -89,9 +100,13 @@ class ObjectTable(Table):
     shape: ShapeTable | None = Field(default=None, description=f"exactly one of {', '.join(SHAPES)}")
     mass: Mass | None = Field(default=None, description="mass; needed for gravity")
     position: Annotated[
-        tuple[float, ...] | None,
-        Written(lambda v: listed(with_unit("length"), v, 3, "lengths"), array_of(unit_schema("length"), 3)),
-    ] = Field(default=None, description="centre of the object in the palm frame")
+        tuple[float, ...] | str | None,
+        Written(_position, {"anyOf": [{"const": AUTO}, array_of(unit_schema("length"), 3)]}),
+    ] = Field(
+        default=None,
+        description='centre of the object in the palm frame, or "auto": where the hand that closes touches with all '
+        "contacts and the largest slip margin is best",
+    )
     orientation: OrientationTable | None = Field(
         default=None, description="how the shape is turned from the axes of the palm; not at all when absent"
     )

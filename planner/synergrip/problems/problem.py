@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os.path import exists, isdir, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
-from synergrip.documents.documents import Document, parse, read_document
+from synergrip.documents.documents import Document, read_document
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
-from synergrip.errors import InputError, Issue, RigidContactError, SynergripError, one_of
-from synergrip.files import bundled
+from synergrip.errors import InputError, Issue, RigidContactError, SynergripError
 from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
@@ -24,9 +22,11 @@ from synergrip.grasps.objects import Object
 from synergrip.linalg import frozen
 from synergrip.problems.contact_factors import with_factors
 from synergrip.problems.doubts import doubts_of, spot_notes
+from synergrip.problems.finding import find_problem
 from synergrip.problems.limits_table import limits_of
 from synergrip.problems.loads import Keys, stated_at, task_of
-from synergrip.problems.problem_file import ProblemFile, read_problem_file
+from synergrip.problems.problem_file import ProblemFile, parsed, read_problem_file
+from synergrip.problems.problem_table import problem_html
 from synergrip.problems.problem_values import document_of
 from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
@@ -81,27 +81,9 @@ class Problem(Value):
         document = self.document
         return Source(self.name, document.text or document.data, tuple(each.text for each in document.overrides))
 
-
-def bundled_problems() -> tuple[str, ...]:
-    """Return the names of the problems that ship with the package."""
-    return tuple(sorted(path.stem for path in bundled("problems").glob("*.toml")))
-
-
-def find_problem(name_or_path: str) -> Path:
-    """Return the file of a problem.
-
-    Raises:
-        InputError: there is neither such a file nor a bundled problem of that name.
-    """
-    path = Path(name_or_path)
-    if path.suffix or (exists(path) and not isdir(path)):  # pipes and devices are refused as what they are
-        return path
-    inside = bundled("problems") / f"{name_or_path}.toml"
-    if not isfile(inside):
-        raise InputError.at(
-            "PROBLEM", f"no such file, and no such bundled problem: {one_of(name_or_path, bundled_problems())}"
-        )
-    return inside
+    def _repr_html_(self) -> str:
+        """Return a table for notebooks: grasp, contacts, task and limits."""
+        return problem_html(self)
 
 
 @naming_arguments
@@ -125,7 +107,7 @@ def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Seque
         raise InputError.at("overrides", f'expected texts such as "limits.margin=0.3 N", got {shown(overrides)}')
     if isinstance(problem, Mapping):
         document = document_of(problem).with_overrides(texts)
-        return _problem(document.data.get("title") or "problem", document.path, parse(document, ProblemFile), document)
+        return _problem(document.data.get("title") or "problem", document.path, parsed(document), document)
     if not isinstance(problem, str | Path):
         raise InputError.at("problem", f"expected a name, a path or a dict, got {shown(problem)}")
     path = find_problem(str(problem))
@@ -182,7 +164,7 @@ def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
         document = read_document(path, "problem file", numbers=True)
         if {"G", "J", "S"} & document.data.keys():
             bare = Document(path, {"schema": 1, "grasp": {"file": path.name}}).with_overrides(overrides)
-            return parse(bare, ProblemFile), bare
+            return parsed(bare), bare
     return read_problem_file(path, overrides)
 
 

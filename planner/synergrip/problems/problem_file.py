@@ -13,6 +13,7 @@ from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.matrices import MOST_CONTACTS
+from synergrip.hands.folder import find_hand
 from synergrip.problems.allow_table import AllowTable
 from synergrip.problems.contact_list import contact_list
 from synergrip.problems.contact_tables import ContactEntry, ContactsTable
@@ -90,7 +91,28 @@ def read_problem_file(path: Path, overrides: Sequence[str] = ()) -> tuple[Proble
         InputError: all the issues of the file, each with its place.
     """
     document = read_document(path, "problem file").with_overrides(overrides)
-    return parse(document, ProblemFile), document
+    return parsed(document), document
+
+
+def parsed(document: Document) -> ProblemFile:
+    """Return the checked values of a document; where some are wrong, a hand that there is not is told with them.
+
+    Raises:
+        InputError: all the issues of the file, each with its place.
+    """
+    try:
+        return parse(document, ProblemFile)
+    except InputError as error:
+        hand = document.data.get("hand")
+        model = hand.get("model") if isinstance(hand, dict) else None
+        if not (isinstance(model, str) and model):
+            raise
+        try:
+            find_hand(model, document.path.parent, "hand.model")
+        except InputError as unknown:
+            found = [*error.issues, *(document.locate(issue) for issue in unknown.issues)]
+            raise InputError(sorted(found, key=lambda issue: (issue.file, issue.line, issue.column))) from None
+        raise
 
 
 def problem_schema() -> dict[str, Any]:

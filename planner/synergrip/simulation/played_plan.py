@@ -130,7 +130,7 @@ def _played(plan: Told, told: Told, folder: Path, whole: bool | None) -> PlayedP
     if not np.all(np.diff(times) > 0):
         raise InputError.at("time_s", "times must increase")
     body = told.inside("object")
-    pads = tuple(_pad(contact, body.array("position_m", (3,))) for contact in told.several("contacts"))
+    pads = tuple(pad_of(contact, body.array("position_m", (3,))) for contact in told.several("contacts"))
     rows = np.cumsum([0, *(pad.contact.n_rows for pad in pads)])
     lambda_0 = told.array("lambda_0", (int(rows[-1]),))
     mass, shape = body.get("mass_kg"), body.get("shape")
@@ -184,7 +184,8 @@ def _shape(shape: Any, told: Told) -> Mapping[str, Any]:
     return {name: sizes_of(name, told.inside("object").inside("shape").inside(name))}
 
 
-def _pad(told: Told, origin: Array) -> Pad:
+def pad_of(told: Told, origin: Array) -> Pad:
+    """Return the contact that a table of `execution.contacts` tells, its point from the origin (3,) of the object."""
     kind = contact_kind(told.text("kind"), f"{told.key}.kind")
     parameters, given = told.inside("parameters"), {each.name: each.key for each in kind.parameters}
     contact = Contact(

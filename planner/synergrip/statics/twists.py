@@ -10,6 +10,11 @@ from synergrip.documents.quantities import in_mm
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
 
+MINOR = 0.4
+"""Share of a motion that a shift or a turn in it has at least to be told of."""
+NEAR = 0.99
+"""Cosine of the angle up to which a direction is that of an axis: 8 deg."""
+
 
 def describe_twist(twist: Array, contacts: Sequence[Contact], length: float) -> str:
     """Return words for a twist (6,) about B, for example ``rotation about the line through C1 and C2``.
@@ -35,6 +40,21 @@ def describe_twist(twist: Array, contacts: Sequence[Contact], length: float) -> 
     return turn if abs(pitch) < 1e-6 * length else f"{turn}, advancing {in_mm(pitch)} per radian"
 
 
+def describe_kind(twist: Array, length: float) -> str:
+    """Return what kind of motion a twist (6,) about B is, to about a tenth: ``a shift along z of the palm``.
+
+    Args:
+        twist: v [m] and omega [rad], axes of the palm; its size does not matter.
+        length: characteristic length [m], by which a turn is a length.
+    """
+    shift, turn = np.asarray(twist[:3]), length * np.asarray(twist[3:])
+    size = float(np.hypot(np.linalg.norm(shift), np.linalg.norm(turn)))
+    parts = (("a shift along", shift), ("a turn about", turn))
+    told = [f"{what} {_about(part)}" for what, part in parts if np.linalg.norm(part) > MINOR * size]
+    axes = "of the palm" if told[-1][-1] in "xyz" else "in axes of the palm"
+    return f"{' with '.join(told)} {axes}"
+
+
 def describe_displacement(twist: Array, length: float) -> str:
     """Return a small displacement (6,) in parts: ``(0, 0, 10) mm and (5, 0, 0) deg``; zero parts are left out."""
     v, omega = 1e3 * np.asarray(twist[:3]), np.degrees(twist[3:])
@@ -50,6 +70,15 @@ def describe_displacement(twist: Array, length: float) -> str:
 def _numbers(values: Array, size: float) -> str:
     """Return the numbers to four digits of `size`, so that rounding noise reads as 0."""
     return ", ".join(f"{round(x / size, 6) * size + 0.0:.4g}" for x in values)
+
+
+def _about(vector: Array) -> str:
+    """Return about which way a vector points: an axis that it is near to, or its components, of either sign."""
+    unit = vector / np.linalg.norm(vector)
+    largest = int(np.argmax(np.abs(unit)))
+    if abs(unit[largest]) > NEAR:
+        return "xyz"[largest]
+    return "({})".format(", ".join(f"{round(x, 2) + 0.0:g}" for x in unit * np.sign(unit[largest])))
 
 
 def _direction(vector: Array) -> str:

@@ -65,6 +65,22 @@ def target_displacement(analysis: Analysis, task: TimedTask, values: Array) -> A
     return frozen(np.where([axis in task.axes for axis in AXES], whole, 0.0))
 
 
+def off_target(analysis: Analysis, task: TimedTask, du: Array) -> Array:
+    """Return how far the object is from where it is wanted, (K, 6): shift and rotation vector [m, rad].
+
+    Args:
+        analysis: of the grasp.
+        task: what is wanted, on axes beside which nothing counts.
+        du: (K, 6) displacement from the start at the first K knots: translation and rotation vector.
+    """
+    from scipy.spatial.transform import Rotation
+
+    wanted = np.array(target_displacement(analysis, task, task.target.values)[: len(du)])
+    turn = Rotation.from_rotvec(np.array(du[:, 3:])) * Rotation.from_rotvec(wanted[:, 3:]).inv()
+    whole = np.hstack([du[:, :3] - wanted[:, :3], turn.as_rotvec()])
+    return frozen(np.where([axis in task.axes for axis in AXES], whole, 0.0))
+
+
 def wish_size(analysis: Analysis, task: TimedTask) -> float:
     """Return how far a task wants the object away from where it starts, at most [m, rotations times length]."""
     wish = target_displacement(analysis, task, task.target.values)

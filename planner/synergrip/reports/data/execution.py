@@ -51,7 +51,7 @@ def execution_document(answer: Outcome) -> dict[str, Any] | None:
     if held is None:
         return None
     forces = None if analysis is None else forces_at_start(analysis.response)
-    gravity, palm = _surroundings(answer.task, held.body.mass)
+    gravity, palm = surroundings(answer.task, held.body.mass)
     return {
         **_hand(held.hand), "q_0": held.q, "S": grasp.S, "C_q": grasp.C_q, "C_z": grasp.C_z,
         "lambda_0": forces, "tau_0": None if forces is None else forces @ grasp.J, "gravity_m_s2": gravity,
@@ -205,7 +205,7 @@ def _pushed(push: Pushing, lines: list[Line]) -> Array:
     return np.outer(np.where(off, 0.0, shares), push.wrench[:3])
 
 
-def _surroundings(task: TimedTask, mass: float) -> tuple[Array | None, PalmInWorld | None]:
+def surroundings(task: TimedTask, mass: float) -> tuple[Array | None, PalmInWorld | None]:
     """Return gravity [m/s^2] in the palm frame at the start, and how the palm moves; None for what is not stated."""
     gravity, palm = None, None
     for part in getattr(task.course, "load", ()):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from synergrip.hands.spots import spots_of
 from synergrip.problems.problem import Problem
+from synergrip.reports.data.json_spots import posture_document
 
 
 def in_order_document(problem: Problem) -> dict[str, Any]:
-    """Return what a problem in order holds; with a hand its posture, the object and the contacts, SI units.
+    """Return what a problem in order holds, SI units; with a hand its posture, pads, the object and the contacts.
 
     Points and normals are in the palm frame; a gap is null for an object without a shape.
     """
@@ -16,7 +18,7 @@ def in_order_document(problem: Problem) -> dict[str, Any]:
     held = problem.held
     if held is not None:
         body = held.body
-        document["posture"] = dict(zip(held.hand.joint_names, held.q.tolist(), strict=True))
+        document |= posture_document(held.hand, held.q, spots_of(held.hand, held.q))
         document["object"] = {"title": body.title, "mass_kg": body.mass, "position_m": body.position.tolist()}
         document["contacts"] = [
             {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from synergrip.documents.source import Source
 from synergrip.errors import InputError, OutputError, kind_of, one_of
@@ -15,6 +15,9 @@ from synergrip.planning.outcome import Outcome, Plan
 from synergrip.planning.provenance import Asked
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import csv_of, write_outcome
+
+if TYPE_CHECKING:
+    from synergrip.reports.data.viewer import Viewer
 
 T = TypeVar("T")
 
@@ -50,6 +53,22 @@ def draw(plan: Plan, path: str | Path, title: str) -> Path:
     picture_suffix(place, "path")
     written_at("path", place, lambda: draw_plan(plan, title or plan.grasp.title, place))
     return place
+
+
+def notebook(plan: Plan) -> str:
+    """Return a plan as a notebook shows it; see `Tabled`."""
+    from synergrip.reports.html.notebook import plan_html
+
+    return plan_html(plan)
+
+
+def viewer(outcome: Outcome, height: int) -> Viewer:
+    """Return the 3-D view of an answer; see `Answer.viewer`."""
+    from synergrip.reports.data.viewer import viewer_of
+    from synergrip.reports.view.planned import scene_of
+
+    document = outcome_document(outcome.grasp.title, outcome.grasp, outcome)
+    return viewer_of(scene_of(document), height)
 
 
 def _told(problem: Asked) -> tuple[str, Sequence[str], Source | None]:

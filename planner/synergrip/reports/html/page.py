@@ -9,20 +9,19 @@ from __future__ import annotations
 import gzip
 from base64 import b64encode
 from collections.abc import Mapping
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from synergrip.documents.quantities import read_as
-from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.lines import lines_of
 from synergrip.reports.html.tables import missing_of, tables_of, why_of
+from synergrip.reports.libraries import refuse_without
+from synergrip.reports.pictures.lines import lines_of
 
 LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""
@@ -48,12 +47,7 @@ def write_report(path: Path, document: Mapping[str, Any], csv: str = "", folder:
 
 def refuse_without_libraries() -> None:
     """Raise an `InputError` where a library that the report needs is not installed, before anything is planned."""
-    missing = [name for name in LIBRARIES if find_spec(name) is None]
-    if missing:
-        what = " and ".join(LIBRARIES[name] for name in missing)
-        have = "are" if len(missing) > 1 else "is"
-        message = f"the report needs {what}, which {have} not installed: pip install 'synergrip[view]'"
-        raise InputError.at("report", message)
+    refuse_without(LIBRARIES, "report")
 
 
 def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path()) -> str:
@@ -87,7 +81,7 @@ def _scene(document: Mapping[str, Any], folder: Path) -> tuple[str, str]:
     if "execution" not in document:
         return "", ""
     from synergrip.reports.view.drawn import page
-    from synergrip.reports.view.scene import scene_of
+    from synergrip.reports.view.planned import scene_of
 
     scene = scene_of(document, folder)
     told = "palm frame; arrows: forces of the hand on the object; cones: friction; squares of 10 mm"

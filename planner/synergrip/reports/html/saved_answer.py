@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os.path import exists, isfile  # unlike those of Path, no error for a name that is too long
 from pathlib import Path
 from typing import Any
 
@@ -31,3 +32,18 @@ def read_answer(file: Path) -> tuple[Mapping[str, Any], str]:
         raise InputError.at(KEY, f"{message} judge what is in it with `synergrip check`")
     table = file.with_suffix(".csv")
     return data, table.read_text(encoding="utf-8") if table.is_file() else ""
+
+
+def saved_file(path: Path, key: str = KEY) -> Path | None:
+    """Return the file of a saved answer, None for anything else, such as a problem.
+
+    Args:
+        path: of the answer, or of its folder.
+        key: where it stands, for errors of a file that cannot be read.
+    """
+    inside = path / "plan.json"
+    if isfile(inside):
+        return inside
+    if path.suffix != ".json" or not exists(path):
+        return None
+    return path if "verdict" in read_document(path, "problem or plan", key, numbers=True).data else None

@@ -3,49 +3,81 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
-from synergrip.margin.found import Margins
 from synergrip.margin.measures import ALIKE
 from synergrip.reports.pictures.contact_colors import contact_colors
-from synergrip.reports.pictures.layout import LETTERS, MARGIN
+from synergrip.reports.pictures.layout import LETTERS, MARGIN, size_that_fits
 from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.strips import WIDTH, Strip
 
-ACROSS, GAP, LARGEST = 5, 0.2, 2.0
-"""Cross-sections in a row at most, the room between them, and how large one gets [inch]."""
+ACROSS, GAP, SMALLEST, LARGEST = 5, 0.2, 0.95, 2.0
+"""Cross-sections in a row at most, the room between them, and how small and large one gets [inch]."""
 CAPTION, NAME, UNDER = 0.4, 8.0, 7.0
 """Room above a cross-section [inch], and sizes of the letters there [points]."""
 OUTSIDE = 1.2
 """How far outside its cone a force is drawn at most."""
 
 
-def cone_sections(found: Margins) -> Strip:
+@dataclass(frozen=True, eq=False)
+class Cones:
+    """What the cross-sections of the friction cones are drawn from."""
+
+    contacts: Sequence[Contact]
+    forces: Sequence[Array]
+    """(T, rows) of each contact [N, N m]."""
+    margins: Array  # (T, n_c) slip margins [N]
+    times: Array  # (T,) [s]
+
+
+def cone_strip(cones: Cones) -> Strip:
     """Return the friction that each contact uses, in which direction, as a share of what it has."""
-    slip, pairs = (
-        found.measures["slip margin"],
-        list(zip(found.plan.grasp.contacts, found.plan.grasp.rows, strict=True)),
-    )
-    across = min(ACROSS, len(pairs))
-    side = min((WIDTH - 2 * MARGIN + GAP) / across - GAP, LARGEST)
-    colors = contact_colors(slip.items)
-
-    def draw(sheet: Sheet, top: float) -> None:
-        for index, (contact, rows) in enumerate(pairs):
-            row, column = divmod(index, across)
-            left, above = MARGIN + column * (side + GAP), top + 0.1 + row * (side + CAPTION + GAP)
-            worst = first_worst(slip.value[:, index])
-            sheet.write(left, above + 0.15, _short(contact.name, side), NAME, colors[contact.name], bold=True)
-            told = f"least {slip.value[worst, index]:.3g} N, t = {slip.times[worst]:.3g} s"
-            sheet.write(left, above + 0.3, told, UNDER, GREY)
-            panel = sheet.panel(left, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
-            _section(panel, contact, found.plan.forces[:, rows], worst, colors[contact.name])
-
+    width = WIDTH - 2 * MARGIN
     title = "Force of each contact inside its friction cone (on the circle it slips); dot: where the margin is least"
-    return Strip(title, 0.1 + math.ceil(len(pairs) / across) * (side + CAPTION + GAP), draw)
+    return Strip(
+        title, 0.1 + cones_height(cones, width), lambda sheet, top: draw_cones(sheet, cones, MARGIN, top + 0.1, width)
+    )
+
+
+def cones_height(cones: Cones, width: float) -> float:
+    """Return the height of the cross-sections in a width [inch]."""
+    across, side = _grid(cones, width)
+    return math.ceil(len(cones.contacts) / across) * (side + CAPTION + GAP)
+
+
+def draw_cones(sheet: Sheet, cones: Cones, left: float, top: float, width: float) -> None:
+    """Draw the cross-sections in a width, from the left and the top on [inch]."""
+    across, side = _grid(cones, width)
+    colors = contact_colors([contact.name for contact in cones.contacts])
+    told = [_told(cones, index) for index in range(len(cones.contacts))]
+    size = min(size_that_fits(each, side, UNDER) for each in told)
+    for index, (contact, forces) in enumerate(zip(cones.contacts, cones.forces, strict=True)):
+        row, column = divmod(index, across)
+        begin, above = left + column * (side + GAP), top + row * (side + CAPTION + GAP)
+        sheet.write(begin, above + 0.15, _short(contact.name, side), NAME, colors[contact.name], bold=True)
+        sheet.write(begin, above + 0.3, told[index], size, GREY)
+        panel = sheet.panel(begin, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
+        _section(panel, contact, forces, first_worst(cones.margins[:, index]), colors[contact.name])
+
+
+def _told(cones: Cones, index: int) -> str:
+    """Return the least slip margin of a contact, and when it has it."""
+    worst = first_worst(cones.margins[:, index])
+    when = f", t = {cones.times[worst]:.3g} s" if len(cones.times) > 1 else ""
+    return f"least {cones.margins[worst, index]:.3g} N{when}"
+
+
+def _grid(cones: Cones, width: float) -> tuple[int, float]:
+    """Return how many cross-sections are beside each other in a width, and how large each is [inch]."""
+    most = max(1, min(ACROSS, int((width + GAP) / (SMALLEST + GAP))))
+    rows = math.ceil(len(cones.contacts) / most)
+    across = math.ceil(len(cones.contacts) / rows)
+    return across, min((width + GAP) / across - GAP, LARGEST)
 
 
 def first_worst(values: Array) -> int:
@@ -89,5 +121,5 @@ def _section(panel: Panel, contact: Contact, forces: Array, worst: int, color: s
         return
     panel.strokes([used], color, 1.6, near=4)
     panel.dots(used[worst][None], color, 7.0, near=5, edge=0.8)
-    panel.note(np.array([1.2, -0.12]), "t")
-    panel.note(np.array([-0.12, 1.17]), "o")
+    panel.note(np.array([1.17, -0.13]), "t")
+    panel.note(np.array([-0.13, 1.17]), "o")

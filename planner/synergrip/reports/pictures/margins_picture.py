@@ -11,13 +11,14 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.margin.disturbance.withstood_in_planes import withstood_in_planes
 from synergrip.margin.found import Margins
-from synergrip.margin.measures import Measure
 from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
 from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.planning.outcome import Plan
-from synergrip.reports.pictures.cone_sections import cone_sections
+from synergrip.reports.pictures.cone_sections import Cones, cone_strip
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.layout import MARGIN
+from synergrip.reports.pictures.line_chart import HEAD, Box, draw_chart, head_of
+from synergrip.reports.pictures.lines import Lines
 from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.strips import LEFT, WIDTH, Strip, plain, write_strips
 from synergrip.reports.text.text_sensitivities import change_of
@@ -51,7 +52,7 @@ def draw_margins(found: Margins, title: str, path: Path) -> None:
 
 def _strips(found: Margins) -> Iterator[Strip]:
     yield _over_time(found)
-    yield cone_sections(found)
+    yield _cones(found)
     if found.disturbance is not None:
         yield _withstood(found.plan, found.disturbance.of)
     if found.sensitivities is not None and (bars := _bars(found.sensitivities)):
@@ -65,28 +66,28 @@ def _over_time(found: Margins) -> Strip:
     slip, asked = found.measures["slip margin"], found.plan.task.margin
     linear = None if found.linear is None else found.linear["slip margin"]
     beside = "; thin: the linear model of the start posture" if linear is not None else ""
+    lines = Lines("slip margin", "N", tuple(slip.items), slip.value, (asked,), of_contacts=True)
+    width = WIDTH - LEFT - MARGIN
+    above = head_of(lines, slip.times, width) - HEAD + 0.1
 
     def draw(sheet: Sheet, top: float) -> None:
-        axes = sheet.chart(LEFT, top + ABOVE, WIDTH - LEFT - MARGIN, HIGH)
-        _lines(axes, slip, linear)
-        axes.axhline(asked, color=INK, lw=1.0, ls=(0, (4, 3)), zorder=1)
-        low, high = min(0.0, asked, float(slip.value.min())), axes.get_ylim()[1]
-        axes.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
-        plain(axes, "time [s]", "slip margin [N]")
-        _legend(axes)
+        axes = draw_chart(sheet, Box(LEFT, top + above, width, HIGH), slip.times, lines, label=False)
+        if len(slip.times) == 1:
+            axes.set_xlabel("slip margin [N]", fontsize=8)
+            return
+        if linear is not None:
+            for index, color in enumerate(contact_colors(slip.items).values()):
+                axes.plot(linear.times, linear.value[:, index], color=color, lw=0.7, alpha=0.8, zorder=2)
+        axes.set_ylabel("slip margin [N]", fontsize=8)
 
     title = f"Slip margin of each contact; dashed: {asked:.4g} N, which is asked for{beside}"
-    return Strip(title, ABOVE + HIGH + BELOW, draw)
+    return Strip(title, above + HIGH + BELOW, draw)
 
 
-def _lines(axes: Any, slip: Measure, linear: Measure | None) -> None:
-    colors, marker = contact_colors(slip.items), "o" if len(slip.times) == 1 else None
-    for index, name in enumerate(slip.items):
-        width = min(1.4 + 0.6 * (len(slip.items) - 1 - index), 4.0)  # of lines on each other all are seen
-        axes.plot(slip.times, slip.value[:, index], color=colors[name], lw=width, marker=marker, label=name, zorder=3)
-        if linear is not None:
-            axes.plot(linear.times, linear.value[:, index], color=colors[name], lw=0.7, alpha=0.7, zorder=2)
-    axes.margins(x=0.0 if len(slip.times) > 1 else 0.1)
+def _cones(found: Margins) -> Strip:
+    plan, slip = found.plan, found.measures["slip margin"]
+    forces = [plan.forces[:, rows] for rows in plan.grasp.rows]
+    return cone_strip(Cones(plan.grasp.contacts, forces, slip.value, slip.times))
 
 
 def _legend(axes: Any) -> None:

@@ -12,11 +12,16 @@ from synergrip.explain.synergies.needed_points import NeededPoint
 from synergrip.explain.synergies.subset_values import GOALS
 from synergrip.explain.synergies.synergies_needed import SynergiesNeeded
 from synergrip.linalg import Array
+from synergrip.reports.pictures.key import SIZE as KEY
 from synergrip.reports.pictures.layout import MARGIN
+from synergrip.reports.pictures.line_chart import LABEL, OTHERS, TICKS
 from synergrip.reports.pictures.page import SPACE, Heading
-from synergrip.reports.pictures.sheet import BLUE, GREY, VERMILION, Sheet, write_picture
+from synergrip.reports.pictures.paper import Paper
+from synergrip.reports.pictures.sheet import GREY, USUAL, Sheet, write_picture
 
-WIDTH, HEIGHT, LABELS, BETWEEN = 9.0, 2.3, 0.8, 0.75  # [inch]
+WIDTH, HEIGHT, LOWEST, LABELS, BETWEEN = 9.0, 2.0, 0.7, 0.7, 0.6  # [inch]
+WIDTH_MM = 180.0
+"""Usual width in a paper."""
 PARTS = (
     ("largest_margin", "largest slip margin [N]", 1.0),
     ("peak", "least peak force [N]", 1.0),
@@ -26,13 +31,17 @@ PARTS = (
 """Figure, what it is called, and the factor to its unit."""
 
 
-def draw_needed(needed: SynergiesNeeded, path: Path, title: str) -> None:
+def draw_needed(needed: SynergiesNeeded, path: Path, title: str, paper: Paper | None = None) -> str:
     """Draw margin, peak force, effort and tracking error over the number of synergies.
 
     Args:
         needed: the curves.
         path: ends in .svg, .png or .pdf.
         title: heading of the picture.
+        paper: of a picture for a paper, with a title of its own.
+
+    Returns:
+        What is to be said below it in a paper.
 
     Raises:
         InputError: a suffix that says no format.
@@ -40,41 +49,47 @@ def draw_needed(needed: SynergiesNeeded, path: Path, title: str) -> None:
     """
     named = f"{needed.set}, " if needed.set else ""
     model = {"start": "linear model of the start posture", "along": "the hand that moves"}[needed.model]
-    heading = Heading.of(
-        title, f"{named}{len(needed.synergies)} synergies; best by {GOALS[needed.by].name}; {model}", WIDTH
-    )
-    top = heading.height + SPACE + 0.1
-    width = (WIDTH - 2 * LABELS - 2 * MARGIN + 0.3) / 2
+    under = f"{named}{len(needed.synergies)} synergies; best by {GOALS[needed.by].name}; {model}"
+    width = WIDTH if paper is None else paper.wide(WIDTH_MM)
+    heading = Heading.of(title, under, width) if paper is None else Heading.of(paper.title, "", width)
+    top = heading.height + SPACE + 0.1 if heading.lines else SPACE
+    usual = top + 2 * (HEIGHT + BETWEEN)
+    high = usual if paper is None else paper.high(usual, top + 2 * (LOWEST + BETWEEN))
+    each = (width - 2 * LABELS - 2 * MARGIN + 0.3) / 2
 
     def draw(sheet: Sheet) -> None:
         heading.write(sheet)
         for index, (name, label, factor) in enumerate(PARTS):
             row, column = divmod(index, 2)
-            left = LABELS + column * (width + LABELS)
-            axes = sheet.chart(left, top + row * (HEIGHT + BETWEEN), width, HEIGHT)
-            _curves(axes, needed, name, factor)
-            axes.set_ylabel(label)
-            axes.set_xlabel("synergies")
+            left, tall = LABELS + column * (each + LABELS), (high - top) / 2 - BETWEEN
+            axes = sheet.chart(left, top + row * (tall + BETWEEN), each, tall)
+            _curves(axes, needed, name, factor, sheet.scale)
+            axes.tick_params(labelsize=TICKS * sheet.scale)
+            axes.set_ylabel(label, fontsize=LABEL * sheet.scale)
+            axes.set_xlabel("synergies", fontsize=LABEL * sheet.scale)
             if index < 2:  # the second has crosses, too
-                axes.legend(frameon=False, loc="lower right", fontsize=9, ncols=1 + index)
+                axes.legend(loc="lower right", fontsize=KEY * sheet.scale, ncols=1 + index, facecolor="white",
+                            edgecolor="none", framealpha=0.9)  # fmt: skip
 
-    write_picture(path, WIDTH, top + 2 * (HEIGHT + BETWEEN), draw)
+    write_picture(path, width, high, draw, USUAL if paper is None else paper.letters)
+    return f"{title}: {under}. Crosses: no plan."
 
 
-def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float) -> None:
+def _curves(axes: Any, needed: SynergiesNeeded, name: str, factor: float, scale: float) -> None:
     """Draw one figure over the number of synergies; a cross where there is no plan."""
     count = max(len(needed.first), len(needed.best), 1)
     for points, color, label, marker, height in (
-        (needed.first, BLUE, "first k", "o", 0.10), (needed.best, VERMILION, "best k", "D", 0.04),
+        (needed.first, OTHERS[0], "first k", "o", 0.10), (needed.best, OTHERS[1], "best k", "D", 0.04),
     ):  # fmt: skip
         numbers = np.arange(1, len(points) + 1)
-        axes.plot(numbers, _values(points, name, factor), color=color, marker=marker, ms=4.5, lw=1.6, label=label)
+        axes.plot(numbers, _values(points, name, factor), color=color, marker=marker, ms=4.5 * scale, lw=1.6 * scale,
+                  label=label)  # fmt: skip
         lacking = [number for number, point in zip(numbers, points, strict=True) if point.verdict != "feasible"]
         if name != "largest_margin":
-            axes.plot(lacking, np.full(len(lacking), height), ls="none", marker="x", ms=5, color=color, clip_on=False,
-                      label="no plan", transform=axes.get_xaxis_transform())  # fmt: skip
+            axes.plot(lacking, np.full(len(lacking), height), ls="none", marker="x", ms=5 * scale, color=color,
+                      clip_on=False, label="no plan", transform=axes.get_xaxis_transform())  # fmt: skip
     if name == "largest_margin":
-        axes.axhline(0.0, color=GREY, lw=0.8)
+        axes.axhline(0.0, color=GREY, lw=0.8 * scale)
     else:
         axes.set_ylim(0.0, 1.06 * axes.get_ylim()[1])
     axes.set_xlim(0.5, count + 0.5)

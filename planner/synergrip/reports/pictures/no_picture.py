@@ -6,7 +6,8 @@ from pathlib import Path
 
 from synergrip.explain.compromise import Compromise
 from synergrip.explain.explanation import Explanation
-from synergrip.reports.pictures.courses import Chart, usage_chart
+from synergrip.planning.told import series_document
+from synergrip.reports.pictures.lines import Lines, limit_lines
 from synergrip.reports.pictures.plan_picture import draw_charts
 
 
@@ -23,7 +24,8 @@ def draw_no(known: Explanation, least: Compromise, title: str, path: Path) -> No
         InputError: a suffix that says no format.
         OSError: the file cannot be written.
     """
-    parts = [Chart("missing, share of each limit or of the load", "", ("missing",), least.missing[:, None], (0.0,))]
+    parts = [Lines("missing, share of each limit or of the load", "", ("missing",), least.missing[:, None], (0.0,))]
     missed = [usage for usage in least.usages if float((usage.excess / usage.size).max()) > 0]
-    parts += [usage_chart(usage) for usage in missed]
+    contacts = least.usages[0].items  # of the friction cones
+    parts += [limit_lines(series_document(usage), contacts) for usage in missed]
     draw_charts(parts, least.times, f"{title}: no plan", known.text, path)

@@ -8,7 +8,7 @@ from itertools import chain
 from pathlib import Path
 
 from synergrip.reports.pictures.layout import MARGIN, Columns, fitted
-from synergrip.reports.pictures.sheet import GREY, INK, Sheet, write_picture
+from synergrip.reports.pictures.sheet import GREY, INK, USUAL, Letters, Sheet, write_picture
 
 HEADING, UNDER, NOTE = 13.0, 10.0, 9.0
 """Sizes of the letters [points]."""
@@ -46,6 +46,15 @@ class Heading:
 
 
 @dataclass(frozen=True)
+class Foot:
+    """What stands below the panels, over the whole width."""
+
+    height: float  # [inch]
+    draw: Callable[[Sheet, float], None]
+    """Draws it below so much from the top [inch]."""
+
+
+@dataclass(frozen=True)
 class Page:
     """What stands around the panels."""
 
@@ -55,6 +64,9 @@ class Page:
     block: float
     """Height of a block of panels [inch]."""
     notes: tuple[str, ...]
+    foot: Foot | None = None
+    """What stands between the panels and the notes."""
+    letters: Letters = USUAL
 
     def write(self, path: Path, draw: Callable[[Sheet, int, float, float], None]) -> None:
         """Write the picture; `draw` draws the column of an index at so much from the left and from the top [inch].
@@ -66,15 +78,18 @@ class Page:
         room = self.columns.width - 2 * MARGIN
         heading = Heading.of(self.title, self.subtitle, self.columns.width)
         notes = list(chain.from_iterable(fitted(note, room, NOTE) for note in self.notes))
-        head = heading.height
-        height = head + SPACE + self.columns.blocks * (self.block + SPACE) + LINE * NOTE * len(notes) + SPACE
+        head, foot = heading.height, self.foot.height if self.foot else 0.0
+        below = head + SPACE + self.columns.blocks * (self.block + SPACE)
+        height = below + foot + LINE * NOTE * len(notes) + SPACE
 
         def fill(sheet: Sheet) -> None:
             heading.write(sheet)
             for index in range(self.columns.count):
                 row, left = self.columns.place(index)
                 draw(sheet, index, left, head + SPACE + row * (self.block + SPACE))
+            if self.foot:
+                self.foot.draw(sheet, below)
             for number, line in enumerate(reversed(notes)):
                 sheet.write(MARGIN, height - SPACE - LINE * NOTE * number, line, NOTE, GREY)
 
-        write_picture(path, self.columns.width, height, fill)
+        write_picture(path, self.columns.width, height, fill, self.letters)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.objects import Object
 from synergrip.linalg import Array
+from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.forces import ContactForces
-from synergrip.reports.pictures.sheet import FAINT, GREEN, GREY, INK, VERMILION, Panel
+from synergrip.reports.pictures.free_places import free_places
+from synergrip.reports.pictures.sheet import FAINT, GREY, Panel
 from synergrip.reports.pictures.solids import around, outline
 from synergrip.reports.pictures.view import View
 
@@ -31,13 +34,29 @@ def draw_object(panel: Panel, view: View, body: Object, at: Array, contacts: Seq
     edge = outline(body.shape, view) + middle
     panel.area(edge, FAINT, 0.45, near)
     panel.strokes([edge], GREY, 0.9, near)
-    panel.strokes([view.flat(line) + middle for line in body.shape.lines()], GREY, 0.4, near)
+    for line in body.shape.lines():
+        for piece, in_front in front_and_back(line, view):
+            panel.strokes([view.flat(piece) + middle], GREY, 0.6 if in_front else 0.25, near, dashed=not in_front)
+
+
+def front_and_back(line: Array, view: View) -> Iterator[tuple[Array, bool]]:
+    """Yield the pieces of a line (n, 3) on a convex solid about the origin, and whether each is on the near side."""
+    near = view.depth((line[:-1] + line[1:]) / 2) >= 0
+    cuts = [0, *(np.flatnonzero(near[1:] != near[:-1]) + 1), len(near)]
+    for first, last in pairwise(cuts):
+        yield line[first : last + 1], bool(near[first])
 
 
 def draw_forces(
-    panel: Panel, view: View, contacts: Sequence[Contact], forces: ContactForces, length: float, longest: float
+    panel: Panel,
+    view: View,
+    contacts: Sequence[Contact],
+    forces: ContactForces,
+    length: float,
+    longest: float,
+    off: float,
 ) -> None:
-    """Draw contact points, normals and forces.
+    """Draw contact points with their numbers, normals and forces, each contact in its colour.
 
     Args:
         panel: where.
@@ -46,24 +65,24 @@ def draw_forces(
         forces: on the object.
         length: of a normal [m].
         longest: length of the longest arrow [m].
+        off: how far from its contact a number stands [m].
     """
-    points = forces.points
-    normals = [np.array([c.point, c.point + length * c.frame[:, 0]]) for c in contacts]
-    panel.strokes([view.flat(line) for line in normals], GREY, 0.8, 8.0, dashed=True)
-    panel.dots(view.flat(points), INK, 5.5, 9.0, edge=0.6)
-    panel.arrows(view.flat(points), view.flat(arrows(forces, longest)), VERMILION)
-    for arc in spin_arcs(contacts, forces, 0.35 * length):
+    colors = list(contact_colors([contact.name for contact in contacts]).values())
+    points, vectors = view.flat(forces.points), view.flat(arrows(forces, longest))
+    normals = [view.flat(np.array([c.point, c.point + length * c.frame[:, 0]])) for c in contacts]
+    panel.strokes(normals, GREY, 0.8, 8.0, dashed=True)
+    panel.arrows(points, vectors, colors)
+    for point, color in zip(points, colors, strict=True):
+        panel.dots(point[None], color, 6.0, 11.0, edge=0.7)
+    drawn = [*normals, *(np.array([point, point + vector]) for point, vector in zip(points, vectors, strict=True))]
+    for index, arc in spin_arcs(contacts, forces, 0.35 * length):
         flat = view.flat(arc)
-        panel.strokes([flat], GREEN, 1.6, 10.0)
-        panel.area(_head(flat, 0.15 * length), GREEN, 1.0, 10.0)
-
-
-def draw_numbers(panel: Panel, view: View, contacts: Sequence[Contact], length: float) -> None:
-    """Write the number of each contact beside it, `length` [m] out of the object."""
-    for number, contact in enumerate(contacts, start=1):
-        away = -view.flat(contact.frame[:, 0])
-        away = away / max(float(np.linalg.norm(away)), 1e-12) * length
-        panel.note(view.flat(contact.point) + away, str(number))
+        panel.strokes([flat], colors[index], 1.6, 10.0)
+        panel.area(_head(flat, 0.15 * length), colors[index], 1.0, 10.0)
+        drawn.append(flat)
+    outward = -view.flat(np.array([contact.frame[:, 0] for contact in contacts]))
+    for number, place in enumerate(free_places(points, outward, drawn, off), start=1):
+        panel.note(place, str(number), colors[number - 1], bold=True)
 
 
 def arrows(forces: ContactForces, longest: float) -> Array:
@@ -72,14 +91,14 @@ def arrows(forces: ContactForces, longest: float) -> Array:
     return forces.forces * (longest / largest) if largest > 0 else np.zeros_like(forces.forces)
 
 
-def spin_arcs(contacts: Sequence[Contact], forces: ContactForces, radius: float) -> list[Array]:
-    """Return an arc (n, 3) [m] about the normal of each contact with a spin moment, as long as the moment is large."""
+def spin_arcs(contacts: Sequence[Contact], forces: ContactForces, radius: float) -> list[tuple[int, Array]]:
+    """Return which contacts have a spin moment, with an arc (n, 3) [m] about the normal as long as this is large."""
     arcs = []
-    for contact, spin in zip(contacts, forces.spins, strict=True):
+    for index, (contact, spin) in enumerate(zip(contacts, forces.spins, strict=True)):
         if abs(spin) > 0.02 * forces.largest_spin:
             angles = np.linspace(0.0, MOST_TURN * spin / forces.largest_spin, 40)
             circle = np.column_stack([np.cos(angles), np.sin(angles)]) @ contact.frame[:, 1:].T
-            arcs.append(contact.point + radius * circle)
+            arcs.append((index, contact.point + radius * circle))
     return arcs
 
 

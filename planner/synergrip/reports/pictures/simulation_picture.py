@@ -7,14 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from synergrip.linalg import Array
-from synergrip.reports.pictures.courses import Chart
+from synergrip.reports.pictures.lines import AXES, Lines
 from synergrip.reports.pictures.plan_picture import draw_charts
 from synergrip.reports.text.text_simulation import promised_word
 from synergrip.simulation.notes import moment
 from synergrip.simulation.simulation import Simulation
 from synergrip.simulation.watching import SLIPPED
-
-AXES = ("x", "y", "z")
 
 
 def draw_simulation(simulation: Simulation, path: Path) -> None:
@@ -28,17 +26,14 @@ def draw_simulation(simulation: Simulation, path: Path) -> None:
         InputError: a suffix that says no format.
         OSError: the file cannot be written.
     """
-    order = np.argsort(simulation.least, kind="stable")
-    names = tuple(simulation.contacts[i] for i in order)
-    bounds = (0.0,) if simulation.margin.min() < 0.1 * float(np.abs(simulation.margin).max()) else ()
-    slip = 1e3 * simulation.slip[:, order]
-    shown = (1e3 * SLIPPED,) if slip.max() > 0.1 * 1e3 * SLIPPED else ()
+    names = tuple(simulation.contacts)
+    slip = 1e3 * simulation.slip
     rest = simulation.knots > simulation.time[-1]
     margins, motion = simulation.knots_promised
     parts = (
-        _chart("slip margin", "N", names, simulation.margin[:, order], bounds,
-               np.vstack([simulation.promised, margins[rest]])[:, order]),
-        Chart("slip", "mm", names, np.vstack([slip, np.full((int(rest.sum()), len(names)), np.nan)]), shown),
+        _chart("slip margin", "N", names, simulation.margin, (0.0,), np.vstack([simulation.promised, margins[rest]])),
+        Lines("slip", "mm", names, np.vstack([slip, np.full((int(rest.sum()), len(names)), np.nan)]),
+              (1e3 * SLIPPED,), of_contacts=True),
         *(
             _chart(title, unit, AXES, factor * simulation.du[:, part], (),
                    factor * np.vstack([simulation.promised_du, motion[rest]])[:, part])
@@ -61,7 +56,7 @@ def draw_simulation(simulation: Simulation, path: Path) -> None:
 
 def _chart(
     title: str, unit: str, names: tuple[str, ...], seen: Array, bounds: tuple[float, ...], target: Array
-) -> Chart:
-    """Return a chart of what was seen (N, m) beside what was promised (N or more, m), which goes on where it ended."""
+) -> Lines:
+    """Return lines of what was seen (N, m) beside what was promised (N or more, m), which goes on where it ended."""
     gone = np.full((len(target) - len(seen), seen.shape[1]), np.nan)
-    return Chart(title, unit, names, np.vstack([seen, gone]), bounds, target)
+    return Lines(title, unit, names, np.vstack([seen, gone]), bounds, target=target, of_contacts=names != AXES)

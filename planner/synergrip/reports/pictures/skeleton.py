@@ -9,9 +9,7 @@ import numpy as np
 
 from synergrip.hands.hand import Hand, Pad
 from synergrip.linalg import Array, frozen
-
-SHORTEST = 1e-6
-"""A bone below this is the same point twice [m]."""
+from synergrip.reports.pictures.bones import bone_ends, bones_between
 
 
 @dataclass(frozen=True)
@@ -37,15 +35,12 @@ def skeleton(hand: Hand, q: Array, pads: Sequence[Pad]) -> Skeleton:
     """Return the bones of a hand and its `pads` at joint values `q` (n_q,)."""
     links, every = hand.links, [*pads, *hand.pads.values()]
     asked = [(link, np.zeros(3)) for link in links] + [(pad.link, pad.point) for pad in every]
-    places = [motion.position for motion in hand.kinematics.at(q, asked)]
-    origins, ends = dict(zip(links, places, strict=False)), places[len(links) :]
-    pairs = [(origins[parent], origins[link]) for link, parent in hand.parents.items()]
+    points = np.array([motion.position for motion in hand.kinematics.at(q, asked)])
     last = set(links) - set(hand.parents.values())
-    tips = {(pad.link, *pad.point): (origins[pad.link], end) for pad, end in zip(every, ends, strict=True)
-            if pad.link in last}  # fmt: skip
-    bones = [pair for pair in [*pairs, *tips.values()] if np.linalg.norm(pair[1] - pair[0]) > SHORTEST]
-    palm = [origins[link] for link in links if hand.parents.get(link, links[0]) == links[0]]
+    tips = {(pad.link, *pad.point): len(links) + i for i, pad in enumerate(every) if pad.link in last}
+    bones = bones_between(points, bone_ends(links, hand.parents, {i: link for (link, *_), i in tips.items()}))
+    palm = [i for i, link in enumerate(links) if hand.parents.get(link, links[0]) == links[0]]
     return Skeleton(
-        frozen(bones, (len(bones), 2, 3)), frozen(palm, (len(palm), 3)),
-        frozen(ends[: len(pads)], (len(pads), 3)), frozen([pad.radius for pad in pads]),
+        frozen(bones), frozen(points[palm], (len(palm), 3)),
+        frozen(points[len(links) : len(links) + len(pads)], (len(pads), 3)), frozen([pad.radius for pad in pads]),
     )  # fmt: skip

@@ -11,6 +11,7 @@ from synergrip.linalg import Array, frozen
 
 ELEVATIONS = np.radians([28.0, 50.0])
 """How far from above the viewer may look down on the palm's x-y plane."""
+UPRIGHT = frozen([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -31,22 +32,29 @@ class View:
         return np.asarray(points) @ self.toward
 
 
-def view_from(azimuth: float, elevation: float) -> View:
-    """Return the view from an azimuth about z and an elevation above x-y [rad]; z points up on paper."""
-    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
-    level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    toward = np.cos(elevation) * level + np.sin(elevation) * np.array([0.0, 0.0, 1.0])
+def view_from(azimuth: float, elevation: float, up: Array = UPRIGHT) -> View:
+    """Return the view from an azimuth about `up` (3,) and an elevation above the plane across it [rad].
+
+    `up` points up on paper; where it is z, the azimuth is counted from x.
+    """
+    across = np.cross(up, [1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.cross(up, [0.0, 0.0, 1.0])
+    second = across / np.linalg.norm(across)
+    first = np.cross(second, up)
+    right = -np.sin(azimuth) * first + np.cos(azimuth) * second
+    toward = np.cos(elevation) * (np.cos(azimuth) * first + np.sin(azimuth) * second) + np.sin(elevation) * up
     return View(frozen(right), frozen(np.cross(toward, right)), frozen(toward))
 
 
-def best_view(points: Array, displacements: Sequence[Array]) -> View:
-    """Return the view from above, of 48 around z, in which a picture shows most.
+def best_view(points: Array, displacements: Sequence[Array], up: Array = UPRIGHT) -> View:
+    """Return the view from above, of 48 around `up`, in which a picture shows most.
 
     Args:
         points: (n, 3) what is drawn; it should spread over the paper.
         displacements: (m, 3) each; of every set a good part should be seen and not point at the viewer.
+        up: (3,) of length 1.
     """
-    around = [view_from(np.radians(angle), elevation) for elevation in ELEVATIONS for angle in range(-65, 295, 15)]
+    around = [view_from(np.radians(angle), elevation, up)
+              for elevation in ELEVATIONS for angle in range(-65, 295, 15)]  # fmt: skip
     seen = np.array([min([_seen(view, each) for each in displacements], default=1.0) for view in around])
     worth = seen**2 * np.array([_area(view.flat(points)) for view in around])
     return around[int(np.argmax(worth >= worth.max() * (1 - 1e-9)))]

@@ -13,8 +13,8 @@ from synergrip.linalg import Array
 from synergrip.planning.between import LIMIT, Between
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import nearest
+from synergrip.problems.in_short import many
 from synergrip.reports.text.tables import wrapped
-from synergrip.reports.text.text_problem import many
 
 FINE = {"N": (1e3, "mN"), "m": (1e6, "um")}
 """What small forces and lengths are told in."""

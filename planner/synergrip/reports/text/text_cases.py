@@ -9,9 +9,9 @@ from synergrip.documents.quantities import plain
 from synergrip.planning.fresh_samples import FreshSamples
 from synergrip.planning.in_case import InCase, worst_case
 from synergrip.planning.outcome import Plan
+from synergrip.problems.in_short import many
 from synergrip.reports.text.tables import wrapped
 from synergrip.reports.text.text_between import to_within
-from synergrip.reports.text.text_problem import many
 
 OTHERS = 3
 """Cases that are named."""

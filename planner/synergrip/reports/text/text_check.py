@@ -10,6 +10,7 @@ from synergrip.errors import Refusal
 from synergrip.planning.between import LIMIT
 from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.outcome import BETWEEN
+from synergrip.planning.springs import spring_notes
 from synergrip.planning.told import (
     between_document,
     cases_document,
@@ -18,6 +19,7 @@ from synergrip.planning.told import (
     structure_document,
     usage_document,
 )
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import looked_at
@@ -25,8 +27,8 @@ from synergrip.reports.text.text_broken import broken, names_of, not_holding
 from synergrip.reports.text.text_cases import judged_cases
 from synergrip.reports.text.text_claims import claims_document, claims_lines
 from synergrip.reports.text.text_plan import refused_lines, verdict_word
-from synergrip.reports.text.text_problem import many, problem_lines
-from synergrip.reports.text.text_usages import usage_rows
+from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_usages import error_rows, limit_rows
 
 STANDS_IN = (
     "the figures are those of the linear model at the start posture, as the hand is at no equilibrium with these "
@@ -50,7 +52,8 @@ def judgement_text(problem: Problem, judgement: Judgement, color: bool = False, 
     for told in _notes(judgement):
         lines += wrapped("note     ", told)
     head = ("", "linear model" if judgement.stands_in else "worst", "at", "limit")
-    lines += [table(head, [row for usage in judgement.usages for row in usage_rows(usage)]), ""]
+    rows = limit_rows(judgement.usages, judgement.task, judgement.analysis.grasp)
+    lines += [table(head, [*rows, *error_rows(judgement.motion, judgement.task, judgement.analysis)]), ""]
     lines += [*_checked(judgement, details=details)]
     if judgement.between is not None:
         lines += looked_at(judgement.between, judgement.task.between, judgement.motion.times)
@@ -71,8 +74,10 @@ def _why(judgement: Judgement) -> str:
 
 
 def _notes(judgement: Judgement) -> list[str]:
-    """Return what is to be known of the figures: of what model they are, and what they are of contacts that let go."""
-    return [*not_holding(judgement), *[STANDS_IN] * judgement.stands_in]
+    """Return what is to be known of the figures: of what model they are, what contacts let go, what springs take."""
+    executed, torques = judgement.executed, judgement.motion.torques
+    of_springs = () if executed is None else spring_notes(executed, torques, judgement.task)
+    return [*not_holding(judgement), *[STANDS_IN] * judgement.stands_in, *of_springs]
 
 
 def _checked(judgement: Judgement, *, details: bool) -> Iterator[str]:

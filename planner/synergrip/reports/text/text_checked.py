@@ -10,8 +10,8 @@ from synergrip.documents.words import listed
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Infeasible, Plan
 from synergrip.planning.verified import EQUILIBRIUM
+from synergrip.problems.in_short import many
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_problem import many
 
 ABOUT = "it is about the linear model at the start posture"
 

@@ -10,8 +10,8 @@ from synergrip.planning.check import FAILS, Judgement
 from synergrip.planning.claims import AS_WRITTEN, Claims, Difference
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.told import finite
+from synergrip.problems.in_short import many
 from synergrip.reports.text.tables import wrapped
-from synergrip.reports.text.text_problem import many
 
 
 def claims_lines(judgement: Judgement, *, details: bool) -> Iterator[str]:

@@ -10,8 +10,8 @@ import numpy as np
 from synergrip.documents.quantities import SHOWN_IN, plain
 from synergrip.hands.synergies.fitting import Fit
 from synergrip.hands.units import SI_UNITS
+from synergrip.problems.in_short import many
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_problem import many
 
 NOTHING = 1e-12
 """[rad or m] What is smaller is rounding."""

@@ -12,6 +12,7 @@ from synergrip.errors import Issue
 from synergrip.explain.explanation import Explanation
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.told import notes_together
+from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_between import between_lines
@@ -19,8 +20,9 @@ from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
-from synergrip.reports.text.text_problem import many, problem_lines
+from synergrip.reports.text.text_problem import problem_lines
 from synergrip.reports.text.text_usages import on_bound, used_rows
+from synergrip.statics.twists import describe_kind
 
 _STYLES = {
     "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
@@ -98,15 +100,15 @@ def verdict_lines(
 
 def _used(outcome: Unknown) -> Iterator[str]:
     """Yield what references use of every limit at the true states, when these are no plan, and at which knots."""
-    executed, motion = outcome.executed, outcome.motion
-    if executed is None or motion is None:
+    executed, motion, analysis = outcome.executed, outcome.motion, outcome.analysis
+    if executed is None or motion is None or analysis is None:
         return
     count, whole, last = len(motion.times), len(outcome.task.times), f"t = {plain(motion.times[-1], 3)} s"
     at = f"all {many(whole, 'knot')}" if count == whole else f"the first {count} of {whole} knots, until {last}"
     at = f"the first of {whole} knots, {last}" if count == 1 < whole else at
     told = f"the figures are those of the hand that moves, at {at}; {_model(executed)}; {_held_with(executed)}"
     yield from wrapped("true     ", told)
-    yield table(("", "worst", "at", "limit"), used_rows(outcome.usages, motion, outcome.task, outcome.grasp))
+    yield table(("", "worst", "at", "limit"), used_rows(outcome.usages, motion, outcome.task, analysis))
 
 
 def _executed(plan: Plan) -> Iterator[str]:
@@ -125,8 +127,13 @@ def _executed(plan: Plan) -> Iterator[str]:
 
 
 def _held_with(executed: Execution) -> str:
-    """Return how stiffly the object is held."""
-    return f"the object is held with {plain(1e-3 * float(executed.stiffness.min()), 3)} N/mm at least"
+    """Return how stiffly the object is held, and against which motion."""
+    held = f"the object is held with {plain(1e-3 * float(executed.stiffness.min()), 3)} N/mm at least"
+    softest = executed.softest
+    if softest is None:
+        return held
+    one = describe_kind(softest[0], executed.setting.length) if len(softest) == 1 else f"{len(softest)} motions alike"
+    return f"{held}, against {one}"
 
 
 def _model(executed: Execution, otherwise: str = "") -> str:
@@ -156,7 +163,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
     head = f"{word}  smallest slip margin {plain(worst)} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
     yield f"{head}{best}"
-    rows = used_rows(plan.usages, plan.motion, plan.task, plan.grasp)
+    rows = used_rows(plan.usages, plan.motion, plan.task, plan.analysis)
     yield table(("", "worst", "at", "limit"), rows)
     yield from moved_lines(plan)
 

@@ -2,40 +2,89 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.limit import Limit, Usage, first_largest
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.conic.limits.object_error import AXES, ObjectError
+from synergrip.conic.limits.sustained_effort import SustainedEffort
+from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
+from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.documents.quantities import both_apart, plain
+from synergrip.documents.quantities import both_apart, plain, read_as
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.units import SI_UNITS, joint_kinds, synergy_kinds
 from synergrip.planning.between import LIMIT
+from synergrip.statics.analysis import Analysis
 from synergrip.statics.motion import Motion
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.tasks.tracking import off_target
+
+OF_SYNERGIES: dict[type[Limit], dict[str, str]] = {
+    SynergyReference: SI_UNITS, SynergyRate: {"hinge": "rad/s", "slide": "m/s"},
+    SynergyAcceleration: {"hinge": "rad/s^2", "slide": "m/s^2"},
+    ActuatorEffort: {"hinge": "N m", "slide": "N"}, SustainedEffort: {"hinge": "N m", "slide": "N"},
+}  # fmt: skip
+"""What limits on synergies bound, in the units of synergies whose columns of S move joints that turn or slide."""
 
 
-def used_rows(usages: Sequence[Usage], motion: Motion, task: TimedTask, grasp: Grasp) -> list[tuple[str, ...]]:
-    """Return the rows of all limits, of the normal forces, and of the references, too, where no limit is on them."""
-    rows = [row for usage in usages for row in usage_rows(usage)]
+def used_rows(usages: Sequence[Usage], motion: Motion, task: TimedTask, analysis: Analysis) -> list[tuple[str, ...]]:
+    """Return the rows of all limits; of normal forces, errors of a motion and references where no limit is on them."""
+    grasp, rows = analysis.grasp, limit_rows(usages, task, analysis.grasp)
     if not any(isinstance(limit, NormalForce) and np.isfinite(limit.upper) for limit in task.limits):
         rows.insert(1, _largest_normal(grasp, motion))
+    rows += error_rows(motion, task, analysis)
     if not any(isinstance(limit, SynergyReference) for limit in task.limits):
-        rows.append(_largest("synergy reference", motion.dz_r, "", grasp.synergies, motion.times))
+        units = synergy_units(SynergyReference(np.inf), grasp)
+        rows.append(_largest("synergy reference", motion.dz_r, units, grasp.synergies, motion.times))
+    return rows
+
+
+def limit_rows(usages: Sequence[Usage], task: TimedTask, grasp: Grasp) -> list[tuple[str, ...]]:
+    """Return the rows of the limits of a task; what is of synergies has the unit of the joints that they move."""
+    of_each = zip(task.all_limits, usages, strict=True)
+    return [row for limit, usage in of_each for row in _usage_rows(usage, synergy_units(limit, grasp))]
+
+
+def synergy_units(limit: Limit, grasp: Grasp) -> dict[str, str]:
+    """Return the unit of what a limit bounds of each synergy; none for other limits, and where nobody knows."""
+    units = next((units for kind, units in OF_SYNERGIES.items() if isinstance(limit, kind)), None)
+    if units is None or grasp.held is None:
+        return {}
+    kinds = synergy_kinds(grasp.held.synergies, joint_kinds(grasp.held.hand.joints).values())
+    return {name: units[kind] for name, kind in kinds.items()}
+
+
+def error_rows(motion: Motion, task: TimedTask, analysis: Analysis) -> list[tuple[str, ...]]:
+    """Return how far the object is from where it is to be moved to, at most; none where a limit on that has a row."""
+    limits = [limit for limit in task.all_limits if isinstance(limit, ObjectError) and limit.part == "whole"]
+    if any({*task.axes} <= {*limit.axes} for limit in limits) or task.target.kind == "hold":
+        return []
+    off, rows = off_target(analysis, task, motion.du), list[tuple[str, ...]]()
+    for title, part, unit in (("position error", slice(3), "m"), ("rotation error", slice(3, 6), "rad")):
+        if any(axis in task.axes for axis in AXES[part]):
+            size = np.linalg.norm(off[:, part], axis=1)
+            k, _ = first_largest(size[:, None], 1e-6 * float(size.max()))
+            rows.append((title, read_as(float(size[k]), unit), f"object, t = {motion.times[k]:.2f} s", ""))
     return rows
 
 
 def _largest_normal(grasp: Grasp, motion: Motion) -> tuple[str, ...]:
     normal = motion.forces[:, grasp.normal_rows]
     names = tuple(contact.name for contact in grasp.contacts)
-    return _largest("largest normal force", normal, "N", names, motion.times)
+    return _largest("largest normal force", normal, dict.fromkeys(names, "N"), names, motion.times)
 
 
-def _largest(title: str, values: np.ndarray, unit: str, names: Sequence[str], times: np.ndarray) -> tuple[str, ...]:
+def _largest(
+    title: str, values: np.ndarray, units: Mapping[str, str], names: Sequence[str], times: np.ndarray
+) -> tuple[str, ...]:
     size = np.abs(values)
     k, i = first_largest(size, 1e-6 * float(size.max()))
-    return title, f"{plain(values[k, i])} {unit}".rstrip(), f"{names[i]}, t = {times[k]:.2f} s", ""
+    shown = f"{plain(values[k, i])} {units.get(names[i], '')}".rstrip()
+    return title, shown, f"{names[i]}, t = {times[k]:.2f} s", ""
 
 
 def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
@@ -44,8 +93,11 @@ def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
     return bound if abs(value - bound) <= LIMIT * float(usage.size[k, i]) else value
 
 
-def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
-    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself."""
+def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
+    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself.
+
+    `units` are those of some items, where that of the limit says less.
+    """
     two_sided = np.all(usage.lower == -usage.upper)
     bounds = {"largest ": usage.upper, "smallest ": usage.lower}
     sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
@@ -55,7 +107,8 @@ def usage_rows(usage: Usage) -> Iterator[tuple[str, ...]]:
         value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
         value = on_bound(usage, k, i, bound)
-        shown, limit = both_apart(value, bound, usage.unit)
+        unit = units.get(usage.items[i], "")
+        shown, limit = (f"{told} {unit}".rstrip() for told in both_apart(value, bound, usage.unit))
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
         where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
         limit = limit.lstrip("-") if two_sided else limit

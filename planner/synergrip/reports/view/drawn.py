@@ -1,17 +1,15 @@
-"""A scene drawn with viser: on a page that plays it without a network. The only module that imports viser."""
+"""A scene as nodes of a viewer, and the page that plays it without a network."""
 
 from __future__ import annotations
 
-import contextlib
-import io
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
-from synergrip.reports.view.scene import Scene
+from synergrip.reports.view.scene import Frame, Scene
+from synergrip.reports.view.serving import serving
 from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
 from synergrip.vectors import quaternions
 
@@ -25,38 +23,24 @@ CELL = 0.01
 """[m] The side of a square of the ground."""
 FAR = 1.6
 """How far the camera is, in radii of what is seen."""
+THREAD = 0.12
+"""Radius of what joins a pad to where it would touch, in those of bones."""
 STILL = 1.0
 """[s] How long a single frame is shown."""
 
 
 def page(scene: Scene) -> str:
     """Return a page (HTML) that plays a scene and opens without a network."""
-    with _server() as server:
+    with serving() as server:
         drawn = Drawn(server.scene, scene)
-        server.initial_camera.position, server.initial_camera.look_at = drawn.camera
-        server.initial_camera.up = tuple(scene.up[0])
-        drawn.show(0)
+        drawn.look(server)
         recorder = server.get_scene_serializer()
         for k, wait in enumerate(np.diff(scene.times)):
-            drawn.show(k)
+            drawn.show(scene.frame(k))
             recorder.insert_sleep(float(wait))
-        drawn.show(len(scene.times) - 1)
+        drawn.show(scene.frame(len(scene.times) - 1))
         recorder.insert_sleep(STILL if len(scene.times) == 1 else float(np.diff(scene.times)[-1]))
         return str(recorder.as_html())
-
-
-@contextlib.contextmanager
-def _server() -> Iterator[Any]:
-    """Serve on a free port of this machine alone, without a word, for as long as the block runs."""
-    import viser
-
-    with contextlib.redirect_stdout(io.StringIO()):
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    try:
-        yield server
-    finally:
-        with contextlib.redirect_stdout(io.StringIO()):
-            server.stop()
 
 
 class Drawn:
@@ -70,7 +54,6 @@ class Drawn:
             scene: what is drawn.
         """
         self.scene, size = scene, scene.size
-        self._turned = quaternions(scene.rotation)
         largest = float(np.linalg.norm(scene.forces, axis=2).max(initial=0.0))
         self._force = LONGEST * size / largest if largest > 0 else 0.0
         colors = [_rgb(color) for color in contact_colors(scene.contacts).values()]
@@ -79,23 +62,31 @@ class Drawn:
         nodes.add_frame("/palm", axes_length=0.35 * size, axes_radius=0.012 * size)
         self._ground(nodes)
         self._gravity = nodes.add_arrows(
-            "/gravity", self._weight(0), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
+            "/gravity", self._weight(scene.up[0]), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
             head_length=0.1 * size,
         )  # fmt: skip
         bones, joints = len(scene.bones[0]), 2 * len(scene.bones[0])
         self._bones = _several(nodes, "/palm/bones", rod(), bones, HAND)
         self._joints = _several(nodes, "/palm/joints", ball(), joints, HAND)
-        self._pads = _several(nodes, "/palm/pads", ball(), len(scene.contacts), HAND)
+        self._pads = _several(nodes, "/palm/pads", ball(), len(scene.pad_names), HAND)
         self._object = _body(nodes, scene)
         self._cones = _several(nodes, "/palm/cones", cone(), len(scene.contacts), np.array(colors), opacity=0.3)
-        self._arrows = nodes.add_arrows(
+        self._arrows = None if scene.margins is None else nodes.add_arrows(
             "/palm/forces", np.zeros((len(colors), 2, 3)), np.array(colors, dtype=np.uint8),
             shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
         )  # fmt: skip
+        apart = len(scene.contacts) if scene.margins is None else 0  # from pads to where the object is nearest
+        self._apart = _several(nodes, "/palm/apart", rod(), apart, np.array(colors))
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
         self._time = nodes.add_label("/time", "", anchor="bottom-center")
-        self._time.position = tuple(self._middle + 1.9 * size * scene.up[0])
-        self.show(0)
+        self._time.position = tuple(self._above)
+        self._gravity.visible = scene.gravity
+        self.show(scene.frame(0))
+
+    def look(self, server: Any) -> None:
+        """Let everybody who opens the page look at it from where hand and object are seen."""
+        server.initial_camera.position, server.initial_camera.look_at = self.camera
+        server.initial_camera.up = tuple(self.scene.up[0])
 
     @property
     def camera(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -104,59 +95,57 @@ class Drawn:
         side = np.cross(up, [0.0, 0.0, 1.0] if abs(up[2]) < 0.9 else [1.0, 0.0, 0.0])
         side /= np.linalg.norm(side)
         from_there = 1.2 * np.cross(side, up) + 0.8 * side + 0.7 * up
-        ends = np.vstack([self._around - self.scene.size, self._around + self.scene.size])
+        ends = np.vstack([self._around - self.scene.size, self._around + self.scene.size, self._above])
         middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
         far = FAR * float(np.linalg.norm(ends - middle, axis=1).max())
         return tuple(middle + far * from_there / np.linalg.norm(from_there)), tuple(middle)
 
     @property
-    def _middle(self) -> Array:
-        return np.asarray(self.scene.position[0])
-
-    @property
     def _around(self) -> Array:
         """(., 3) where the hand and the object are at the start."""
-        return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self._middle])
+        return np.vstack([self.scene.bones[0].reshape(-1, 3), self.scene.places[0], self.scene.middle])
 
-    def show(self, k: int) -> None:
-        """Move everything to frame `k`."""
+    @property
+    def _above(self) -> Array:
+        """(3,) where the time stands: above all that is held."""
+        return np.asarray(self.scene.middle + 1.9 * self.scene.size * self.scene.up[0])
+
+    def show(self, frame: Frame) -> None:
+        """Move everything to where it is in a frame."""
         scene = self.scene
-        self._gravity.points = self._weight(k)
-        _lay(self._bones, scene.bones[k], scene.thickness)
-        _put(self._joints, scene.bones[k].reshape(-1, 3), np.full(2 * len(scene.bones[k]), scene.thickness))
-        _put(self._pads, scene.pads[k], np.maximum(scene.radii, 0.5 * scene.thickness))
+        self._gravity.points = self._weight(frame.up)
+        _lay(self._bones, frame.bones, scene.thickness)
+        _put(self._joints, frame.bones.reshape(-1, 3), np.full(2 * len(frame.bones), scene.thickness))
+        _put(self._pads, frame.pads, np.maximum(scene.radii, 0.5 * scene.thickness))
         if self._object is not None:
-            self._object.position, self._object.wxyz = tuple(scene.position[k]), tuple(self._turned[k])
+            turned = quaternions(frame.rotation[None])[0]
+            self._object.position, self._object.wxyz = tuple(frame.position), tuple(turned)
         high = CONE * scene.size
-        ends = np.stack([scene.places[k], scene.places[k] + high * scene.normals[k]], axis=1)
+        ends = np.stack([frame.places, frame.places + high * frame.normals], axis=1)
         _lay(self._cones, ends, high * scene.friction)
-        forces = np.stack([scene.places[k], scene.places[k] + self._force * scene.forces[k]], axis=1)
-        self._arrows.points = forces.astype(np.float32)
-        sizes = np.linalg.norm(scene.forces[k], axis=1)
-        for label, name, size, ends_at in zip(self._labels, scene.contacts, sizes, forces, strict=True):
-            label.text = f"{name} {size:.3g} N" if size > 0 else name
-            away = ends_at[0] - self._middle
-            label.position = tuple(ends_at[0] + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
-        least = "the posture of the start"
-        if scene.margins is not None:
-            i = int(np.argmin(scene.margins[k]))
-            least = f"least margin {scene.margins[k, i]:.3g} N at {scene.contacts[i]}"
-        self._time.text = f"t = {scene.times[k]:.2f} s, {least}"
+        forces = np.stack([frame.places, frame.places + self._force * frame.forces], axis=1)
+        if self._arrows is not None:
+            self._arrows.points = forces.astype(np.float32)
+        _lay(self._apart, np.stack([frame.tips, frame.places], axis=1), THREAD * scene.thickness)
+        for label, text, place in zip(self._labels, frame.labels, frame.places, strict=True):
+            label.text, away = text, place - frame.position
+            label.position = tuple(place + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
+        self._time.text = frame.caption
 
     def _ground(self, nodes: Any) -> None:
         """Draw squares of 10 mm below everything, across gravity at the start."""
         scene, up = self.scene, self.scene.up[0]
-        points = np.vstack([self._around, [self._middle - scene.size * up]]) - self._middle
-        low = self._middle + up * (points @ up).min()
+        points = np.vstack([self._around, [self.scene.middle - scene.size * up]]) - self.scene.middle
+        low = self.scene.middle + up * (points @ up).min()
         wide = float(np.ceil(2.2 * np.linalg.norm(points, axis=1).max() / CELL) * CELL)
         nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
                        position=tuple(low), wxyz=tuple(_upright(up[None])[0]))  # fmt: skip
         nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
 
-    def _weight(self, k: int) -> Array:
-        """Return the arrow (1, 2, 3) of gravity in a frame, above what is held."""
-        up, size = self.scene.up[k], self.scene.size
-        return np.array([[self._middle + 1.8 * size * up, self._middle + 1.3 * size * up]], dtype=np.float32)
+    def _weight(self, up: Array) -> Array:
+        """Return the arrow (1, 2, 3) of gravity, above what is held."""
+        size = self.scene.size
+        return np.array([[self.scene.middle + 1.8 * size * up, self.scene.middle + 1.3 * size * up]], dtype=np.float32)
 
 
 def _body(nodes: Any, scene: Scene) -> Any:
@@ -172,7 +161,9 @@ def _body(nodes: Any, scene: Scene) -> Any:
 
 
 def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacity: float = 1.0) -> Any:
-    """Draw `count` copies of a solid, which are placed later."""
+    """Draw `count` copies of a solid, which are placed later; None for none."""
+    if not count:
+        return None
     return nodes.add_batched_meshes_simple(
         name, solid.points.astype(np.float32), solid.triangles.astype(np.uint32), np.tile([1.0, 0, 0, 0], (count, 1)),
         np.zeros((count, 3)), batched_scales=np.ones((count, 3)), batched_colors=np.asarray(color, dtype=np.uint8),
@@ -182,12 +173,16 @@ def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacit
 
 def _put(node: Any, places: Array, radii: Array) -> None:
     """Place copies of a ball."""
+    if node is None:
+        return
     node.batched_positions = places.astype(np.float32)
     node.batched_scales = np.repeat(radii[:, None], 3, axis=1).astype(np.float32)
 
 
 def _lay(node: Any, ends: Array, radii: Array | float) -> None:
     """Place copies of what reaches from z = 0 to z = 1 from each end (n, 0, 3) to the other (n, 1, 3)."""
+    if node is None:
+        return
     along = ends[:, 1] - ends[:, 0]
     lengths = np.linalg.norm(along, axis=1)
     node.batched_positions = ends[:, 0].astype(np.float32)

@@ -1,0 +1,170 @@
+"""The place of an object at which a hand that closes on it holds it best, among thousands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.batch.asked import LIMITS
+from synergrip.batch.placed_object import PlacedObject
+from synergrip.batch.plan_many import plan_many
+from synergrip.conic.goals.largest_margin import LargestMargin
+from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.joint_torque import JointTorque
+from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.errors import InputError
+from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.closing_at_many import Closer
+from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.in_postures import grasps_in_postures
+from synergrip.grasps.place_search import (
+    TouchingPlaces,
+    around,
+    closed_and_centred,
+    nearest,
+    off_centre,
+    space,
+    touching_places,
+)
+from synergrip.linalg import Array, frozen
+from synergrip.tasks.hold import Hold
+from synergrip.tasks.task import Task
+
+INSTANTS = 5
+"""Knots of the task, from end to end, at which margins are looked at."""
+JUDGED = 150
+"""Places whose margins are worked out at a time, evenly chosen of those that touch."""
+BEST = 5
+"""Places around which is looked again, nearer."""
+FINE = 1e-3
+"""[m] The search ends when places are no farther apart."""
+DIGITS = 4
+"""Of the place in metres, so that it can be written down."""
+ALIKE = 0.02
+"""Share of the largest margin within which places are as good as each other."""
+FORCES = (NormalForce, JointTorque, ActuatorEffort)
+"""Limits of how hard a hand may press."""
+ENOUGH = 10.0
+"""Times the largest load to which normal forces are held where no limit says how hard the hand may press."""
+Progress = Callable[[str, float], None]
+
+
+def best_place(
+    asked: AskedGrasp, made: Callable[[Array], tuple[Grasp, Task]], progress: Progress | None = None
+) -> PlacedObject:
+    """Return the best place of the object; what `place_object` does.
+
+    Args:
+        asked: the hand that closes, and the object.
+        made: the grasp and the task with the object at a position (3,), or an `InputError` of what is wrong there.
+        progress: told how far it is.
+
+    Raises:
+        InputError: no place at which all contacts touch, or none that makes a grasp.
+    """
+    tell = progress or (lambda what, share: None)
+    closer = Closer(asked)
+    places, apart = space(closer)
+    tell(SEARCHING, 0.0)
+    found = closed_and_centred(closer, places)
+    touching = touching_places(closer, found)
+    if not len(touching.q):
+        raise InputError([nearest(closer, found)[1]])
+    judge = _Judge.of(asked, touching, made)
+    tried, touched, rounds = len(places), len(touching.q), int(np.ceil(np.log2(max(apart / FINE, 1.0))))
+    best = judge.best(touching)
+    for turn in range(rounds):
+        tell(SEARCHING, (turn + 1) / (rounds + 1))
+        apart /= 2
+        near = around(best.positions, apart)
+        more = touching_places(closer, closed_and_centred(closer, near))
+        tried, touched = tried + len(near), touched + len(more.q)
+        best = judge.best(more, best)
+    tell(SEARCHING, 1.0)
+    grasp, margin = judge.written(best)
+    return PlacedObject(grasp, margin, tried, touched, judge.notes(margin))
+
+
+SEARCHING = "looking for the place of the object"
+
+
+@dataclass(frozen=True, eq=False)
+class _Judge:
+    """What places are judged by: a grasp and a task of one knot, at some loads."""
+
+    asked: AskedGrasp
+    made: Callable[[Array], tuple[Grasp, Task]]
+    grasp: Grasp
+    task: Task
+    wrenches: Array  # (K, 6)
+    added: float
+    """[N] The bound on normal forces where the task has no limit of forces; else 0."""
+
+    @classmethod
+    def of(cls, asked: AskedGrasp, touching: TouchingPlaces, made: Callable[[Array], tuple[Grasp, Task]]) -> _Judge:
+        """Take grasp and task from the first of some places that make one."""
+        grasp, task = _first(touching.positions, made)
+        timed = task.timed(grasp)
+        knots = np.unique(np.round(np.linspace(0, len(timed.times) - 1, INSTANTS)).astype(int))
+        loads = timed.wrench[knots]
+        limits = [each for each in task.limits if type(each) in LIMITS]
+        bound = 0.0
+        if not any(isinstance(each, FORCES) for each in limits):
+            bound = ENOUGH * (float(np.linalg.norm(loads[:, :3], axis=1).max()) or 1.0)
+            limits = [*limits, NormalForce(upper=bound)]
+        still = Task(knots=1, target=Hold(), limits=limits, goals=[LargestMargin()], linearise="once")
+        return cls(asked, made, grasp, still, loads, bound)
+
+    def margins(self, places: TouchingPlaces) -> Array:
+        """Return the largest margin (N,) [N] at each place, at its worst load; -inf where a load is not held."""
+        count, each = len(places.q), len(self.wrenches)
+        stack = grasps_in_postures(self.grasp, places.q, positions=places.positions)
+        many = plan_many(
+            stack.taken(np.repeat(np.arange(count), each)), self.task, wrenches=np.tile(self.wrenches, (count, 1))
+        )
+        held = np.where(many.verdicts == "feasible", many.largest_margin, -np.inf)
+        return np.asarray(held.reshape(count, each).min(axis=1))
+
+    def best(self, places: TouchingPlaces, others: TouchingPlaces | None = None) -> TouchingPlaces:
+        """Return the best few of some places, those first at which the hand stays outside, and of others.
+
+        Of margins that are alike, that goes first whose contacts stand around the middle of the object.
+        """
+        few = places.taken(np.unique(np.round(np.linspace(0, len(places.q) - 1, JUDGED)).astype(int)))
+        together = few if others is None else others.joined(few)
+        margins = self.margins(together)
+        top = float(margins[together.clear].max(initial=-np.inf))
+        alike = margins >= (1 - ALIKE) * top if np.isfinite(top) else np.isneginf(margins)
+        middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
+        order = np.lexsort((middle, -np.where(alike, np.inf, margins), ~together.clear))
+        return together.taken(order[:BEST])
+
+    def written(self, places: TouchingPlaces) -> tuple[Grasp, float]:
+        """Return the grasp of the first place that makes one when it is rounded, and its margin."""
+        grasp, _ = _first(np.round(places.positions, DIGITS), self.made)
+        held = grasp.held
+        assert held is not None
+        one = TouchingPlaces(held.body.position[None], held.q[None], np.ones(1, dtype=bool))
+        return grasp, float(self.margins(one)[0])
+
+    def notes(self, margin: float) -> tuple[str, ...]:
+        """Return what is to be said of the place."""
+        if not np.isfinite(margin):
+            return ("all contacts touch there, but at no place that was judged is the load held with these limits",)
+        if self.added:
+            return (f"no limit says how hard the hand may press: normal forces were held to {self.added:.4g} N",)
+        return ()
+
+
+def _first(positions: Array, made: Callable[[Array], tuple[Grasp, Task]]) -> tuple[Grasp, Task]:
+    """Return what is made at the first of some positions (N, 3) that makes a grasp; else raise the first error."""
+    refused: InputError | None = None
+    for position in positions:
+        try:
+            return made(frozen(position))
+        except InputError as error:
+            refused = refused or error
+    assert refused is not None
+    raise refused

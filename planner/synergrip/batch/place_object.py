@@ -1,0 +1,82 @@
+"""From a hand that closes and an object without a place to the grasp at the best one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from synergrip.batch.best_place import Progress, best_place
+from synergrip.batch.placed_object import PlacedObject
+from synergrip.documents.judging import Arguments, described
+from synergrip.documents.naming import naming_arguments
+from synergrip.grasps.asked_grasp import Posture, Synergies, asked_grasp, grasp_of
+from synergrip.grasps.contact_at import ContactAt
+from synergrip.grasps.objects import Object
+from synergrip.hands.hand import Hand
+from synergrip.linalg import Array
+from synergrip.tasks.task import Task
+
+
+@naming_arguments
+def place_object(
+    hand: Hand | str | Path,
+    object: Object,
+    *,
+    posture: Posture,
+    contacts: Sequence[ContactAt],
+    close: str | Mapping[str, float],
+    task: Task,
+    synergies: Synergies | None = None,
+    joint_compliance: float | Sequence[float] | Array | None = None,
+    synergy_compliance: float | Sequence[float] | Array = 0.0,
+    title: str = "",
+    relative_to: str | Path | None = None,
+    progress: Progress | None = None,
+) -> PlacedObject:
+    """Return where an object is held best by a hand that closes on it, and the grasp there.
+
+    Places all over the space that the pads sweep are closed on at once. Where all contacts touch, the largest slip
+    margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts and
+    references; around the best ones it is looked again, until places are 1 mm apart. A place at which the skeleton of
+    the hand stays outside the object goes before one where it does not. The same question has the same answer.
+
+    Args:
+        hand: as of `make_grasp`, and so are the other arguments that it has.
+        object: with a shape; its position, if it has one, does not count.
+        posture: an open one, from which the hand closes.
+        contacts: all of which are to touch.
+        close: the synergy, joint or weights by name along which the hand closes.
+        task: whose load is to be held, at up to five of its knots.
+        synergies: as of `make_grasp`.
+        joint_compliance: as of `make_grasp`.
+        synergy_compliance: as of `make_grasp`.
+        title: of the grasp.
+        relative_to: folder of a synergy file.
+        progress: told what is under way and which share of it is done.
+
+    Raises:
+        InputError: arguments as of `make_grasp`; no place at which all contacts touch, with the nearest one and how far
+            pads are away there.
+
+    Example:
+        >>> from synergrip import Gravity, HardFinger, NormalForce, Sphere
+        >>> tips = [f"finger{i}/tip" for i in (1, 2, 3)]
+        >>> found = place_object(
+        ...     "barrett", Object(mass=0.2, shape=Sphere(radius=0.05)), posture="open", close="close",
+        ...     contacts=[ContactAt(tip, HardFinger(friction=0.6), stiffness=8e3) for tip in tips],
+        ...     task=Task(loads=[Gravity((0, 0, -9.81))], limits=[NormalForce(upper=20.0)]),
+        ... )
+        >>> found.margin > 1, found.grasp.n_c
+        (True, 3)
+    """
+    judge = Arguments("")
+    judge.one("task", task, Task, "Task(loads=[Gravity((0, 0, -9.81))])")
+    if progress is not None and not callable(progress):
+        judge.refuse("progress", f"expected a function of a text and a share, got {described(progress)}")
+    judge.finish()
+    asked = asked_grasp(
+        hand, object, posture=posture, contacts=contacts, synergies=synergies, close=close, title=title,
+        joint_compliance=joint_compliance, synergy_compliance=synergy_compliance, relative_to=relative_to,
+        anywhere=True,
+    )  # fmt: skip
+    return best_place(asked, lambda position: (grasp_of(asked.at(position)), task), progress)

@@ -1,0 +1,66 @@
+"""The problem that a verb is about, with the object put where it is held best when the file leaves that open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from synergrip.errors import InputError
+    from synergrip.grasps.grasp import Grasp
+    from synergrip.linalg import Array
+    from synergrip.problems.problem import Problem
+    from synergrip.tasks.task import Task
+
+
+def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
+    """Return a problem; where ``object.position = "auto"`` the place is looked for, and told as it would be written.
+
+    Raises:
+        InputError: everything that is wrong with the file; no place at which all contacts touch.
+    """
+    from synergrip.errors import InputError
+    from synergrip.problems.problem import load_problem
+
+    given = list(overrides or [])
+    try:
+        return load_problem(name, given)
+    except InputError as error:
+        if not is_unplaced(error):
+            raise
+    return _placed(name, given)
+
+
+def is_unplaced(error: InputError) -> bool:
+    """Tell whether a problem is refused because its object is still to be placed."""
+    from synergrip.problems.holding import UNPLACED
+
+    return any(issue.message == UNPLACED for issue in error.issues)
+
+
+def _placed(name: str, given: list[str]) -> Problem:
+    from synergrip.batch.best_place import best_place
+    from synergrip.batch.placed_object import position_line
+    from synergrip.cli.beside import aside
+    from synergrip.cli.progress import shares
+    from synergrip.errors import InputError
+    from synergrip.problems.problem import load_problem
+    from synergrip.problems.unplaced import unplaced_problem
+
+    def put(position: Array) -> Problem:
+        return load_problem(name, [*given, f"object.{position_line(position).replace(' = ', '=')}"])
+
+    def made(position: Array) -> tuple[Grasp, Task]:
+        there = put(position)
+        return there.grasp, there.task
+
+    problem = unplaced_problem(name, given)
+    try:
+        found = best_place(problem.asked, made, shares())
+    except InputError as error:
+        raise problem.located(error) from None
+    margin = f"slip margin up to {found.margin:.3g} N; " if found.margin > 0 else ""
+    aside(f"placed   {found.line}  ({margin}all contacts touch at {found.touching} of {found.tried} places)")
+    for note in found.notes:
+        aside(f"note     {note}")
+    return put(found.position)

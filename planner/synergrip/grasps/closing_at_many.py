@@ -1,0 +1,177 @@
+"""A hand that closes on an object at many places at once: quick, for a search; `closing` is what counts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from synergrip.errors import InputError
+from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.ball import REACH
+from synergrip.grasps.closing import AT_LIMIT, MOST_STEPS, STEP, coupled
+from synergrip.grasps.stops import Flags
+from synergrip.linalg import Array, Places
+from synergrip.values import Value
+
+STRIDE = 2.0
+"""A look at the distances takes so many times `STEP` of the fastest joint; what is thinner may be missed."""
+TOUCHING = 1e-6
+"""A pad this close to the surface touches it [m]."""
+NARROWED = 60
+"""Times at most that the moment of a touch is narrowed down; some 8 do."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ClosedAtMany(Value):
+    """A hand closed on an object at N places."""
+
+    positions: Array  # (N, 3) of the object [m]
+    q: Array  # (N, n_q)
+    gaps: Array  # (N, n_c) of the pads to the surface [m]
+    outward: Array  # (N, n_c, 3) normals of the surface there
+    facing: Array  # (N, n_c) cosine of each pad's own direction to the inward normal; 1 where it has none
+
+    @property
+    def touching(self) -> Flags:
+        """(N, n_c) which contacts a grasp could have: near enough, and facing the object."""
+        return np.asarray((np.abs(self.gaps) <= REACH) & (self.facing > 0))
+
+    def joined(self, other: ClosedAtMany) -> ClosedAtMany:
+        """Return these places, then those of another."""
+        names = (each.name for each in fields(self))
+        return ClosedAtMany(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+
+class Closer:
+    """A hand, a way of closing and an object without a place."""
+
+    def __init__(self, asked: AskedGrasp) -> None:
+        """Read what does not change from place to place.
+
+        Args:
+            asked: a hand that closes, on an object with a shape.
+
+        Raises:
+            InputError: it does not close, or the object has no shape.
+        """
+        if asked.closing is None or asked.body.shape is None:
+            raise InputError.at("close", "missing; where an object is to be is found by a hand that closes on it")
+        self.asked, self.closing, self.shape = asked, asked.closing, asked.body.shape
+        hand = asked.hand
+        self.pads = [touch.pad for touch in asked.touches]
+        self.radii = np.array([pad.radius for pad in self.pads])
+        self.step = STRIDE * np.array([STEP[joint.kind] for joint in hand.joints])
+        self.lower, self.upper = (np.array([getattr(j, end) for j in hand.joints]) for end in ("lower", "upper"))
+        carriers = [set(hand.carriers(pad.link)) for pad in self.pads]
+        self.movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
+        self.takes, self.tied = coupled(hand)
+        self.begin = np.clip(asked.q, self.lower, self.upper)
+
+    @property
+    def moved(self) -> Flags:
+        """(n_c,) which pads closing moves."""
+        return np.asarray((self.movers & (self.closing != 0)).any(axis=1))
+
+    def seen(self, positions: Array, q: Array) -> ClosedAtMany:
+        """Return what is seen of the pads at joint values (N, n_q) with the object at `positions` (N, 3)."""
+        motions = self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads])
+        gaps, outward = self.shape.surface(motions.position - positions[:, None])
+        own = np.array([pad.normal for pad in self.pads])
+        pushing = np.einsum("kmij,mj->kmi", motions.rotation, own)
+        aimed = np.array([touch.aimed for touch in self.asked.touches])
+        facing = np.where(aimed, -(pushing * outward).sum(axis=-1), 1.0)
+        return ClosedAtMany(positions, q, np.asarray(gaps - self.radii), np.asarray(outward), np.asarray(facing))
+
+    def path(self, looks: int = 24) -> Array:
+        """Return where each pad comes (looks, n_c, 3) [m] as the hand closes on nothing."""
+        limit = np.where(self.closing > 0, self.upper, self.lower)
+        far = np.where(np.isfinite(limit), limit, self.begin + np.pi * np.sign(self.closing))
+        share = np.where(self.closing != 0, (far - self.begin) / np.where(self.closing != 0, self.closing, 1.0), 0.0)
+        whole = np.linspace(0.0, float(share.max()), looks)[:, None] * self.closing
+        q = np.clip(self.begin + whole, self.lower, self.upper)
+        return self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
+
+    def closed(self, positions: Array) -> ClosedAtMany:
+        """Return the hand closed on the object at each of `positions` (N, 3) where no pad begins inside it."""
+        first = self.seen(positions, np.tile(self.begin, (len(positions), 1)))
+        outside = ~np.any((first.gaps < -TOUCHING) & self.moved, axis=1)
+        positions = positions[outside]
+        way = _Way(self, positions)
+        for _ in range(int(MOST_STEPS)):
+            going = way.going()
+            if not len(going):
+                break
+            way.on(going)
+        return self.seen(positions, way.q)
+
+
+class _Way:
+    """Hands on their way, one for each place of the object; its arrays change as they go."""
+
+    def __init__(self, closer: Closer, positions: Array) -> None:
+        self.of, self.positions, count = closer, positions, len(positions)
+        self.q = np.tile(closer.begin, (count, 1))
+        self.moving = np.tile(closer.closing != 0, (count, 1))
+        self.waiting = np.tile(closer.moved, (count, 1))
+        self._stop(np.arange(count))
+
+    def going(self) -> Places:
+        """Return the places whose hands have pads that wait and still move."""
+        carried = (self.moving[:, None, :] & self.of.movers).any(axis=2)
+        return np.flatnonzero((self.waiting & carried).any(axis=1))
+
+    def on(self, who: Places) -> None:
+        """Let some hands go a step on, or to the first touch or limit within it."""
+        rate = np.where(self.moving[who], self.of.closing, 0.0)
+        rate /= (np.abs(rate) / self.of.step).max(axis=1, keepdims=True)
+        limit = np.where(self.of.closing > 0, self.of.upper, self.of.lower)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            room = np.where(rate != 0, (limit - self.q[who]) / rate, np.inf)
+        far = np.minimum(room.min(axis=1), 1.0)
+        nearest = self._nearest(who, self.q[who] + far[:, None] * rate)
+        hit = np.flatnonzero(nearest < 0)
+        if len(hit):
+            far[hit] = self._touch(who[hit], rate[hit], far[hit], nearest[hit])
+        self.q[who] = np.clip(self.q[who] + far[:, None] * rate, self.of.lower, self.of.upper)
+        self._stop(who)
+
+    def _nearest(self, who: Places, q: Array) -> Array:
+        """Return the least distance (k,) of the pads that wait."""
+        gaps = self.of.seen(self.positions[who], q).gaps
+        return np.asarray(np.where(self.waiting[who], gaps, np.inf).min(axis=1))
+
+    def _touch(self, who: Places, rate: Array, far: Array, beyond: Array) -> Array:
+        """Return the share of a step at which the first pad touches, just outside, by false position.
+
+        Args:
+            who: (k,) the hands.
+            rate: (k, n_q) their motion in a step.
+            far: (k,) a share at which a pad is inside.
+            beyond: (k,) how deep, below 0 [m].
+        """
+        low, high, inside = np.zeros(len(who)), far.copy(), beyond.copy()
+        outside = gap = self._nearest(who, self.q[who])
+        for turn in range(NARROWED):
+            if np.all(gap < TOUCHING / 2):
+                break
+            share = (low + high) / 2 if turn % 4 == 3 else low + (high - low) * outside / (outside - inside)
+            found = self._nearest(who, self.q[who] + share[:, None] * rate)
+            deep = found < 0
+            outside = np.where(deep, outside / 2, found)  # the end that stays counts less, or it would stay for good
+            inside = np.where(deep, found, inside / 2)
+            low, high, gap = np.where(deep, low, share), np.where(deep, share, high), np.where(deep, gap, found)
+        return low
+
+    def _stop(self, who: Places) -> None:
+        """Stop joints at their limits, and those that carry pads that touch, with all that they take along."""
+        of, q = self.of, self.q[who]
+        limit = np.where(of.closing > 0, of.upper, of.lower)
+        near = AT_LIMIT * np.maximum(np.abs(np.where(np.isfinite(limit), limit, 0.0)), 1.0)
+        ended = (np.abs(limit - q) <= near) & (of.closing != 0)
+        stopped = (ended[:, :, None] & of.takes).any(axis=1)
+        touched = self.waiting[who] & (of.seen(self.positions[who], q).gaps <= TOUCHING)
+        carriers = (touched[:, :, None] & of.movers).any(axis=1)
+        stopped |= (carriers[:, :, None] & of.tied).any(axis=1)
+        self.moving[who] &= ~stopped
+        self.waiting[who] &= ~touched

@@ -1,0 +1,148 @@
+"""Where an object is touched by all contacts when a hand closes on it, among many places, found and drawn nearer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from synergrip.documents.quantities import in_mm
+from synergrip.errors import Issue
+from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.ball import REACH
+from synergrip.grasps.clearance import DEEP, deepest
+from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
+from synergrip.grasps.shapes.shape import Shape
+from synergrip.grasps.stops import Flags
+from synergrip.linalg import Array, Places
+from synergrip.values import Value
+
+ACROSS = 13
+"""Places along the longest side of the space that is searched."""
+CENTRED = 3
+"""Times that the object is moved to the middle of the pads that stopped before all touched, and closed on again."""
+NEAR = 400
+"""How many places at most are moved so."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TouchingPlaces(Value):
+    """N places of an object at which all contacts touch."""
+
+    positions: Array  # (N, 3) [m]
+    q: Array  # (N, n_q)
+    clear: Flags
+    """(N,) whether the skeleton of the hand stays outside the object."""
+
+    def taken(self, places: Places) -> TouchingPlaces:
+        """Return some of them."""
+        return TouchingPlaces(self.positions[places], self.q[places], self.clear[places])
+
+    def joined(self, other: TouchingPlaces) -> TouchingPlaces:
+        """Return these places, then others."""
+        names = ("positions", "q", "clear")
+        return TouchingPlaces(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+
+def space(closer: Closer) -> tuple[Array, float]:
+    """Return places (N, 3) all over where pads can touch the object as they close, and how far they are apart [m]."""
+    path, half = closer.path().reshape(-1, 3), _half_size(closer.shape) + closer.radii.max(initial=0.0)
+    lower, upper = path.min(axis=0) - half, path.max(axis=0) + half
+    apart = float((upper - lower).max()) / (ACROSS - 1)
+    counts = np.ceil((upper - lower) / apart).astype(int)
+    begin = (lower + upper - counts * apart) / 2  # as much of it on one side as on the other: hands are symmetric
+    return _box(begin, apart, counts + 1), apart
+
+
+def around(positions: Array, apart: float) -> Array:
+    """Return the places next to some (N, 3), `apart` [m], without those that stand twice."""
+    steps = _box(np.full(3, -apart), apart, np.full(3, 3))
+    near = (positions[:, None] + steps).reshape(-1, 3)
+    _, first = np.unique(np.round(near, 9), axis=0, return_index=True)
+    return np.asarray(near[np.sort(first)])
+
+
+def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
+    """Return the hand closed on the object at places (N, 3), drawn nearer to where all pads touch at once.
+
+    Pads that closing does not move say where the object can be: it is moved until they touch. A hand whose fingers stop
+    together, as a gripper of one motor, touches with all pads only in their middle: there it is closed on again.
+    """
+    held = ~closer.moved
+    for _ in range(CENTRED if held.any() else 0):
+        seen = closer.seen(positions, np.tile(closer.begin, (len(positions), 1)))
+        positions = positions + _shift(seen.outward[:, held], seen.gaps[:, held])
+    found = last = closer.closed(positions)
+    for _ in range(CENTRED):
+        off = np.abs(last.gaps).max(axis=1)
+        near = np.argsort(off, kind="stable")
+        near = near[off[near] > REACH][:NEAR]
+        if not len(near):
+            break
+        last = closer.closed(last.positions[near] + _shift(last.outward[near], last.gaps[near]))
+        found = found.joined(last)
+    return found
+
+
+def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
+    """Return the places at which all contacts touch, in their order."""
+    all_touch = np.flatnonzero(found.touching.all(axis=1))
+    positions, q = found.positions[all_touch], found.q[all_touch]
+    inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
+    return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
+
+
+def off_centre(asked: AskedGrasp, places: TouchingPlaces) -> Array:
+    """Return how far the middle of the pads is from that of the object (N,) [m]."""
+    pads = [(touch.pad.link, touch.pad.point) for touch in asked.touches]
+    middles = asked.hand.kinematics.along(places.q, pads).position.mean(axis=1)
+    return np.asarray(np.linalg.norm(middles - places.positions, axis=1))
+
+
+def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
+    """Return where it comes nearest to all contacts touching (3,), and what is to be said of it.
+
+    That is where most contacts touch, and of those places where the others are least far away.
+    """
+    ask = "start from a more open posture, close along something else, or leave contacts out"
+    if not len(found.q):
+        message = f"wherever the object is, a pad is inside the {closer.shape.title} before the hand closes; {ask}"
+        return closer.path().mean(axis=(0, 1)), Issue(message, key="object.position")
+    off = np.where(found.touching, 0.0, np.abs(found.gaps))
+    best = int(np.lexsort((off.sum(axis=1), -found.touching.sum(axis=1)))[0])
+    names = [touch.name for touch in closer.asked.touches]
+    touch = [name for name, yes in zip(names, found.touching[best], strict=True) if yes]
+    others = [
+        f"{name} {_away(float(gap), float(facing))}"
+        for name, yes, gap, facing in zip(
+            names, found.touching[best], found.gaps[best], found.facing[best], strict=True
+        )
+        if not yes
+    ]
+    place = ", ".join(f"{1e3 * value:.1f}" for value in found.positions[best])
+    message = (
+        f"nowhere do all contacts touch when the hand closes; nearest at ({place}) mm: "
+        f"{' and '.join(touch) or 'none'} touch{'es' * (len(touch) < 2)}, {', '.join(others)}; {ask}"
+    )
+    return found.positions[best], Issue(message, key="object.position")
+
+
+def _away(gap: float, facing: float) -> str:
+    if abs(gap) <= REACH:
+        return f"faces away from the object ({np.degrees(np.arccos(np.clip(facing, -1, 1))):.0f} deg)"
+    return f"stays {in_mm(gap)} away" if gap > 0 else f"is {in_mm(-gap)} inside"
+
+
+def _shift(outward: Array, gaps: Array) -> Array:
+    """Return by how much objects are to be moved (N, 3) for their pads' gaps (N, k) to vanish, as nearly as it goes."""
+    return np.asarray((np.linalg.pinv(outward, rcond=1e-6) @ gaps[..., None])[..., 0])
+
+
+def _box(begin: Array, apart: float, counts: Array) -> Array:
+    axes = [begin[i] + apart * np.arange(int(counts[i])) for i in range(3)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def _half_size(shape: Shape) -> Array:
+    """Return how far a shape reaches along each axis of the palm (3,) [m]."""
+    return np.array([abs(float(shape.farthest(axis) @ axis)) for axis in np.eye(3)])

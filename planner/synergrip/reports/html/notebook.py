@@ -1,0 +1,47 @@
+"""A plan as a notebook shows it: verdict, the worst of every limit, and the slip margins over time."""
+
+from __future__ import annotations
+
+from html import escape
+
+import numpy as np
+
+from synergrip.documents.quantities import plain, read_as
+from synergrip.errors import shortened
+from synergrip.planning.outcome import Plan
+from synergrip.problems.in_short import many
+from synergrip.reports.html.charts import charts_of
+from synergrip.reports.pictures.lines import plan_lines
+
+HEAD = ("limit", "worst", "where", "when", "bound")
+WIDE = "max-width: 34em"
+
+
+def plan_html(plan: Plan) -> str:
+    """Return a plan as HTML; what comes from the user is escaped, nothing is fetched."""
+    times, worst = plan.time, plan.usages[0]
+    k, i = worst.worst()
+    span = f" over {plain(times[-1] - times[0])} s" if len(times) > 1 else ""
+    told = ", ".join(many(*each) for each in ((plan.grasp.n_z, "synergy"), (plan.grasp.n_c, "contact"),
+                                             (len(times), "knot")))  # fmt: skip
+    least = f"least slip margin {read_as(float(worst.value[k, i]), 'N')} at {_short(worst.items[i])}"
+    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, t = {worst.times[k]:.3g} s · {escape(told + span)}</p>"
+    chart = charts_of(times, plan_lines(plan)[:1])[0].svg
+    return f'{shown}{_table(plan)}<div style="{WIDE}">{chart}</div>'
+
+
+def _table(plan: Plan) -> str:
+    """Return the value of every limit that is nearest to its bound."""
+    rows = []
+    for usage in plan.usages:
+        k, i = usage.worst()
+        ends = [read_as(float(end), usage.unit) for end in (usage.lower[i], usage.upper[i]) if np.isfinite(end)]
+        value, when = read_as(float(usage.value[k, i]), usage.unit), f"{usage.times[k]:.3g} s"
+        rows.append((usage.title, value, _short(usage.items[i]), when, " to ".join(ends)))
+    head = "".join(f"<th>{cell}</th>" for cell in HEAD)
+    body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def _short(item: object) -> str:
+    return shortened(str(item))

@@ -1,0 +1,80 @@
+"""What a picture for a paper is drawn on: its size, letters and title."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from synergrip.documents.judging import Arguments, described
+from synergrip.errors import InputError
+from synergrip.reports.pictures.sheet import Letters
+
+INCH, STANDARD = 25.4, 8.0
+"""Millimetres of an inch, and the size of the letters for which pictures are laid out [points]."""
+NARROWEST, WIDEST, SMALLEST, LARGEST = 20.0, 2000.0, 3.0, 72.0
+"""Of widths and heights [mm], and of letters [points]."""
+
+
+@dataclass(frozen=True)
+class Paper:
+    """Size, letters and title of a picture.
+
+    Everything is laid out for letters of 8 points and then drawn as much larger as the letters are wanted; `wide` and
+    `high` are lengths of that layout.
+    """
+
+    width_mm: float | None = None
+    height_mm: float | None = None
+    font: str = ""
+    """A family that is installed, or one of serif, sans-serif, monospace."""
+    font_size: float = STANDARD
+    """Of axis labels [points]; other letters are in proportion."""
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        """Judge the sizes."""
+        judge = Arguments("")
+        for name, least, most, unit in (
+            ("width_mm", NARROWEST, WIDEST, "mm"), ("height_mm", NARROWEST, WIDEST, "mm"),
+            ("font_size", SMALLEST, LARGEST, "points"),
+        ):  # fmt: skip
+            if (given := getattr(self, name)) is not None:
+                value = judge.number(name, given, at_least=least, unit=unit)
+                if value > most:
+                    judge.refuse(name, f"must be {most:g} {unit} or less, got {value:g}")
+        for name in ("font", "title"):
+            if not isinstance(getattr(self, name), str):
+                judge.refuse(name, f"expected a text, got {described(getattr(self, name))}")
+        judge.finish()
+
+    @property
+    def letters(self) -> Letters:
+        """Font and scale."""
+        return Letters(self.font, self.font_size / STANDARD)
+
+    def wide(self, usual_mm: float) -> float:
+        """Return the width of the layout [inch]: what is asked for, or what is usual."""
+        return (self.width_mm or usual_mm) / INCH / self.letters.scale
+
+    def high(self, usual: float, least: float) -> float:
+        """Return the height of the layout [inch]: what is asked for or what is usual, if it is enough.
+
+        Raises:
+            InputError: less than the `least`.
+        """
+        if self.height_mm is None:
+            return usual
+        high = self.height_mm / INCH / self.letters.scale
+        if high < least:
+            needed = INCH * least * self.letters.scale
+            message = f"{self.height_mm:g} mm leave no room for the drawing; give {needed:.0f} mm or more"
+            raise InputError.at("height_mm", f"{message}, or smaller letters")
+        return high
+
+    def refuse_height(self, what: str) -> None:
+        """Refuse a height where it follows from the width.
+
+        Raises:
+            InputError: one was given.
+        """
+        if self.height_mm is not None:
+            raise InputError.at("height_mm", f"the height of '{what}' follows from its width; leave it away")

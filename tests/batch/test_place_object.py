@@ -1,0 +1,94 @@
+"""The place of an object is the best one: no place nearby, and none at random, has a larger margin."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import synergrip as sg
+from synergrip.batch import best_place
+from synergrip.batch.placed_object import position_line
+from synergrip.grasps import place_search
+from synergrip.planning.planning import plan_of_start_posture
+
+TIPS = [f"finger{i}/tip" for i in (1, 2, 3)]
+CONTACTS = [sg.ContactAt(tip, sg.HardFinger(friction=0.6), stiffness=8e3) for tip in TIPS]
+BALL = sg.Object(mass=0.2, shape=sg.Sphere(radius=0.05))
+TASK = sg.Task(loads=[sg.Gravity((0, 0, -9.81))], limits=[sg.NormalForce(upper=20.0)])
+
+
+def placed(task: sg.Task = TASK, ball: sg.Object = BALL) -> sg.PlacedObject:
+    return sg.place_object("barrett", ball, posture="open", close="close", contacts=CONTACTS, task=task)
+
+
+def margin_at(position: np.ndarray) -> float:
+    """Return the largest margin with the object at a place, by `plan`; nan where it is not touched or not held."""
+    try:
+        grasp = sg.make_grasp("barrett", replace(BALL, position=position), posture="open", close="close",
+                              contacts=CONTACTS)  # fmt: skip
+    except sg.InputError:
+        return float("nan")
+    answer = plan_of_start_posture(grasp, TASK.replace(knots=1, linearise="once", goals=[sg.LargestMargin()]))
+    return float(answer.margins.min()) if isinstance(answer, sg.Plan) else float("nan")
+
+
+@pytest.fixture
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search that takes less time, for what is said of its end."""
+    monkeypatch.setattr(place_search, "ACROSS", 8)
+    monkeypatch.setattr(best_place, "JUDGED", 10)
+    monkeypatch.setattr(best_place, "FINE", 1.0)
+
+
+def test_no_place_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(best_place, "JUDGED", 60)
+    told = list[tuple[str, float]]()
+    found = sg.place_object("barrett", BALL, posture="open", close="close", contacts=CONTACTS, task=TASK,
+                            progress=lambda what, share: told.append((what, share)))  # fmt: skip
+    assert found.margin == pytest.approx(margin_at(found.position), rel=1e-5)
+    assert found.tried > found.touching > 100
+    rng = np.random.default_rng(1)
+    near = [margin_at(found.position + step) for step in rng.uniform(-0.01, 0.01, (6, 3))]
+    far = [margin_at(np.array([x, y, z])) for x, y, z in rng.uniform([-0.05, -0.05, 0.1], [0.05, 0.05, 0.2], (12, 3))]
+    others = np.array([*near, *far])
+    assert np.isfinite(others).sum() > 5
+    assert np.nanmax(others) <= 1.03 * found.margin  # of those within 2 %, the one that is held around its middle
+    assert np.array_equal(np.round(found.position, 4), found.position)
+    shares = [share for _, share in told]
+    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert shares == sorted(shares)
+    assert found.grasp.held is not None
+    assert found.grasp.held.gaps == pytest.approx([0, 0, 0], abs=1e-9)
+
+
+def test_the_line_is_read_as_the_place() -> None:
+    line = position_line(np.array([0.0123, -1e-12, 0.17084]))
+    assert line == 'position = ["12.3 mm", "0 mm", "170.84 mm"]'
+    placed = sg.load_problem("barrett-ball-hold", [f"object.{line}", "hand.posture=open", "hand.close=close"])
+    assert placed.held is not None
+    assert placed.held.body.position == pytest.approx([0.0123, 0.0, 0.17084], abs=1e-15)
+
+
+@pytest.mark.usefixtures("coarse")
+def test_what_cannot_be_held_is_placed_all_the_same_and_told() -> None:
+    heavy = placed(TASK.replace(limits=[sg.NormalForce(upper=0.5)]))
+    assert heavy.margin == -np.inf
+    assert "at no place that was judged is the load held" in heavy.notes[0]
+
+
+@pytest.mark.usefixtures("coarse")
+def test_without_a_bound_it_is_judged_with_one_that_is_told() -> None:
+    free = placed(TASK.replace(limits=[]))
+    assert 0 < free.margin < 10 * 0.2 * 9.81
+    assert "normal forces were held to 19.62 N" in free.notes[0]
+    assert placed(TASK.replace(limits=[])).line == free.line
+
+
+@pytest.mark.usefixtures("coarse")
+def test_a_ball_that_no_finger_reaches_is_refused_with_the_nearest_place() -> None:
+    with pytest.raises(sg.InputError, match=r"nowhere do all contacts touch.*nearest at .* mm: .* stays .* mm away"):
+        placed(ball=replace(BALL, shape=sg.Sphere(radius=0.002)))
+    with pytest.raises(sg.InputError, match=r"task: expected"):
+        placed(task=3)  # type: ignore[arg-type]

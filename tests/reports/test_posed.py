@@ -1,0 +1,140 @@
+"""A hand that is posed is where its joints say, and what synergies add is taken back whole."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_hands import hand_of, hinge, pad, slide, touching
+
+from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.objects import Box, Object, Sphere
+from synergrip.hands.folder import load_hand
+from synergrip.hands.hand import Coupling, Hand
+from synergrip.hands.spots import rest_posture, spots_of
+from synergrip.linalg import frozen
+from synergrip.problems.unplaced import unplaced_problem
+from synergrip.reports.view.looks import plain, table_of
+from synergrip.reports.view.marks import pad_axes
+from synergrip.reports.view.posed import Posed
+from synergrip.reports.view.posing import Posing
+from synergrip.reports.view.shown import hand_shown, problem_shown
+
+
+@pytest.fixture(scope="module")
+def barrett() -> Hand:
+    return load_hand("barrett")
+
+
+def begun(hand: Hand) -> Posing:
+    return Posing.at(hand, next(iter(hand.synergy_sets.values())), hand.postures["open"], np.zeros(3))
+
+
+def test_a_joint_goes_where_it_is_turned_and_its_followers_follow(barrett: Hand) -> None:
+    posing = begun(barrett).with_synergy(1, 0.1).with_joint(0, 1.2)
+    assert posing.q[0] == pytest.approx(1.2)
+    assert posing.q[1] == pytest.approx(0.4)  # the outer joint follows by a third
+    alone = posing.with_joint(1, 0.5)  # its clutch lets go
+    assert alone.q[:2] == pytest.approx([1.2, 0.5])
+    assert alone.q[2:] == pytest.approx(barrett.postures["open"][2:])
+
+
+def test_a_synergy_that_is_turned_back_takes_nothing_along(barrett: Hand) -> None:
+    first = begun(barrett)
+    S = first.synergies.S
+    assert first.with_synergy(2, 0.3).q == pytest.approx(first.q + 0.3 * S[:, 2])
+    far = first.with_synergy(1, 9.0)
+    assert far.q[0] == barrett.joints[0].upper
+    assert far.with_synergy(1, 0.0).q == pytest.approx(first.q)
+    other = far.with_set(barrett.synergy_sets["joints"])
+    assert other.q == pytest.approx(far.q)
+    assert not other.dz.any()
+
+
+def test_dials_are_in_the_units_of_people_and_end_where_joints_do(barrett: Hand) -> None:
+    posing = begun(barrett)
+    inner = posing.joint_dials()[0]
+    assert (inner.unit, inner.factor * inner.lower, inner.factor * inner.upper) == ("deg", 0, pytest.approx(140))
+    for i, dial in enumerate(posing.synergy_dials()):
+        for end in (dial.lower, dial.upper):
+            assert np.any(np.isclose(posing.with_synergy(i, 1.001 * end).q, posing.with_synergy(i, end).q) & (
+                posing.synergies.S[:, i] != 0
+            ))  # fmt: skip
+    free = hand_of(
+        [hinge("turn", "palm", (0, 0, 0), (-math.inf, math.inf)), slide("out", "turn_link", (0, 0, 0), (1, 0, 0))]
+    )
+    dials = begun(replace(free, postures={"open": frozen([0.0, 0.0])})).joint_dials()
+    assert [dial.unit for dial in dials] == ["deg", "mm"]
+    assert (dials[0].lower, dials[0].upper) == (-math.pi, math.pi)
+    tied = replace(free, couplings={"out": Coupling({"turn": 0.01}, rigid=True)}, postures={"open": frozen([0.0, 0.0])})
+    assert [dial.follows for dial in begun(tied).joint_dials()] == [False, True]
+
+
+def test_a_frame_is_where_the_kinematics_says(barrett: Hand) -> None:
+    q, posed = barrett.postures["ball"], Posed(barrett)
+    frame = posed.frame(q, np.zeros(3))
+    for spot, place, pushing in zip(spots_of(barrett, q), frame.pads, frame.pushing, strict=False):
+        assert place == pytest.approx(spot.position, abs=1e-12)
+        assert pushing == pytest.approx(spot.normal, abs=1e-12)
+    for link, place, turned in zip(barrett.links, frame.links, frame.turned, strict=True):
+        (motion,) = barrett.kinematics.at(q, [(link, np.zeros(3))])
+        assert place == pytest.approx(motion.position, abs=1e-12)
+        assert turned == pytest.approx(motion.rotation, abs=1e-12)
+    axes = pad_axes(np.vstack([frame.pushing, np.zeros(3)]))
+    assert axes[:-1, :, 0] == pytest.approx(frame.pushing)
+    assert np.linalg.det(axes) == pytest.approx(np.ones(len(axes)))
+    assert len(table_of(posed.scene(q, np.zeros(3)), frame).splitlines()) == 2 + len(barrett.pads) + len(barrett.links)
+
+
+def test_contacts_are_where_the_object_is_nearest_and_say_how_far() -> None:
+    hand = hand_of([slide("left", "palm", (-0.05, 0, 0), (1, 0, 0))])
+    touches = touching(pad("tip", "left_link", radius=0.004))
+    posed = Posed(hand, Object(shape=Sphere(radius=0.02)), touches, frozen([0.0, -9.81, 0.0]))
+    frame = posed.frame(np.array([0.01]), np.array([0.0, 0.0, 0.0]))
+    assert frame.places == pytest.approx(np.array([[-0.02, 0, 0]]))
+    assert frame.normals == pytest.approx(np.array([[1.0, 0, 0]]))
+    assert (frame.labels, frame.caption) == (("tip 16 mm away",), "0 of 1 contacts touch")
+    assert frame.up == pytest.approx([0, 1, 0])
+    assert posed.frame(np.array([0.026]), np.zeros(3)).labels == ("tip touches",)
+    assert posed.frame(np.array([0.03]), np.zeros(3)).labels == ("tip 4 mm inside",)
+    bare = Posed(hand, Object(mass=0.1), touches).frame(np.array([0.0]), np.zeros(3))
+    assert "no shape" in bare.caption
+
+
+def test_fingers_without_pads_end_in_their_last_links(barrett: Hand) -> None:
+    bare = replace(barrett, pads={})
+    spots = spots_of(bare, rest_posture(bare))
+    assert [spot.name for spot in spots] == ["finger1_tip", "finger2_tip", "finger3_tip"]
+    assert not any(spot.pad for spot in spots)
+    assert all(spot.normal is None for spot in spots)
+    assert "no pads" in hand_shown(bare).notes[0]
+
+
+def unplaced(*overrides: str) -> AskedGrasp:
+    return unplaced_problem("human-glass", list(overrides)).asked
+
+
+def test_a_problem_that_is_no_grasp_is_shown_with_what_it_lacks() -> None:
+    shown = problem_shown(unplaced("hand.posture=open"), None, (0, 0, -9.81), ["thumb: too far"])
+    assert shown.notes == ("thumb: too far",)
+    assert shown.begin.position == pytest.approx([-0.01237, 0.06449, -0.042])
+    assert shown.closed is None
+    auto = unplaced("hand.posture=open", "hand.close={pc1=1}", "object.position=auto")
+    nowhere = problem_shown(auto, None, None)
+    assert "nobody knows where the object is" in nowhere.notes[0]
+    assert nowhere.closed is not None
+    assert next(iter(nowhere.sets)) == auto.synergies.name
+
+
+def test_names_of_the_user_stay_text() -> None:
+    assert plain("<b>|`x`|\n# y") == "\\<b\\>\\|\\`x\\`\\| \\# y"
+
+
+def test_an_object_of_flat_faces_is_drawn() -> None:
+    hand = hand_of([slide("left", "palm", (-0.05, 0, 0), (1, 0, 0))])
+    posed = Posed(hand, Object(shape=Box(size=(0.02, 0.02, 0.02))), touching(pad("tip", "left_link")))
+    scene = posed.scene(np.zeros(1), np.zeros(3))
+    assert scene.frame(0).places == pytest.approx(np.array([[-0.01, 0, 0]]))
+    assert scene.friction == pytest.approx([0.5])
