@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -126,15 +125,9 @@ def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
     if not isinstance(grasp, GraspStack) and (not is_list(grasp) or not isinstance(grasp, Sequence)):
         raise InputError.at("grasp", f"expected a Grasp, an Analysis, a GraspStack or a list, got {kind_of(grasp)}")
     stack = GraspStack.of(grasp)
-    first, given = stack.like, stack.given
-    alike = list(map(first.joints.__eq__, map(attrgetter("joints"), given)))
-    held = list(map(attrgetter("held"), given))
-    if any(each is not None for each in held):
-        hand = first.held and first.held.hand
-        alike = [same and (each and each.hand) is hand for same, each in zip(alike, held, strict=True)]
-    if not all(alike):
+    if stack.stranger is not None:
         message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
-        raise InputError.at(f"grasp[{alike.index(False)}]", message)
+        raise InputError.at(f"grasp[{stack.stranger}]", message)
     return stack
 
 
