@@ -81,7 +81,7 @@ def verdict_lines(
     lines = [*problem_lines(problem), *solved_lines(outcome.decisions, details=details)]
     if isinstance(outcome, Plan):
         lines += [*checked_lines(outcome, details=details), *_executed(outcome), *between_lines(outcome)]
-        lines += [*case_lines(outcome), "", *_feasible(outcome, word)]
+        lines += [*case_lines(outcome), "", *_feasible(outcome, word, details=details)]
     elif isinstance(outcome, Infeasible):
         lines += [
             *proof_lines(outcome, details=details),
@@ -156,7 +156,7 @@ def _if_fixed(fixed: Execution | None) -> str:
     return f" (if they stayed where they are {other})"
 
 
-def _feasible(plan: Plan, word: str) -> Iterator[str]:
+def _feasible(plan: Plan, word: str, *, details: bool) -> Iterator[str]:
     k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
@@ -165,7 +165,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     yield f"{head}{best}"
     rows = used_rows(plan.usages, plan.motion, plan.task, plan.analysis)
     yield table(("", "worst", "at", "limit"), rows)
-    yield from moved_lines(plan)
+    yield from moved_lines(plan, details=details)
 
 
 def _largest_of(plan: Plan) -> str:
