@@ -25,8 +25,12 @@ def solved_lines(decisions: Sequence[Decision], *, details: bool) -> Iterator[st
     size = f"{len(decisions)} programs of up to {variables}" if len(decisions) > 1 else f"1 program of {variables}"
     tries = sum(decision.attempts for decision in decisions)
     more = f", {tries} attempts" if tries > len(decisions) else ""
-    short = [decision for decision in decisions if decision.solution.claim is not Claim.OPTIMAL]
-    claims = ", ".join(f"{decision.goal} {decision.solution.claim}" for decision in short) or "optimal"
+    # what a solver found nothing about says nothing of the answer, and is told with the details
+    short = [each for each in decisions if each.solution.claim not in (Claim.OPTIMAL, Claim.NOTHING)]
+    claims = ", ".join(dict.fromkeys(f"{each.goal} {each.solution.claim}" for each in short))
+    nothing = sum(each.solution.claim is Claim.NOTHING for each in decisions)
+    claims = claims or ("optimal" if nothing < len(decisions) else "no answer")
+    claims += f" ({nothing} without an answer)" if 0 < nothing < len(decisions) else ""
     took = f"{1e3 * sum(decision.seconds for decision in decisions):.0f} ms{more}"
     yield from wrapped("solve    ", f"{size} by {solvers} in {took}: {claims}")
     if details:
