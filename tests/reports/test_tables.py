@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synergrip import ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip import ActuatorEffort, ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip.conic.limits.actuator_effort import unit_of_efforts
 from synergrip.documents.quantities import in_mm
 from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.tables import fitted, table, wrapped
@@ -108,3 +109,10 @@ def test_details_are_told_to_those_who_ask() -> None:
         assert f"\n{each.name} " in long
     assert "certificate: gap" in long
     assert "certificate: gap" not in short
+
+
+@pytest.mark.parametrize(("name", "unit"), [("barrett-ball-hold", "N m"), ("tripod", "synergy units")])
+def test_efforts_are_told_in_the_unit_of_what_synergies_move(name: str, unit: str) -> None:
+    grasp = load_problem(name).grasp
+    assert unit_of_efforts(grasp) == unit
+    assert [dial.unit for dial in ActuatorEffort(2.0).dials(grasp)] == [unit]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
-from synergrip.conic.limits.limit import first_largest
+from synergrip.conic.limits.ties import first_worst
 from synergrip.documents.quantities import in_mm
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
@@ -58,7 +58,7 @@ def moved_lines(plan: Plan, *, details: bool = False) -> Iterator[str]:
 def _largest(plan: Plan, motion: Array) -> str:
     """Return the largest of motions (T, 6) and when it is."""
     sizes = _sizes(plan, motion)
-    at = first_largest(sizes[:, None], 1e-6 * float(sizes.max()))[0]
+    at = first_worst(sizes[:, None], sizes[:, None])[0]
     return f"{in_mm(float(sizes[at]))} (t = {plan.motion.times[at]:.2f} s)"
 
 
