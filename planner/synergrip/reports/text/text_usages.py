@@ -94,10 +94,12 @@ def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
     return bound if abs(value - bound) <= LIMIT * float(usage.size[k, i]) else value
 
 
-def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself.
+def worst_of(usage: Usage, units: Mapping[str, str] | None = None) -> Iterator[tuple[str, str, str, float, str]]:
+    """Yield title, worst value, item, time [s] and bound; one for each side that is bounded by itself.
 
-    `units` are those of some items, where that of the limit says less.
+    Args:
+        usage: of a limit.
+        units: of some items, where that of the limit says less.
     """
     two_sided = np.all(usage.lower == -usage.upper)
     bounds = {"largest ": usage.upper, "smallest ": usage.lower}
@@ -107,10 +109,15 @@ def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, .
         value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
         value = on_bound(usage, k, i, bound)
-        unit = "" if usage.unit in SHOWN_IN else units.get(usage.items[i], "")
+        unit = "" if usage.unit in SHOWN_IN else (units or {}).get(usage.items[i], "")
         shown, limit = (f"{told} {unit}".rstrip() for told in both_apart(value, bound, usage.unit))
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
-        where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
         limit = limit.lstrip("-") if two_sided else limit
         title = f"{side if len(sides) > 1 else ''}{usage.title}"
-        yield title, shown, where, f"{sign}{limit}"
+        yield title, shown, str(usage.items[i]), float(usage.times[k]), f"{sign}{limit}"
+
+
+def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
+    """Yield title, worst value, where and when, and its bound."""
+    for title, shown, item, time, limit in worst_of(usage, units):
+        yield title, shown, f"{item}, t = {time:.2f} s", limit
