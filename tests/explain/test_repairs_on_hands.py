@@ -145,6 +145,11 @@ def test_where_no_change_has_a_plan_the_head_does_not_promise_help_and_gives_the
     assert "What would help" not in told
     assert "What would help" in helped
     assert command not in helped
+    wider = replace(found.repairs[0], cause="joint_range", key="limits.joint_range")
+    with shown_on(Screen(250)):
+        ranges = "\n".join(verdict_lines(problem, no, known=replace(found, others=(wider,))))
+    assert ranges.count("mechanical stops do not widen") == 1
+    assert "mechanical stops" not in helped
     assert re.search(r"limits.margin .* --set 'limits.margin=12 N' on the command line\n", told)
 
 

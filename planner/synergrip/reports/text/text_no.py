@@ -25,6 +25,7 @@ FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 AT_START = "in the linear model of the start posture"
 LITTLE = 0.005
 """Share of a motion up to which it is not told that it is left undone."""
+STOPS = "limits.joint_range: mechanical stops do not widen; it takes another hand or another start posture"
 BEST = 3
 """Items of a limit that are named."""
 
@@ -73,6 +74,9 @@ def _repairs(found: Explanation, command: str) -> Iterator[str]:
         alone = any(each.verified for each in found.repairs)
         yield from ("", "Pairs of changes that help" if alone else "No single change helps; pairs that do")
         yield _changes(found.pairs)
+    pairs = (each for pair in found.pairs for each in pair)
+    if any(each.cause == "joint_range" for each in (*found.repairs, *found.others, *pairs)):
+        yield from wrapped("         ", STOPS)
     if found.whole and not helped and not found.interrupted:
         pair = "" if found.posed is None else ", nor any pair"
         yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
