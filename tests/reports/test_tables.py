@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from synergrip import ActuatorEffort, ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip.conic.decide import Decision
 from synergrip.conic.limits.actuator_effort import unit_of_efforts
+from synergrip.conic.solution import Claim
 from synergrip.documents.quantities import in_mm
 from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.tables import fitted, table, wrapped
+from synergrip.reports.text.text_checked import solved_lines
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_plan import verdict_lines
 
@@ -116,3 +119,23 @@ def test_efforts_are_told_in_the_unit_of_what_synergies_move(name: str, unit: st
     grasp = load_problem(name).grasp
     assert unit_of_efforts(grasp) == unit
     assert [dial.unit for dial in ActuatorEffort(2.0).dials(grasp)] == [unit]
+
+
+def test_what_solvers_come_to_no_end_of_is_told_in_words() -> None:
+    problem = load_problem("pinch-soft")
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    one = answer.decisions[-1]
+    none = replace(one, solution=replace(one.solution, claim=Claim.NOTHING))
+    no = replace(one, solution=replace(one.solution, claim=Claim.INFEASIBLE))
+
+    def told(*decisions: Decision, details: bool = False) -> str:
+        return " ".join(" ".join(solved_lines(decisions, details=details)).split())
+
+    assert told(one, one).endswith(": optimal")
+    assert told(one, none, none).endswith(": optimal (2 of them without an answer of the solver; -v names them)")
+    assert told(one, no, no, none).endswith(
+        f": {one.goal} infeasible (1 of them without an answer of the solver; -v names them)"
+    )
+    assert told(none).endswith(": no answer of the solver")
+    assert "-v" not in told(one, none, details=True)
