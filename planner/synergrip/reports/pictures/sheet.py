@@ -147,8 +147,10 @@ class Sheet:
 
 
 def readable(text: str) -> str:
-    """Return a text without control characters."""
-    return "".join(c for c in text if unicodedata.category(c) != "Cc")
+    """Return a text without what no file of a picture may hold: control characters, halves of characters, and the code
+    points U+FFFE, U+FFFF and their like, which are no characters.
+    """
+    return "".join(c for c in text if unicodedata.category(c) not in ("Cc", "Cs") and ord(c) & 0xFFFE != 0xFFFE)
 
 
 def no_noise(axes: Any, values: Array, unit: str = "") -> None:
