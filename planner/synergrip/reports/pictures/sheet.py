@@ -147,9 +147,7 @@ class Sheet:
 
 
 def readable(text: str) -> str:
-    """Return a text without what no file of a picture may hold: control characters, halves of characters, and the code
-    points U+FFFE, U+FFFF and their like, which are no characters.
-    """
+    """Return a text without what no picture file may hold: control characters, half and no characters (U+FFFF)."""
     return "".join(c for c in text if unicodedata.category(c) not in ("Cc", "Cs") and ord(c) & 0xFFFE != 0xFFFE)
 
 
