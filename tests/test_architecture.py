@@ -70,6 +70,7 @@ COMPILED = {
         "lanes_kernel",
         "lanes_dense",
         "lanes_bases",
+        "lanes_centroid",
         "lanes_statics",
     )
 }

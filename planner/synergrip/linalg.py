@@ -8,7 +8,6 @@ Matrices are made free of units before they come here.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -29,8 +28,6 @@ CLEAR = 1e-2
 """Singular values above this share of the largest are in no danger of counting as 0."""
 SINGULAR = 1e-13
 """A symmetric matrix with unit diagonal is singular when its smallest eigenvalue is below this."""
-SAME_LENGTH = 1e-15
-"""How far from 1 rounding leaves the length of a vector that was divided by it."""
 
 
 def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
@@ -40,6 +37,12 @@ def frozen(values: object, shape: tuple[int, ...] | None = None) -> Array:
         array = array.reshape(shape)
     array.setflags(write=False)
     return array
+
+
+def sealed(made: Array) -> Array:
+    """Return an array that was just made, and that nobody else has, read-only: as `frozen`, without a copy."""
+    made.setflags(write=False)
+    return made
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -248,11 +251,3 @@ def block_diagonal(blocks: Sequence[Array]) -> Array:
         result[row : row + block.shape[0], column : column + block.shape[1]] = block
         row, column = row + block.shape[0], column + block.shape[1]
     return result
-
-
-def unit_vector(direction: Sequence[float]) -> tuple[float, ...]:
-    """Return a direction, which is not zero, with length 1; one that has it already stays as it is, to the digit."""
-    size = math.hypot(*direction)
-    if abs(size - 1.0) <= SAME_LENGTH:
-        return tuple(direction)
-    return tuple(part / size for part in direction)

@@ -54,6 +54,20 @@ def test_lanes_find_what_one_grasp_after_the_other_gives(kinds: list[str], n_z: 
         assert largest(ours - theirs) <= 1e-8 * largest(theirs)  # references that make internal forces and no motion
 
 
+def test_a_hand_whose_joints_move_all_contacts_is_worked_out_beside_others() -> None:
+    """What is 0 in most grasps is not left out in the one where it is not."""
+    grasps = grasps_of(["hard"] * 3, 5)
+    apart = np.random.default_rng(1).normal(scale=0.01, size=grasps[9].J.shape)
+    grasps[9] = replace(grasps[9], J=grasps[9].J + apart, C_q=grasps[9].C_q + 1e-3 * apart.T @ apart)
+    found = quick(sg.GraspStack.of(grasps))
+    assert found.places.tolist() == list(range(len(grasps)))
+    for k in (8, 9):
+        theirs = sg.analyse(grasps[k]).response
+        for name in (field.name for field in fields(Maps)):
+            whole = getattr(theirs, name)
+            assert largest(getattr(found.each.response, name)[k] - whole) <= 1e-10 * largest(whole)
+
+
 def test_what_is_doubtful_is_left_to_others() -> None:
     grasps = grasps_of(["soft"] * 4, 8)
     doubtful = {

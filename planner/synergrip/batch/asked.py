@@ -125,13 +125,9 @@ def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
     if not isinstance(grasp, GraspStack) and (not is_list(grasp) or not isinstance(grasp, Sequence)):
         raise InputError.at("grasp", f"expected a Grasp, an Analysis, a GraspStack or a list, got {kind_of(grasp)}")
     stack = GraspStack.of(grasp)
-    first = stack.like
-    for place, each in enumerate(stack.given):
-        same = each.joints is first.joints or each.joints == first.joints
-        alike = same and (each.held is None) == (first.held is None)
-        if not alike or (each.held is not None and first.held is not None and each.held.hand is not first.held.hand):
-            message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
-            raise InputError.at(f"grasp[{place}]", message)
+    if stack.stranger is not None:
+        message = "is not on the hand of grasp[0]; plan grasps of one hand at once, made with one load_hand(...)"
+        raise InputError.at(f"grasp[{stack.stranger}]", message)
     return stack
 
 

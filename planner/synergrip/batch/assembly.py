@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -22,50 +23,67 @@ from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import LARGEST, variable_bounds
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, Places, frozen
 from synergrip.values import Value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Assembled(Value):
-    """N programs as arrays: ``M v + constant - head s`` lies in the cones, s the margin over the unit."""
+    """N programs as arrays: ``constant - A (v, s)`` lies in the cones, s the margin over the unit."""
 
     stated: Stated
     cones: tuple[Cones, ...]
     unit: Array  # (N,) [N]
-    M: Array  # (N, m, n)
-    constant: Array  # (N, m) at a margin of 0
-    head: Array  # (N, m) what a margin of one unit takes from each row
+    A: Array  # (N, m, n + 1)
+    constant: Array  # (N, m)
     sizes: tuple[int, ...]
-    bounds: Array  # (N, n) that every |v| keeps, which the limits imply or no plan exceeds
+
+    @property
+    def far(self) -> Array:
+        """(n + 1,) bounds that no plan exceeds on |v|, and none on s: part of what the programs mean."""
+        least = min(float(each.unit.min()) for each in self.cones)
+        return np.array([LARGEST / least] * (self.A.shape[2] - 1) + [np.inf])
+
+    def bounds(self, places: Places) -> Array:
+        """Return (N, n) bounds on |v| of the programs at some places, which the limits imply or no plan exceeds.
+
+        They are those with the cones of all of these: more friction lets contacts carry more.
+        """
+        stated, first, far = self.stated, self.stated.grasps[0], self.far[:-1]
+        stated_most = np.concatenate([contact.kind.most for contact in first.contacts])
+        larger = max(1.0, float((most([each.taken(places) for each in self.cones], first) / stated_most).max()))
+        limits = [SlipMargin(stated.task.margin), *(_widest(stated, limit, larger) for limit in stated.task.limits)]
+        known = variable_bounds(stated.formulation, limits, places)
+        return np.where(known >= LARGEST, far, np.minimum(known / columns(stated, self.unit)[places], far))
 
     def largest_margin(self) -> ConeProblems:
         """Return: maximise s, the last unknown."""
-        n = self.M.shape[2]
-        q = np.zeros((1, n + 1))
-        q[0, -1] = -1.0
-        A = np.concatenate([-self.M, self.head[:, :, None]], axis=2)
-        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, A, self.constant, self.sizes)
+        n = self.A.shape[2]
+        return ConeProblems(np.zeros((1, n, n)), -np.eye(n)[-1:], self.A, self.constant, self.sizes)
+
+    def at_margin(self, margin: float, places: Any = slice(None)) -> tuple[Array, Array]:
+        """Return A (..., m, n) and b (..., m) of the programs at some places, at a margin [N]."""
+        A = self.A[places]
+        return A[..., :-1], self.constant[places] - A[..., -1] * (margin / self.unit[places])[:, None]
 
     def least_effort(self, of: Effort, margin: float) -> tuple[ConeProblems, Array]:
         """Return: the least effort at a margin [N]; and the constant (N,) of its objective."""
         F, f = self._effort(of)
-        b = self.constant - self.head * (margin / self.unit)[:, None]
-        problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], -self.M, b, self.sizes)
+        problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], *self.at_margin(margin), self.sizes)
         return problems, (f**2).sum(axis=-1) / 2
 
     def least_peak(self, margin: float) -> ConeProblems:
         """Return: the least peak of the normal forces at a margin [N], the last unknown, in units of the load."""
-        stated, n = self.stated, self.M.shape[2]
+        stated, (A, b) = self.stated, self.at_margin(margin)
         force, normal = stated.formulation.force, stated.grasps[0].normal_rows
         matrix = (force.matrix[..., normal, :] * columns(stated, self.unit)[:, None, :]) / self.unit[:, None, None]
         below = np.concatenate([matrix, np.full((*matrix.shape[:2], 1), -1.0)], axis=2)
-        others = np.concatenate([-self.M, np.zeros((*self.M.shape[:2], 1))], axis=2)
-        b = self.constant - self.head * (margin / self.unit)[:, None]
+        others = np.concatenate([A, np.zeros((*A.shape[:2], 1))], axis=2)
         b = np.concatenate([-force.constant[:, normal] / self.unit[:, None], b], axis=1)
-        q = np.eye(n + 1)[-1:]
-        sizes = (1,) * len(normal) + self.sizes
-        return ConeProblems(np.zeros((1, n + 1, n + 1)), q, np.concatenate([below, others], axis=1), b, sizes)
+        n, sizes = self.A.shape[2], (1,) * len(normal) + self.sizes
+        return ConeProblems(
+            np.zeros((1, n, n)), np.eye(n)[-1:], np.concatenate([below, others], axis=1), b, sizes
+        )  # fmt: skip
 
     def _effort(self, of: Effort) -> tuple[Array, Array]:
         """Return F (N, p, n) and f (N, p) of the squares ``||F v + f||^2 / 2``, in units of the load."""
@@ -87,18 +105,18 @@ def assembled(stated: Stated) -> Assembled:
     """Return stated tasks as arrays."""
     cones, unit = stacked_cones(stated.grasps, stated.friction), stated.unit
     parts = sorted(_parts(stated, cones, unit), key=lambda part: part[0])  # half-lines first
-    N, scale = stated.count, columns(stated, unit)
+    N, n, alpha = stated.count, stated.formulation.n_v, stated.n_alpha
     sizes = tuple(size for size, matrix, *_ in parts for _ in range(matrix.shape[-2] // size))
     total = sum(matrix.shape[-2] for _, matrix, *_ in parts)
-    M, constant = np.empty((N, total, scale.shape[1])), np.empty((N, total))
-    head, at = np.zeros((N, total)), 0
+    A, constant, at = np.empty((N, total, n + 1)), np.empty((N, total)), 0
     for _, matrix, value, divisor, takes in parts:
         rows = slice(at, at + matrix.shape[-2])
-        np.divide(matrix * scale[:, None, :], divisor[..., None], out=M[:, rows])
-        constant[:, rows] = value / divisor
-        head[:, rows] = takes
+        np.multiply(matrix[..., :alpha], (unit[:, None] / -divisor)[..., None], out=A[:, rows, :alpha])
+        np.divide(matrix[..., alpha:], -divisor[..., None], out=A[:, rows, alpha:-1])
+        np.divide(value, divisor, out=constant[:, rows])
+        A[:, rows, -1] = takes
         at = rows.stop
-    return Assembled(stated, cones, unit, M, constant, head, sizes, _bounds(stated, cones, unit, scale))
+    return Assembled(stated, cones, unit, A, constant, sizes)
 
 
 def _parts(
@@ -138,17 +156,6 @@ def _divisor(limit: Limit, rows: Rows, unit: Array) -> Array:
     bound = limit.lower if rows.items[0].side == "lowest" else limit.upper
     far = np.isfinite(bound) & (abs(bound) > FAR * unit)
     return np.where(far, abs(bound), unit)[:, None] / bound_unit(bound, 1.0)
-
-
-def _bounds(stated: Stated, cones: tuple[Cones, ...], unit: Array, scale: Array) -> Array:
-    """Return (N, n) bounds on |v|, with the cones of all: more friction lets contacts carry more."""
-    formulation, first = stated.formulation, stated.grasps[0]
-    stated_most = np.concatenate([contact.kind.most for contact in first.contacts])
-    larger = max(1.0, float((most(cones, first) / stated_most).max()))
-    wider = [_widest(stated, limit, larger) for limit in stated.task.limits]
-    known = np.broadcast_to(variable_bounds(formulation, [SlipMargin(stated.task.margin), *wider]), scale.shape)
-    far = LARGEST / min(float(each.unit.min()) for each in cones)
-    return np.where(known >= LARGEST, far, np.minimum(known / scale, far))
 
 
 def _widest(stated: Stated, limit: Limit, larger: float) -> Limit:

@@ -57,16 +57,14 @@ def _controlled(stack: GraspStack, each: Each) -> NDArray[np.bool_]:
     dz_r, forces = times(inverse[..., :n_alpha], alpha), times(spaces.E_s, alpha)
     made = times(maps.dlambda_dzr, dz_r)
     right = _nothing((made - forces) * metric.force, forces * metric.force)
-    lengths = np.linalg.norm(M, axis=-1)
-    condition = np.linalg.norm(M / lengths[..., None], axis=(-2, -1)) * np.linalg.norm(
-        inverse * lengths[..., None, :], axis=(-2, -1)
-    )
-    right &= condition <= REGULAR
+    squares = np.einsum("Nij,Nij->Ni", M, M)  # with rows made as long, the root of their number is the size of M
+    beside = M.shape[-1] * (np.einsum("Nij,Nij->Nj", inverse, inverse) * squares).sum(axis=-1)
+    right &= (beside <= REGULAR**2) & (squares.min(axis=-1) > 0)
     if not (n_beta := spaces.Gamma_ucs.shape[-1]):
         return right
     scaled = metric.motion @ spaces.Gamma_ucs
     along = times(scaled.mT, times(metric.motion, times(maps.du_dzr, dz_r)))
-    right &= _size(along) <= EQUAL * lengths.max(axis=1) * _size(dz_r)
+    right &= _size(along) <= EQUAL * np.sqrt(squares.max(axis=1)) * _size(dz_r)
     beta = np.broadcast_to(rng.normal(size=n_beta), (len(each), n_beta))
     of_hand = times(matrices.J, times(matrices.S, times(spaces.Gamma_zcs, beta))) / metric.force
     of_object = times(matrices.G.mT, times(spaces.Gamma_ucs, beta)) / metric.force

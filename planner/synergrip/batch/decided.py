@@ -79,8 +79,7 @@ def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array,
     if not len(left):
         return found.x[:, :-1], largest, infeasible
     own, x, z = widest if len(left) == N else widest.taken(left), found.x[left], found.z[left]
-    bounds = np.hstack([programs.bounds[left], np.full((len(left), 1), np.inf)])
-    right = verifier.judge_optimal(own, x, z, bounds).verified
+    right = verifier.judge_optimal(own, x, z, programs.far).verified
     reached = x[:, -1]
     largest[left] = np.where(right, np.where(np.abs(reached) > AT_LEAST, reached, 0.0) * programs.unit[left], np.nan)
     # where limits clash without any friction, the multipliers grow into a proof of that by themselves
@@ -92,46 +91,46 @@ def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array,
 
 def _proven(programs: Assembled, places: NDArray[np.intp], z: Array) -> NDArray[np.bool_]:
     """Return whether the multipliers of the largest margin prove that the one asked for is out of reach."""
-    n, margin = programs.M.shape[-1], programs.stated.task.margin
-    b = programs.constant[places] - programs.head[places] * (margin / programs.unit[places])[:, None]
-    at_margin = ConeProblems(np.zeros((1, n, n)), np.zeros((1, n)), -programs.M[places], b, programs.sizes)
-    return verifier.judge_infeasible(at_margin, z, programs.bounds[places]).verified
+    A, b = programs.at_margin(programs.stated.task.margin, places)
+    n = A.shape[-1]
+    at_margin = ConeProblems(np.zeros((1, n, n)), np.zeros((1, n)), A, b, programs.sizes)
+    return verifier.judge_infeasible(at_margin, z, programs.bounds(places)).verified
 
 
 def _best(
     programs: Assembled, goal: Goal, possible: NDArray[np.intp], solver: Solver
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Return the best unknowns (N, n) of the tasks that are possible, and which of them verify."""
-    N, n = programs.M.shape[0], programs.M.shape[2]
+    N, n = programs.stated.count, programs.stated.formulation.n_v
     x, right = np.full((N, n), np.nan), np.zeros(N, dtype=bool)
     if not len(possible):
         return x, right
-    problems, constant, bounds, tolerances = _stated_goal(programs, goal)
+    problems, constant, tolerances = _stated_goal(programs, goal)
+    far = programs.far[: problems.q.shape[-1]]
     for tolerance in tolerances:
         every = len(possible) == N
         theirs, own = problems if every else problems.taken(possible), None if constant is None else constant[possible]
         found = solver(theirs, tolerance, np.full(len(possible), -np.inf))
         x[possible] = found.x[:, :n]
-        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, bounds[possible], own).verified
+        right[possible] = verifier.judge_optimal(theirs, found.x, found.z, far, own).verified
         possible = possible[~right[possible]]
         if not len(possible):
             return x, right
     # without a load, to do nothing may be the best
     theirs, own = problems.taken(possible), None if constant is None else constant[possible]
     x_0, z_0 = (np.zeros((len(possible), size)) for size in (problems.q.shape[-1], problems.b.shape[1]))
-    still = verifier.judge_optimal(theirs, x_0, z_0, bounds[possible], own).verified
+    still = verifier.judge_optimal(theirs, x_0, z_0, far, own).verified
     x[possible[still]], right[possible[still]] = 0.0, True
     return x, right
 
 
-def _stated_goal(programs: Assembled, goal: Goal) -> tuple[ConeProblems, Array | None, Array, Sequence[Tolerance]]:
-    """Return the programs of a goal at the margin asked for, constants, bounds, and to what they are solved in turn."""
+def _stated_goal(programs: Assembled, goal: Goal) -> tuple[ConeProblems, Array | None, Sequence[Tolerance]]:
+    """Return the programs of a goal at the margin asked for, constants, and to what they are solved in turn."""
     margin = programs.stated.task.margin
     if isinstance(goal, LeastEffort):
         problems, constant = programs.least_effort(goal.of, margin)
-        return problems, constant, programs.bounds, OF_EFFORT
-    free = np.full((len(programs.bounds), 1), np.inf)
-    return programs.least_peak(margin), None, np.hstack([programs.bounds, free]), (OF_MARGIN,)
+        return problems, constant, OF_EFFORT
+    return programs.least_peak(margin), None, (OF_MARGIN,)
 
 
 def _told(

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 
 from synergrip.batch.compiling import Compiled
 from synergrip.batch.confirmed import confirmed
-from synergrip.grasps.stack import GraspStack
+from synergrip.grasps.stack import GraspStack, Matrices
 from synergrip.linalg import Array
-from synergrip.statics.analyses import analyses_for_plans
-from synergrip.statics.analysis import Analysis
+from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.each import Each, EachGrasp, EachResponse
 from synergrip.statics.saddle import other_numbers
 from synergrip.statics.subspaces import Bases
 from synergrip.statics.theorem1 import Coordinates
 
-SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_statics.py", "numpy_kernel.py")
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_centroid.py", "lanes_statics.py",
+           "numpy_kernel.py")  # fmt: skip
 """What the compiled statics are made of."""
 
 
@@ -89,6 +89,35 @@ class Layout(NamedTuple):
         return cls(l, q, z, k, n, r, d, *accumulate((0, *given, *on_the_way, *wanted)))
 
 
+class Spans(NamedTuple):
+    """From where to where rows of matrices, and of transposed ones (T), are not 0: fingers move their own contacts."""
+
+    J: NDArray[np.int64]  # (n_l, 2)
+    J_T: NDArray[np.int64]  # (n_q, 2)
+    S: NDArray[np.int64]  # (n_q, 2)
+    S_T: NDArray[np.int64]  # (n_z, 2)
+    C_s: NDArray[np.int64]  # (n_l, 2)
+    C_q: NDArray[np.int64]  # (n_q, 2)
+    C_z: NDArray[np.int64]  # (n_z, 2)
+
+    @classmethod
+    def of(cls, matrices: Matrices) -> Spans:
+        """Return those that hold for all of N grasps."""
+        every = (matrices.J, matrices.S, matrices.C_s, matrices.C_q, matrices.C_z)
+        J, S, *others = (((each[:1] if each.strides[0] == 0 else each) != 0).any(axis=0) for each in every)
+        return cls(*(_spans(each) for each in (J, J.T, S, S.T, *others)))
+
+
+def _spans(there: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return (m, 2) from where to where each row (m, k) is true; (k, 0) for one that is nowhere."""
+    k = there.shape[1]
+    found = np.empty((len(there), 2), dtype=np.int64)
+    nowhere = ~there.any(axis=1)
+    found[:, 0] = np.where(nowhere, k, there.argmax(axis=1))
+    found[:, 1] = np.where(nowhere, 0, k - there[:, ::-1].argmax(axis=1))
+    return found
+
+
 class Clear(NamedTuple):
     """What is clear of the statics of N grasps."""
 
@@ -109,7 +138,8 @@ def _made(stamp: int) -> Any:
 
 def _prepare(function: Any) -> None:
     """Work out the statics of no grasp at all."""
-    function((_given(np.zeros((1, 1))),) * 8, Layout.of(7, 1, 1), np.zeros(1), 0, (0, 1))
+    spans = Spans(*(np.zeros((1, 2), dtype=np.int64),) * 7)
+    function((_given(np.zeros((1, 1))),) * 8, Layout.of(7, 1, 1), spans, np.zeros(1), 0, (0, 1))
 
 
 compiled = Compiled("statics", SOURCES, _made, _prepare)
@@ -129,7 +159,7 @@ class ClearStatics:
         if layout is None:
             return None
         arrays = tuple(_given(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
-        found = compiled()(arrays, layout, _others(layout), len(stack), (layout.clear, layout.end))
+        found = compiled()(arrays, layout, Spans.of(matrices), _others(layout), len(stack), (layout.clear, layout.end))
         each = _each(found, layout, stack)
         clear = (found[:, 0] > 0) & confirmed(stack, each)
         places = np.flatnonzero(clear)
@@ -138,7 +168,7 @@ class ClearStatics:
         if not clear.all():
             stack = stack.taken(places)
             each = _each(found[places], layout, stack)
-        like = self._like.get(layout) or self._like.setdefault(layout, analyses_for_plans(stack.taken([0]))[0].at(0))
+        like = self._like.get(layout) or self._like.setdefault(layout, analyse(stack[0]))
         return Clear(places, stack, each, like) if like.spaces.dimensions == (layout.r, layout.d, 0) else None
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from synergrip.batch.lanes import all_of, load, root, store, where_less
+from synergrip.batch.lanes import LANES, all_of, load, root, store, where_less
 
 
 def compiled(function: Any, *, inner: bool = True) -> Any:
@@ -24,6 +24,14 @@ def compiled(function: Any, *, inner: bool = True) -> Any:
         return numba.njit(cache=not inner, **options)(function)
     except RuntimeError:  # no folder can be written
         return numba.njit(**options)(function)
+
+
+@compiled
+def workspace(entries: int) -> Any:
+    """Return zeros (entries * 8,) that begin at a multiple of 64 bytes, so that no entry lies in two cache lines."""
+    whole = np.zeros((entries + 1) * LANES)
+    first = (64 - np.int64(whole.ctypes.data % 64)) % 64 // whole.itemsize
+    return whole[first : first + entries * LANES]
 
 
 @compiled

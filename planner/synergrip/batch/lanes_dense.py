@@ -22,26 +22,40 @@ class Matrix(NamedTuple):
 @compiled
 def product(w: Any, out: int, A: Any, B: Any, m: int, k: int, n: int, add: float) -> None:
     """Write A B (m, n) for A (m, k) and B (k, n), rows below one another; or add it `add` times, where not 0."""
-    kept_apart()
-    times = all_of(add)
+    for i in range(0, m, 2):
+        _two_rows(w, out, A, B, i, min(i + 1, m - 1), 0, k, n, add)
+
+
+@compiled
+def product_within(w: Any, out: int, A: Any, spans: Any, B: Any, m: int, n: int, add: float) -> None:
+    """Do the same for an A whose rows are 0 outside of their `spans` (m, 2): from, to."""
     for i in range(0, m, 2):
         below = min(i + 1, m - 1)
-        a, b = A.first + i * A.down, A.first + below * A.down
-        for j in range(0, n, 2):
-            beside = min(j + 1, n - 1)
-            c, d = B.first + j * B.right, B.first + beside * B.right
-            s00, s01, s10, s11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
-            for inner in range(k):
-                x, y = load(w, a + inner * A.right), load(w, b + inner * A.right)
-                p, q = load(w, c + inner * B.down), load(w, d + inner * B.down)
-                s00, s01, s10, s11 = s00 + x * p, s01 + x * q, s10 + y * p, s11 + y * q
-            _put(w, out + i * n + j, s00, times, add)
+        first, end = min(spans[i, 0], spans[below, 0]), max(spans[i, 1], spans[below, 1])
+        _two_rows(w, out, A, B, i, below, first, end, n, add)
+
+
+@compiled
+def _two_rows(w: Any, out: int, A: Any, B: Any, i: int, below: int, first: int, end: int, n: int, add: float) -> None:
+    """Write two rows of A B (..., n), or one where they are the same, by columns `first` to `end` of A."""
+    kept_apart()
+    times = all_of(add)
+    a, b = A.first + i * A.down, A.first + below * A.down
+    for j in range(0, n, 2):
+        beside = min(j + 1, n - 1)
+        c, d = B.first + j * B.right, B.first + beside * B.right
+        s00, s01, s10, s11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
+        for inner in range(first, end):
+            x, y = load(w, a + inner * A.right), load(w, b + inner * A.right)
+            p, q = load(w, c + inner * B.down), load(w, d + inner * B.down)
+            s00, s01, s10, s11 = s00 + x * p, s01 + x * q, s10 + y * p, s11 + y * q
+        _put(w, out + i * n + j, s00, times, add)
+        if beside > j:
+            _put(w, out + i * n + beside, s01, times, add)
+        if below > i:
+            _put(w, out + below * n + j, s10, times, add)
             if beside > j:
-                _put(w, out + i * n + beside, s01, times, add)
-            if below > i:
-                _put(w, out + below * n + j, s10, times, add)
-                if beside > j:
-                    _put(w, out + below * n + beside, s11, times, add)
+                _put(w, out + below * n + beside, s11, times, add)
 
 
 @compiled
@@ -91,17 +105,20 @@ def lower_transposed_solved(w: Any, L: int, n: int, b: int, columns: int) -> Non
 def _solved_in_turn(w: Any, L: Matrix, n: int, b: int, down: int, columns: int) -> None:
     """Write ``L^-1 B`` over B (n, columns), whose rows are `down` apart, for a lower L with an inverted diagonal."""
     kept_apart()
-    for c in range(0, columns, 2):
-        d = c + 1 if c + 1 < columns else c
+    for c in range(0, columns, 4):
+        d, e, f = min(c + 1, columns - 1), min(c + 2, columns - 1), min(c + 3, columns - 1)
         for i in range(n):
             row, here = b + i * down, L.first + i * L.down
-            one, two = load(w, row + c), load(w, row + d)
+            one, two, three, four = load(w, row + c), load(w, row + d), load(w, row + e), load(w, row + f)
             for k in range(i):
                 part, above = load(w, here + k * L.right), b + k * down
                 one, two = one - part * load(w, above + c), two - part * load(w, above + d)
+                three, four = three - part * load(w, above + e), four - part * load(w, above + f)
             over = load(w, here + i * L.right)
             store(w, row + c, one * over)
             store(w, row + d, two * over)
+            store(w, row + e, three * over)
+            store(w, row + f, four * over)
 
 
 @compiled

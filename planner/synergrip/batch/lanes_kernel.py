@@ -23,6 +23,7 @@ from synergrip.batch.lanes_algebra import (
     moved_inside,
     unscaled,
     unscaled_rows,
+    workspace,
 )
 from synergrip.batch.lanes_linear import factor, solution
 from synergrip.batch.numpy_kernel import BOUNDARY, MOST, STUCK
@@ -191,7 +192,7 @@ def made(stamp: int) -> Any:
     def solved(given: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Any:
         entries, answers = at.x, at.v - at.x
         found = np.empty((given.shape[0], answers, LANES))
-        w = np.zeros(at.end * LANES + stamp * 0)
+        w = workspace(at.end + stamp * 0)
         for group in range(given.shape[0]):
             for k in range(entries):
                 for lane in range(LANES):

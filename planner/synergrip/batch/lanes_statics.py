@@ -13,9 +13,17 @@ from typing import Any
 import numpy as np
 
 from synergrip.batch.lanes import LANES, all_of, kept_apart, load, store, where_less
-from synergrip.batch.lanes_algebra import compiled, magnitude
+from synergrip.batch.lanes_algebra import compiled, magnitude, workspace
 from synergrip.batch.lanes_bases import bases
-from synergrip.batch.lanes_dense import Matrix, cholesky, lower_solved, lower_transposed_solved, product
+from synergrip.batch.lanes_centroid import about_centroid, in_place
+from synergrip.batch.lanes_dense import (
+    Matrix,
+    cholesky,
+    lower_solved,
+    lower_transposed_solved,
+    product,
+    product_within,
+)
 from synergrip.statics.saddle import APART, CAUTION, ROUNDOFF
 
 AGREED = 1e-12
@@ -25,17 +33,17 @@ PLAIN = 1e-8
 
 
 @compiled
-def _factors(w: Any, at: Any) -> Any:
+def _factors(w: Any, at: Any, spans: Any) -> Any:
     """Write the factors ``C = L L'``, ``L^-1 G' = Y`` and ``Y'Y = R R'``; return the least share of a pivot."""
     kept_apart()
     l, q, z = at.l, at.q, at.z  # noqa: E741 - the usual letter
     S, J = Matrix(at.S, z, 1), Matrix(at.J, q, 1)
-    product(w, at.JS, J, S, l, q, z, 0.0)
-    product(w, at.wide, S, Matrix(at.C_z, z, 1), q, z, z, 0.0)
+    product_within(w, at.JS, J, spans.J, S, l, z, 0.0)
+    product_within(w, at.wide, S, spans.S, Matrix(at.C_z, z, 1), q, z, 0.0)
     for i in range(q * q):
         store(w, at.K + i, load(w, at.C_q + i))
     product(w, at.K, Matrix(at.wide, z, 1), Matrix(at.S, 1, z), q, z, q, 1.0)
-    product(w, at.wide, J, Matrix(at.K, q, 1), l, q, q, 0.0)
+    product_within(w, at.wide, J, spans.J, Matrix(at.K, q, 1), l, q, 0.0)
     for i in range(l * l):
         store(w, at.L + i, load(w, at.C_s + i))
     product(w, at.L, Matrix(at.wide, q, 1), Matrix(at.J, 1, q), l, q, l, 1.0)
@@ -47,19 +55,6 @@ def _factors(w: Any, at: Any) -> Any:
     product(w, at.R, Matrix(at.Y, 1, 6), Matrix(at.Y, 6, 1), 6, l, 6, 0.0)
     of_motions = cholesky(w, at.R, 6)
     return where_less(of_forces, of_motions, of_forces, of_motions)
-
-
-@compiled
-def _about_centroid(w: Any, at: Any) -> None:
-    """Write G with moments about the centroid of the contacts."""
-    kept_apart()
-    for j in range(at.l):
-        for i in range(3):
-            store(w, at.turned + i * at.l + j, load(w, at.G + i * at.l + j))
-            total = load(w, at.G + (3 + i) * at.l + j)
-            for k in range(3):
-                total = total + load(w, at.motion + 6 * i + 3 + k) * load(w, at.G + k * at.l + j)
-            store(w, at.turned + (3 + i) * at.l + j, total)
 
 
 @compiled
@@ -79,29 +74,29 @@ def _solved(w: Any, at: Any, b: int) -> None:
 
 
 @compiled
-def _followed(w: Any, at: Any, a: int, still: float) -> None:
+def _followed(w: Any, at: Any, spans: Any, a: int, still: float) -> None:
     """Write tau, sigma, z and q below lambda and u (n, k); `still` is z of synergies that do not yield."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741
     tau = a + (l + 6) * k
     sigma, of_z, of_q = tau + q * k, tau + (q + z) * k, tau + (q + 2 * z) * k
-    product(w, tau, Matrix(at.J, 1, q), Matrix(a, k, 1), q, l, k, 0.0)
-    product(w, sigma, Matrix(at.S, 1, z), Matrix(tau, k, 1), z, q, k, 0.0)
+    product_within(w, tau, Matrix(at.J, 1, q), spans.J_T, Matrix(a, k, 1), q, k, 0.0)
+    product_within(w, sigma, Matrix(at.S, 1, z), spans.S_T, Matrix(tau, k, 1), z, k, 0.0)
     for i in range(z):
         for j in range(k):
             store(w, of_z + i * k + j, all_of(still if i == j else 0.0))
-    product(w, of_z, Matrix(at.C_z, z, 1), Matrix(sigma, k, 1), z, z, k, -1.0)
-    product(w, of_q, Matrix(at.S, z, 1), Matrix(of_z, k, 1), q, z, k, 0.0)
-    product(w, of_q, Matrix(at.C_q, q, 1), Matrix(tau, k, 1), q, q, k, -1.0)
+    product_within(w, of_z, Matrix(at.C_z, z, 1), spans.C_z, Matrix(sigma, k, 1), z, k, -1.0)
+    product_within(w, of_q, Matrix(at.S, z, 1), spans.S, Matrix(of_z, k, 1), q, k, 0.0)
+    product_within(w, of_q, Matrix(at.C_q, q, 1), spans.C_q, Matrix(tau, k, 1), q, k, -1.0)
 
 
 @compiled
-def _corrected(w: Any, at: Any, a: int, out: int) -> None:
+def _corrected(w: Any, at: Any, spans: Any, a: int, out: int) -> None:
     """Write what is to be added to lambda and u, by what is left over of the equations, told from the matrices."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741
-    product(w, out, Matrix(at.J, q, 1), Matrix(a + (l + 6 + q + 2 * z) * k, k, 1), l, q, k, 0.0)
-    product(w, out, Matrix(at.C_s, l, 1), Matrix(a, k, 1), l, l, k, -1.0)
+    product_within(w, out, Matrix(at.J, q, 1), spans.J, Matrix(a + (l + 6 + q + 2 * z) * k, k, 1), l, k, 0.0)
+    product_within(w, out, Matrix(at.C_s, l, 1), spans.C_s, Matrix(a, k, 1), l, k, -1.0)
     product(w, out, Matrix(at.turned, 1, l), Matrix(a + l * k, k, 1), l, 6, k, -1.0)
     balance = out + l * k
     for i in range(6):
@@ -143,7 +138,7 @@ def _largest(w: Any, at: Any, values: int, out: int, times: float, beside: int, 
 
 
 @compiled
-def _maps(w: Any, at: Any) -> None:
+def _maps(w: Any, at: Any, spans: Any) -> None:
     """Write the maps, and the largest entries of each and of what the arithmetic may have lost."""
     l, z, k = at.l, at.z, at.k  # noqa: E741
     for i in range(24):
@@ -154,27 +149,27 @@ def _maps(w: Any, at: Any) -> None:
             store(w, at.maps + i * k + j, fit)
     _solved(w, at, at.maps)
     for _ in range(2):
-        _followed(w, at, at.maps, 1.0)
-        _corrected(w, at, at.maps, at.other)
+        _followed(w, at, spans, at.maps, 1.0)
+        _corrected(w, at, spans, at.maps, at.other)
         _added(w, at, at.maps, at.other)
-    _followed(w, at, at.other, 0.0)
-    _followed(w, at, at.maps, 1.0)
+    _followed(w, at, spans, at.other, 0.0)
+    _followed(w, at, spans, at.maps, 1.0)
     _largest(w, at, at.maps, at.size, 1.0, at.maps, 0.0)
     _largest(w, at, at.other, at.lost, CAUTION, at.maps, ROUNDOFF)
 
 
 @compiled
-def _doubts(w: Any, at: Any, half_units: Any) -> Any:
+def _doubts(w: Any, at: Any, spans: Any, half_units: Any) -> Any:
     """Move the numbers of the grasp by what they are not known to; return 1 where the maps are known in spite of it."""
     for i in range(at.motion):
         store(w, i, load(w, i) * all_of(half_units[i]))
     for i in range((at.l + 6) * at.k):
         store(w, at.other + i, load(w, at.maps + i))
-    _about_centroid(w, at)
-    _followed(w, at, at.other, 1.0)
-    _corrected(w, at, at.other, at.rest)
+    about_centroid(w, at)
+    _followed(w, at, spans, at.other, 1.0)
+    _corrected(w, at, spans, at.other, at.rest)
     _added(w, at, at.other, at.rest)
-    _followed(w, at, at.other, 1.0)
+    _followed(w, at, spans, at.other, 1.0)
     for i in range(at.n * at.k):
         store(w, at.other + i, load(w, at.other + i) - load(w, at.maps + i))
     _largest(w, at, at.other, at.lost, CAUTION / APART, at.maps, 0.0)
@@ -186,64 +181,39 @@ def _doubts(w: Any, at: Any, half_units: Any) -> Any:
 
 
 @compiled
-def _in_place(w: Any, at: Any) -> None:
-    """Turn motions and moments of the maps from the centroid back to B."""
-    kept_apart()
-    l, z, k = at.l, at.z, at.k  # noqa: E741
-    for j in range(k):
-        for i in range(3):
-            total = load(w, at.maps + (l + i) * k + j)
-            for m in range(3):
-                total = total + load(w, at.motion + 6 * m + 3 + i) * load(w, at.maps + (l + 3 + m) * k + j)
-            store(w, at.maps + (l + i) * k + j, total)
-    for i in range(at.n):
-        for j in range(3):
-            total = load(w, at.maps + i * k + z + j)
-            for m in range(3):
-                total = total + load(w, at.motion + 6 * m + 3 + j) * load(w, at.maps + i * k + z + 3 + m)
-            store(w, at.maps + i * k + z + j, total)
-    for i in range(6):
-        for j in range(i):
-            a, b = at.maps + (l + i) * k + z + j, at.maps + (l + j) * k + z + i
-            mean = all_of(0.5) * (load(w, a) + load(w, b))
-            store(w, a, mean)
-            store(w, b, mean)
-
-
-@compiled
-def _eight(w: Any, at: Any, half_units: Any) -> None:
+def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
     """Work out the statics of eight grasps, whose numbers come first in the workspace."""
-    _about_centroid(w, at)
-    clear = where_less(all_of(PLAIN), _factors(w, at), all_of(1.0), all_of(0.0))
-    _maps(w, at)
+    about_centroid(w, at)
+    clear = where_less(all_of(PLAIN), _factors(w, at, spans), all_of(1.0), all_of(0.0))
+    _maps(w, at, spans)
     clear = clear * bases(w, at)
-    clear = clear * _doubts(w, at, half_units)
-    _in_place(w, at)
+    clear = clear * _doubts(w, at, spans, half_units)
+    in_place(w, at)
     store(w, at.clear, clear)
 
 
 def made(stamp: int) -> Any:
     """Return the function that works out the statics of grasps; its compiled form is kept for this `stamp` alone.
 
-    It takes the numbers of the grasps (N or 1, entries) one after the other, where things are, what the numbers of a
-    grasp are multiplied by to tell how far they are known, how many grasps there are, and which entries of the
-    workspace are wanted (from, to); it returns these (N, entries).
+    It takes the numbers of the grasps (N or 1, entries) one after the other, where things are, where rows are not 0,
+    what the numbers of a grasp are multiplied by to tell how far they are known, how many grasps there are, and which
+    entries of the workspace are wanted (from, to); it returns these (N, entries).
     """
 
-    def worked_out(given: Any, at: Any, half_units: Any, count: int, wanted: Any) -> Any:
+    def worked_out(given: Any, at: Any, spans: Any, half_units: Any, count: int, wanted: Any) -> Any:
         found = np.empty((count, wanted[1] - wanted[0]))
-        w = np.zeros(at.end * LANES + stamp * 0)
+        w = workspace(at.end + stamp * 0)
         for group in range((count + LANES - 1) // LANES):
-            entry = 0
+            entry, here = 0, min(LANES, count - group * LANES)
             for part in given:
-                for lane in range(LANES):
-                    row = min(group * LANES + lane, count - 1) if len(part) > 1 else 0
-                    for k in range(part.shape[1]):
+                for k in range(part.shape[1]):
+                    for lane in range(LANES):
+                        row = group * LANES + min(lane, here - 1) if len(part) > 1 else 0
                         w[(entry + k) * LANES + lane] = part[row, k]
                 entry += part.shape[1]
-            _eight(w, at, half_units)
-            for lane in range(min(LANES, count - group * LANES)):
-                for k in range(wanted[0], wanted[1]):
+            _eight(w, at, spans, half_units)
+            for k in range(wanted[0], wanted[1]):
+                for lane in range(here):
                     found[group * LANES + lane, k - wanted[0]] = w[k * LANES + lane]
         return found
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.batch.asked import Asked, asked
-from synergrip.batch.chunks import on_threads, threads_asked
+from synergrip.batch.chunks import keep_memory, on_threads, threads_asked
 from synergrip.batch.decided import Decided, Solver, decided
 from synergrip.batch.kernel import QuickStatics, chosen, quick_statics
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
@@ -99,6 +99,7 @@ def plan_many(
     chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
     if question.beyond:
         LOG.warning("%d tasks are planned one by one: %s is not for many at once", question.count, question.beyond)
+    keep_memory()
     work = partial(_answers, question, whole, solver=solver, quick=quick)
     try:
         for places, answers in on_threads(chunks, work, many_at_a_time):  # in order, whatever is ready first

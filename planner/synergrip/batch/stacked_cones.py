@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
 from operator import attrgetter
 
 import numpy as np
@@ -13,7 +15,7 @@ from synergrip.conic.affine import times
 from synergrip.conic.limits.friction_cone import SLIPPERY
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
+from synergrip.linalg import Array, Places
 from synergrip.values import Value
 
 
@@ -27,11 +29,15 @@ class Cones(Value):
     W: Array
     """(cones * size, n_l), or (N, ...) with one for each problem."""
 
-    @property
+    @cached_property
     def unit(self) -> Array:
         """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
         largest = np.abs(self.W[..., :: self.size, :]).max(axis=-1)
         return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
+
+    def taken(self, places: Places) -> Cones:
+        """Return those of the problems at some places."""
+        return Cones(self.size, self.contacts, self.W[places]) if self.W.ndim > 2 else self
 
     def images(self, forces: Array) -> Array:
         """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
@@ -40,11 +46,9 @@ class Cones(Value):
 
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
-    first, every_contact = grasps[0], [grasp.contacts for grasp in grasps]
+    first, kinds = grasps[0], list(map(attrgetter("kind"), chain.from_iterable(map(attrgetter("contacts"), grasps))))
     every = [
-        (contact, W.shape[-2], W)
-        for contact in range(first.n_c)
-        for W in _cones([contacts[contact].kind for contacts in every_contact], friction)
+        (contact, W.shape[-2], W) for contact in range(first.n_c) for W in _cones(kinds[contact :: first.n_c], friction)
     ]
     leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
     found = []

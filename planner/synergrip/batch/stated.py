@@ -7,6 +7,7 @@ for the knots of a trajectory they so write for many tasks that know nothing of 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from operator import attrgetter
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import GraspStack
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, sealed
 from synergrip.statics.analyses import AnalysisGroup
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each, EachGrasp, EachResponse
@@ -148,11 +149,10 @@ def _begun(each: Each, grasps: tuple[Grasp, ...]) -> Each:
         w_0, forces = np.broadcast_to(grasps[0].w_0, w_0.shape), np.zeros((len(each), grasps[0].n_l))
     else:
         forces = times(each.response.dlambda_dw, w_0)
-        given = [grasp.lambda_0 for grasp in grasps] if len(grasps) > 1 else [grasps[0].lambda_0] * len(each)
-        for place, known in enumerate(given):
-            if known is not None:
-                forces[place] = known
-    grasp = replace(each.grasp, lambda_0=frozen(forces), w_0=frozen(w_0))
+        given = list(map(attrgetter("lambda_0"), grasps)) if len(grasps) > 1 else [grasps[0].lambda_0] * len(each)
+        for place in [place for place, known in enumerate(given) if known is not None]:
+            forces[place] = given[place]
+    grasp = replace(each.grasp, lambda_0=sealed(forces), w_0=frozen(w_0))
     return replace(each, response=replace(each.response, grasp=grasp))
 
 

@@ -44,7 +44,7 @@ def judge_optimal(problems: ConeProblems, x: Array, z: Array, bounds: Array, con
         problems: the programs.
         x: unknowns.
         z: multipliers of ``b - A x``.
-        bounds: (N, n) of |x|.
+        bounds: (n,), or (N, n), of |x|.
         constant: (N,) of objectives that are sums of squares; None for others.
     """
     slack = problems.b - times(problems.A, x)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from synergrip.documents.judging import as_numbers, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, Places, frozen, sealed
 from synergrip.values import Value
 
 
@@ -33,7 +34,12 @@ class Affine(Value):
             wanted = f"shape (p, {m}), a column for each quantity, or ({T}, p, {m}) with one matrix for each knot"
             hint = "; one row is linear[None, :]" if found is not None and found.shape == (m,) else ""
             raise InputError.at("Affine.after.linear", f"expected {wanted}; got {described(linear)}{hint}")
-        return Affine(frozen(found @ self.matrix), frozen(times(found, self.constant)))
+        if found.ndim > self.matrix.ndim:  # one product with the rows of all knots is many times as fast
+            p = found.shape[1]
+            matrix = (found.reshape(T * p, m) @ self.matrix).reshape(T, p, self.matrix.shape[1])
+        else:
+            matrix = found @ self.matrix
+        return Affine(sealed(matrix), sealed(times(found, self.constant)))
 
     @naming_arguments
     def plus(self, known: Array) -> Affine:
@@ -47,7 +53,16 @@ class Affine(Value):
         if found is None or found.shape not in ((), (m,), (T, m)):
             wanted = f"a number, shape ({m},) with one for each quantity, or ({T}, {m}) with a row for each knot"
             raise InputError.at("Affine.plus.known", f"expected {wanted}; got {described(known)}")
-        return replace(self, constant=frozen(self.constant + found))
+        return Affine(self.matrix, sealed(self.constant + found))
+
+    def taken(self, places: Sequence[int]) -> Affine:
+        """Return the quantities at some places (p,)."""
+        return Affine(sealed(self.matrix[..., places, :]), sealed(self.constant[:, places]))
+
+    def at_knots(self, places: Places) -> Affine:
+        """Return the quantities at some of the knots."""
+        matrix = self.matrix if self.matrix.ndim == 2 else sealed(self.matrix[places])
+        return Affine(matrix, sealed(self.constant[places]))
 
     @property
     def shortened(self) -> Affine:
@@ -59,7 +74,7 @@ class Affine(Value):
 
     def in_units(self, factor: float) -> Affine:
         """Return the same quantities of unknowns in units that are that many times as large."""
-        return replace(self, matrix=frozen(self.matrix * factor))
+        return Affine(sealed(self.matrix * factor), self.constant)
 
     def at(self, v: Array) -> Array:
         """Return y (T, m) at unknowns v (T, n_v)."""

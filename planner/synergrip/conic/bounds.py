@@ -12,7 +12,7 @@ from synergrip.conic.rows import Rows, items_of, nonnegative
 from synergrip.documents.judging import Arguments, as_numbers, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, sealed
 
 
 @naming_arguments
@@ -45,17 +45,18 @@ def within_bounds(
     limit: str, names: Sequence[str], value: Affine, lower: Array, upper: Array, unit: Array
 ) -> list[Rows]:
     """Return the rows of `within` for arrays that are known to fit, as those of the limits of this package are."""
-    result = []
+    result, whole = [], value.matrix / unit[:, None]
     for side, bound, sign in (("lowest", lower, 1.0), ("highest", upper, -1.0)):
-        keep: NDArray[np.bool_] = np.all(np.isfinite(np.atleast_2d(bound)), axis=0)
+        finite: NDArray[np.bool_] = np.isfinite(bound)
+        keep = finite if finite.ndim == 1 else np.all(finite, axis=0)
         if not keep.any():
             continue
-        matrix, slack = sign * value.matrix / unit[:, None], sign * (value.constant - bound) / unit
+        matrix, slack = whole if sign > 0 else -whole, sign * (value.constant - bound) / unit
         own = names
         if not keep.all():
             matrix, slack = matrix[..., keep, :], slack[:, keep]
             own = [name for name, kept in zip(names, keep, strict=True) if kept]
-        result.append(nonnegative(limit, items_of(own, side), Affine(frozen(matrix), frozen(slack))))
+        result.append(nonnegative(limit, items_of(own, side), Affine(sealed(matrix), sealed(slack))))
     return result
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.conic.basis import transposed_product
 from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
 from synergrip.documents.naming import naming_arguments
@@ -86,7 +87,7 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     )
     moved = project_on_dual(program, z)
     Px = program.P @ x
-    stationarity = Px + program.q + program.A.T @ moved
+    stationarity = Px + program.q + transposed_product(program.A, moved)
     size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(Px).max(initial=0.0)))
     dual = float(np.abs(stationarity).max(initial=0.0)) / size
     half, constant = float(x @ Px) / 2, program.constant
@@ -128,7 +129,7 @@ def judge_infeasible(program: Program, y: Array) -> Certificate:
         return Certificate("infeasible", False)
     ray = inside / drop
     moved = float(np.abs(ray - y / drop).max())
-    leak = np.abs(program.A.T @ ray)
+    leak = np.abs(transposed_product(program.A, ray))
     allowance = ROUNDING * float(np.abs(program.b) @ np.abs(ray))
     sign = -1.0 + float(leak @ program.variable_bounds) + allowance
     return Certificate("infeasible", sign < 0, float(leak.max(initial=0.0)), moved, sign, frozen(ray))

@@ -71,9 +71,9 @@ def decide(
     nor is anything once rounding hides what would be better.
     """
     best, runs, seconds = None, 0, 0.0
-    closest: dict[Settings, float] = {}
+    closest: dict[tuple[object, ...], float] = {}
     for attempt, settings in enumerate(attempts, start=1):
-        alike = replace(settings, tolerance=0.0, structured=False)
+        alike = (settings.equilibrate, settings.regularisation, settings.step, settings.max_iterations)
         if settings.tolerance < closest.get(alike, 0.0):
             continue
         solution = solver(program, settings)

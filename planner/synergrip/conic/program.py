@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -37,12 +38,12 @@ class Block:
     friction: bool = False
     """Whether its cones are friction cones."""
 
-    @property
+    @cached_property
     def cones(self) -> int:
         """Number of cones."""
         return self.knots * len(self.items)
 
-    @property
+    @cached_property
     def rows(self) -> int:
         """Number of rows."""
         return self.cones * self.dim

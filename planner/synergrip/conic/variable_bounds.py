@@ -15,7 +15,7 @@ from synergrip.conic.affine import Affine
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.friction_cone import FrictionCone, least_cone_unit
 from synergrip.conic.limits.limit import Limit
-from synergrip.linalg import Array, gram, null_spaces
+from synergrip.linalg import Array, Places, gram, null_spaces
 
 LARGEST = 1e6
 """In normalised units. The bound where no limit gives one, and part of the program's meaning."""
@@ -23,18 +23,24 @@ LARGEST = 1e6
 FARTHEST = 1e12
 """A limit that is farther away than this is none, but the rounding of what it looks at."""
 
+NEAR = 1e3
+"""In normalised units. A box of this size is small enough to prove with: no other limit is asked for a smaller one."""
+
 FAR_FROM_DEPENDENT = 1e5
 """Ratio of the eigenvalues of the squares of a matrix up to which its columns are."""
 
 
-def variable_bounds(formulation: Formulation, limits: Sequence[Limit]) -> Array:
-    """Return bounds (n_v,), or (T, n_v), on |v_k| that hold for every v that keeps all the limits."""
+def variable_bounds(formulation: Formulation, limits: Sequence[Limit], knots: Places | None = None) -> Array:
+    """Return bounds (n_v,), or (T, n_v), on |v_k| that hold for every v that keeps all the limits; at some `knots`."""
     result = np.full(formulation.n_v, np.inf)
     cones_hold = any(isinstance(limit, FrictionCone) and limit.margin >= 0 for limit in limits)
     for limit in limits:
         pair = limit.bounded(formulation, cones_hold=cones_hold)
         if pair is not None:
-            result = np.minimum(result, _implied(*pair))
+            value, most = pair
+            result = np.minimum(result, _implied(value if knots is None else value.at_knots(knots), most))
+            if np.all(result <= NEAR):
+                break
     return np.where(result < FARTHEST, result, farthest(formulation))
 
 

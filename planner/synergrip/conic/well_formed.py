@@ -111,12 +111,14 @@ def _judge_shapes(key: str, given: Rows | Squares, count: int, formulation: Form
 
 
 def usage_of(limit: Limit, formulation: Formulation, motion: Motion) -> Usage:
-    """Return what a limit says of a motion, after refusing what no check can go by.
+    """Return what a limit says of a motion, after refusing of one that is not the library's what no check can go by.
 
     Raises:
         InputError: no `Usage`, none of its items, sizes that are none, values or bounds that are no numbers.
     """
     key, usage = f"{type(limit).__name__}.usage", limit.usage(formulation, motion)
+    if not _of_ones_own(limit):
+        return usage
     if not isinstance(usage, Usage):
         raise InputError.at(key, f"expected a Usage, got {type(usage).__name__}")
     value = np.asarray(usage.value, dtype=np.float64)

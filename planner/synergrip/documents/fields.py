@@ -21,11 +21,10 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from synergrip.documents.numbers import bounded, number
+from synergrip.documents.numbers import bounded, number, unit_vector
 from synergrip.documents.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio, without_unit
 from synergrip.documents.validation import MOST_JUDGED, refusing, shown
 from synergrip.errors import InputError, Issue, raise_issues
-from synergrip.linalg import unit_vector
 
 Schema = dict[str, Any]
 

@@ -81,13 +81,15 @@ class Arguments:
         if found is None:
             self.refuse(name, f"expected {wanted}, got {described(value)}")
             return None
-        bad = np.isnan(found) if infinite else ~np.isfinite(found)
-        if np.any(bad):
-            self.refuse(name, f"expected {wanted} of finite numbers, got {float(found[bad][0])}")
-            return None
-        if found.size and float(np.abs(found[np.isfinite(found)]).max(initial=0.0)) > LARGEST_NUMBER:
-            self.refuse(name, f"{float(np.abs(found[np.isfinite(found)]).max()):g} is too large")
-            return None
+        if found.size and not float(np.abs(found).max()) <= LARGEST_NUMBER:  # nan is none, either
+            bad = np.isnan(found) if infinite else ~np.isfinite(found)
+            if np.any(bad):
+                self.refuse(name, f"expected {wanted} of finite numbers, got {float(found[bad][0])}")
+                return None
+            largest = float(np.abs(found[np.isfinite(found)]).max(initial=0.0))
+            if largest > LARGEST_NUMBER:
+                self.refuse(name, f"{largest:g} is too large")
+                return None
         own = found is value and not found.flags.writeable and found.flags.owndata  # else somebody else may change it
         return found if own else frozen(np.array(found))
 
@@ -187,7 +189,8 @@ def expected(name: str, value: object, of: type[Any], example: str) -> None:
 
 def is_list(value: object) -> TypeGuard[Sequence[Any]]:
     """Return whether a value is a list, a tuple or the like: no text, no array, nothing that is gone once read."""
-    return isinstance(value, Sequence) and not isinstance(value, str | bytes)
+    kind = type(value)  # as most are; the question whether a class is a Sequence takes ten times as long
+    return kind is tuple or kind is list or (isinstance(value, Sequence) and not isinstance(value, str | bytes))
 
 
 def is_word(value: object, words: Collection[str]) -> bool:

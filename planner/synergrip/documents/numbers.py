@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.quantities import EXAMPLES, UNITS, kind_of, quantity, ratio
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError
+
+SAME_LENGTH = 1e-15
+"""How far from 1 rounding leaves the length of a vector that was divided by it."""
 
 
 def number(value: object, *, above: float = -math.inf, at_least: float = -math.inf) -> float:
@@ -61,3 +64,11 @@ def bounded(value: float, text: str, *, above: float = -math.inf, at_least: floa
     if not value >= at_least:
         raise InputError.at("", f"must be at least {at_least:g}, got {text}")
     return value
+
+
+def unit_vector(direction: Sequence[float]) -> tuple[float, ...]:
+    """Return a direction, which is not zero, with length 1; one that has it already stays as it is, to the digit."""
+    size = math.hypot(*direction)
+    if abs(size - 1.0) <= SAME_LENGTH:
+        return tuple(direction)
+    return tuple(part / size for part in direction)

@@ -71,7 +71,7 @@ class Scale(Metric):
 
     def wrench(self, w: Array) -> Array:
         """Return wrenches (..., 6) in scaled coordinates [N]."""
-        return np.asarray(np.linalg.solve(self.motion.T, np.asarray(w).T).T)
+        return self.scaled_wrenches(np.asarray(w))
 
     def largest_force(self, forces: Array) -> float:
         """Return the largest component of contact forces (..., n_l), spin moments divided by the length [N]."""

@@ -192,6 +192,16 @@ class GraspStack(Value, Sequence[Grasp]):
         return np.array([each.held.q for each in self.given or (self.like,) if each.held is not None])
 
     @cached_property
+    def stranger(self) -> int | None:
+        """Place of the first grasp with other joints, or on another hand, than the first one; None without any."""
+        alike = list(map(self.like.joints.__eq__, map(attrgetter("joints"), self.given)))
+        held = list(map(attrgetter("held"), self.given))
+        if any(each is not None for each in held):
+            hand = self.like.held and self.like.held.hand
+            alike = [same and (each and each.hand) is hand for same, each in zip(alike, held, strict=True)]
+        return None if all(alike) else alike.index(False)
+
+    @cached_property
     def of_object(self) -> Array:
         """(N, n_l, 6) = G', from object motions to contact motions, in scaled coordinates."""
         return self.metric.scaled_grasp(self.matrices.G)

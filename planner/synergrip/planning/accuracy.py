@@ -40,6 +40,8 @@ class InDoubtError(SelfCheckError):
 
 def accuracy_notes(response: Response) -> Iterator[str]:
     """Yield what is inaccurate, and what hangs on digits that the grasp's numbers do not have."""
+    if response.doubt <= SHOWN:
+        return
     known = response.accuracy
     name = max(known, key=lambda each: known[each].error)
     if known[name].error > SHOWN:
@@ -61,7 +63,7 @@ def refuse_doubtful_response(response: Response) -> None:
     Raises:
         InDoubtError: with the reason.
     """
-    if max(response.accuracy[name].doubt for name in _RELIED_ON) > RELIED_ON:
+    if response.doubt > RELIED_ON and max(response.accuracy[name].doubt for name in _RELIED_ON) > RELIED_ON:
         raise InDoubtError("; ".join(accuracy_notes(response)))
 
 

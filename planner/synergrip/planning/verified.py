@@ -12,7 +12,6 @@ from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.well_formed import usage_of
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue, SelfCheckError
-from synergrip.grasps.facing import frame_notes
 from synergrip.linalg import Array, frozen
 from synergrip.planning.accuracy import InDoubtError, accuracy_notes, refuse_doubtful_forces, response_check
 from synergrip.planning.between import LIMIT, Between, between
@@ -70,7 +69,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
         frozen(motion.du - motion.sag - rigid), frozen(usages[0].value), usages, checks, stage.decisions, largest,
         (*free_notes(analysis), *accuracy_notes(analysis.response), *undone_notes(analysis, task), *stage.notes,
          *ranges_left(task, analysis.grasp, motion.dq), *_far(analysis, motion), *passed_over(found),
-         *frame_notes(analysis.grasp)), found,
+         *analysis.frame_notes), found,
         interrupted=stage.interrupted, cases=cases,
     )  # fmt: skip
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from synergrip.documents.naming import made_by, naming_arguments
+from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.statics import Coordinates, Response, Subspaces, coordinates, respond, subspaces
@@ -26,6 +28,11 @@ class Analysis(Value):
     response: Response
     spaces: Subspaces
     coordinates: Coordinates
+
+    @cached_property
+    def frame_notes(self) -> tuple[str, ...]:
+        """What is odd about the contact frames that a user states."""
+        return tuple(frame_notes(self.grasp))
 
     def begun(self, grasp: Grasp) -> Analysis:
         """Return it for the grasp as it is when a task begins: of w_0 nothing depends but what is remembered of it."""

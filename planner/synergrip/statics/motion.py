@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synergrip.linalg import Array, Places, frozen
+from synergrip.linalg import Array, Places, frozen, sealed
 from synergrip.statics.response import Response
 from synergrip.values import Value
 
@@ -71,7 +71,7 @@ def forward(response: Response, times: Array, dz_r: Array, wrench: Array, begun:
     sag = dw @ response.du_dw.T
     dz = dz_r @ response.dz_dzr.T + dw @ response.dz_dw.T
     return Motion(
-        frozen(times), frozen(dz_r), frozen(wrench), frozen(forces), frozen(torques),
-        frozen(torques @ response.grasp.S), frozen(dz_r @ response.du_dzr.T + sag), frozen(sag),
-        frozen(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), frozen(dz),
+        frozen(times), frozen(dz_r), frozen(wrench), sealed(forces), sealed(torques),
+        sealed(torques @ response.grasp.S), sealed(dz_r @ response.du_dzr.T + sag), sealed(sag),
+        sealed(dz_r @ response.dq_dzr.T + dw @ response.dq_dw.T), sealed(dz),
     )  # fmt: skip

@@ -127,6 +127,11 @@ class Response(Maps):
         return self.restraint.rank == 6
 
     @cached_property
+    def doubt(self) -> float:
+        """The largest doubt of any map."""
+        return max(each.doubt for each in self.accuracy.values())
+
+    @cached_property
     def free(self) -> Array:
         """(6, k) the motions of the object that no contact resists, orthonormal in scaled coordinates; k = 0 mostly."""
         return NONE if self.restrained else restraint(self.grasp, self.scale)[1]
@@ -134,7 +139,7 @@ class Response(Maps):
     @property
     def free_twists(self) -> Array:
         """(6, k) the same about B [m, rad], of length 1 in scaled coordinates."""
-        return twists_of(self.free, self.scale)
+        return NONE if self.restrained else twists_of(self.free, self.scale)
 
     @cached_property
     def K(self) -> Array:

@@ -10,9 +10,10 @@ import numpy as np
 
 from synergrip.documents.documents import LARGEST_NUMBER
 from synergrip.documents.judging import described, is_number
+from synergrip.documents.numbers import unit_vector
 from synergrip.errors import one_of, raise_issues
 from synergrip.grasps.grasp_judging import Judge
-from synergrip.linalg import Array, frozen, unit_vector
+from synergrip.linalg import Array, frozen
 
 Numbers = Sequence[float] | Array
 """What may be given as a vector (m,)."""

@@ -16,7 +16,7 @@ from synergrip.conic.rows import Earlier, Rows
 from synergrip.documents.judging import Arguments, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, sealed
 from synergrip.values import ByContent, Value
 
 if TYPE_CHECKING:
@@ -187,5 +187,4 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
     if np.any(each < 0):
         message = f"expected weights of at least 0, got {float(each.min()):g}: squares can only be made small"
         raise InputError.at("squares_of.weights", message)
-    each = np.broadcast_to(each, (count,))
-    return Squares(frozen(each[:, None] * value.matrix), frozen(value.constant * each))
+    return Squares(sealed(each[..., None] * value.matrix), sealed(value.constant * each))

@@ -91,7 +91,7 @@ def friction_rows(formulation: Formulation, margin: float | Array, epigraph: flo
         for i, contact in enumerate(grasp.contacts)
         for side, cone in zip(contact.kind.sides, contact.cones, strict=True)
     ]
-    margins = np.broadcast_to(margin, (*np.shape(margin)[:-1], grasp.n_c))
+    margins = margin if isinstance(margin, np.ndarray) and margin.ndim == 2 else np.full(grasp.n_c, margin)
     result = []
     for size in sorted({len(cone) for _, cone, _ in every}):
         chosen = [each for each in every if len(each[1]) == size]

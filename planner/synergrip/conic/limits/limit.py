@@ -103,7 +103,8 @@ class Usage(Value):
     @property
     def violation(self) -> float:
         """The largest excess, relative to the size it is measured against; negative inside, -inf without a bound."""
-        return float((self.excess / self.size).max(initial=-np.inf))
+        size = self.scale if self.allowance is None else self.allowance
+        return float((self.excess / size).max(initial=-np.inf))
 
     def worst(self) -> tuple[int, int]:
         """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""

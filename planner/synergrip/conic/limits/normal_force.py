@@ -89,7 +89,7 @@ class NormalForce(Limit):
 
     def rows(self, formulation: Formulation) -> Sequence[Rows]:
         """Return two bounds per contact, in `bound_unit`; that contacts push, friction cones say already."""
-        value = formulation.force.after(normal_selection(formulation))
+        value = formulation.force.taken(formulation.response.grasp.normal_rows)
         names = _names(formulation)
         none, ones = np.full(len(names), np.inf), np.ones(len(names))
         low, high = (bound_unit(bound, formulation.force_unit) * ones for bound in (self.lower, self.upper))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -31,8 +32,10 @@ def solve(program: Program, settings: Settings) -> Solution:
     Raises:
         KeyboardInterrupt: somebody interrupted it.
     """
-    with interruptible():  # an interrupt may not fall into the loading of a compiled library
-        import clarabel
+    if "clarabel" not in sys.modules:
+        with interruptible():  # an interrupt may not fall into the loading of a compiled library
+            import clarabel
+    import clarabel
 
     options = clarabel.DefaultSettings()
     options.verbose = False
