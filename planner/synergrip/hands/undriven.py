@@ -6,17 +6,14 @@ from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
-from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError
 from synergrip.hands.arm import palm_of
 from synergrip.hands.drives import Drives
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies.matrix import JOINTS
-from synergrip.hands.units import SI_UNITS
+from synergrip.hands.unbalanced import stated_otherwise
 from synergrip.linalg import Array, frozen
 
-AWAY = 1e-6
-"""Distance of a joint from where its spring rests that is no rounding [rad or m]."""
 HELD = 0.01
 """Share of a torque or effort limit that springs may take of motors without a note."""
 MOST_NAMED = 12
@@ -82,8 +79,7 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
     if drives is None:
         return
     yield from drives.notes
-    springs = drives.compliance
-    other = np.any(~np.isclose(C_q, springs, rtol=1e-9, atol=0.0) & (springs != 0), axis=1)
+    other = stated_otherwise(drives, C_q)
     if other.any():
         names = [name for name, each in zip(hand.joint_names, other, strict=True) if each]
         yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
@@ -96,13 +92,6 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
     loose = [name for name in drives.loose if name not in moved]
     if loose:
         yield f"no actuator of the model file is known to drive {_listed(loose)}: no synergy moves them"
-    away = [name for name in sprung if abs(_value(hand, q, name) - drives.sprung[name]) > AWAY]
-    for name in away:
-        factor, unit = SHOWN_IN[SI_UNITS[hand.joints[hand.joint_names.index(name)].kind]]
-        yield (
-            f"joint '{name}' is at {factor * _value(hand, q, name):.4g} {unit}, and its spring rests at "
-            f"{factor * drives.sprung[name]:.4g} {unit}: the force of the spring there is not part of the plan"
-        )
     yield from _against_springs(hand, drives, synergies, q)
 
 
@@ -126,10 +115,6 @@ def _against_springs(hand: Hand, drives: Drives, synergies: SynergySet, q: Array
 
 def _moved(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
     return tuple(name for name, row in zip(hand.joint_names, synergies.S, strict=True) if np.any(row))
-
-
-def _value(hand: Hand, q: Array, name: str) -> float:
-    return float(q[hand.joint_names.index(name)])
 
 
 def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]) -> str:
