@@ -322,8 +322,9 @@ def test_what_motors_need_with_springs_is_that_of_mujoco(free, tmp_path):
     _, bound = planned_with(tmp_path, f"limits.joint_torque={between}")
     (note,) = of_springs(bound.notes)
     k = int(np.argmax(whole[:, i]))
-    assert f"limits.joint_torque does not count, 'l tip' needs {whole[k, i]:.4g} of its {between:.4g}" in note
-    assert f"{abs(alone[k, i]):.4g} of it for contacts" in note
+    assert f"limits.joint_torque does not count, 'l tip' needs {(alone + takes)[k, i]:.4g} N m at" in note
+    assert f"{alone[k, i]:.4g} N m of it for contacts: more than its {between:.4g} N m, which leave contacts " in note
+    assert f"{-between - takes[k, i]:.4g} to {between - takes[k, i]:.4g} N m there" in note
     judged = judge_references(held.grasp, bound.task, References(bound.time, bound.dz_r, {}))
     assert of_springs(judgement_document(judged)["notes"]) == [note]
 

@@ -12,6 +12,7 @@ from synergrip.hands.drives import Drives
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies.matrix import JOINTS
 from synergrip.hands.unbalanced import stated_otherwise
+from synergrip.hands.units import joint_kinds, synergy_kinds, torque_unit
 from synergrip.linalg import Array, frozen
 
 HELD = 0.01
@@ -103,13 +104,17 @@ def _against_springs(hand: Hand, drives: Drives, synergies: SynergySet, q: Array
     efforts = synergies.S.T @ torques
     by_motors = np.max(np.abs(efforts) / synergies.effort_limits, initial=0.0)
     if (share := max(by_joints, by_motors)) > HELD:
-        named = zip(synergies.synergies, efforts, strict=True)
-        pulls = [f"'{name}' with {effort:.3g}" for name, effort in named if effort]
+        kinds = synergy_kinds(synergies, joint_kinds(hand.joints).values()).items()
+        pulls = [
+            f"'{name}' with {effort:.3g} {torque_unit([kind])}"
+            for (name, kind), effort in zip(kinds, efforts, strict=True)
+            if effort
+        ]
         more = f" and {len(pulls) - MOST_NAMED} more" if len(pulls) > MOST_NAMED else ""
         yield (
-            f"motors hold springs of the model file back in this posture: {', '.join(pulls[:MOST_NAMED])}{more} "
-            f"(sigma), up to {share:.0%} of what they can. joint_torque and actuator_effort count what contacts ask "
-            "for alone: lower these limits by as much"
+            f"motors hold springs of the model file in this posture: {', '.join(pulls[:MOST_NAMED])}{more}, up to "
+            f"{share:.0%} of what they can. Limits of torques and efforts count what contacts ask for alone: of +-m a "
+            "motor that springs ask for e can give contacts -m - e to m - e"
         )
 
 

@@ -24,6 +24,7 @@ from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answerer, answerer
+from synergrip.planning.springs import limits_with_springs
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.plausible import task_doubts
@@ -68,7 +69,8 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
         *task_doubts(task, outcome.task, outcome.grasp),
     )
     if not isinstance(outcome, Plan):
-        return replace(outcome, asked=task, notes=(*outcome.notes, *map(str, doubts)))
+        of_springs = limits_with_springs(outcome.grasp, outcome.task)
+        return replace(outcome, asked=task, notes=(*outcome.notes, *of_springs, *map(str, doubts)))
     return replace(outcome, notes=(*outcome.notes, *map(str, doubts))) if doubts else outcome
 
 
