@@ -10,6 +10,7 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
+from synergrip.grasps.chosen_tangents import tangent_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import grasp_doubts
 from synergrip.grasps.unbalanced_springs import unbalanced_notes
@@ -63,11 +64,9 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     """
     outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
-    doubts = (
-        *unbalanced_notes(outcome.grasp),
-        *grasp_doubts(outcome.grasp),
-        *task_doubts(task, outcome.task, outcome.grasp),
-    )
+    asked = outcome.grasp
+    said = (*unbalanced_notes(asked), *tangent_notes(asked))
+    doubts = (*said, *grasp_doubts(asked), *task_doubts(task, outcome.task, asked))
     if not isinstance(outcome, Plan):
         of_springs = limits_with_springs(outcome.grasp, outcome.task)
         return replace(outcome, asked=task, notes=(*outcome.notes, *of_springs, *map(str, doubts)))
