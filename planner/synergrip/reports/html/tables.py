@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -172,7 +173,7 @@ def _number(text: str) -> Cell:
 
 
 def why_of(document: Document) -> dict[str, Any] | None:
-    """Return why there is no plan, and the changes that would repair it; None for a plan."""
+    """Return why there is no plan, and the changes that were tried, as the text tells them; None for a plan."""
     if document["verdict"] == "feasible":
         return None
     when, repairs = document.get("when") or {}, document.get("repairs") or ()
@@ -181,7 +182,8 @@ def why_of(document: Document) -> dict[str, Any] | None:
         told.append(f"proven not to help: {_words(', '.join(document['cannot_help']))}")
     rows = [
         {"cause": _words(each["cause"]), "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
-         "set": f"--set {each['set']}"}
+         "again": "a plan" if each["verified"] else "no plan found" if each.get("tried", True) else "not tried",
+         "set": f"--set {quote(each['set'])}" if each["verified"] else ""}
         for each in repairs
     ]  # fmt: skip
     return {"text": (document.get("why") or {}).get("text", ""), "told": told, "repairs": rows}
