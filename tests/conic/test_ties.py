@@ -20,7 +20,7 @@ def used(value: np.ndarray, scale: float = 0.72) -> Usage:
 
 def test_margins_that_are_alike_as_shown_are_named_the_same_everywhere() -> None:
     """In plan, margins and cones: the first contact of the earliest knot, whatever the last digits are."""
-    alike = 0.2999992 * (1 + np.array([[0.3, 0.3], [2.7e-6, 6e-6], [2.3e-6, 0.0]]))
+    alike = 0.2999992 * (1 + np.array([[0.3, 0.3], [2.7e-6, 2.9e-6], [2.3e-6, 0.0]]))
     k, i = used(alike).worst()
     worst = Measure("slip margin", "N", "", alike, NAMES, TIMES).worst
     assert (NAMES[i], TIMES[k]) == (worst.name, worst.time_s) == ("index", 0.4)

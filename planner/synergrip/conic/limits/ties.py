@@ -6,7 +6,7 @@ import numpy as np
 
 from synergrip.linalg import Array
 
-ALIKE = 2e-5
+ALIKE = 3e-6
 """Share of a value up to which others are as bad: less than what is shown of it."""
 ROUNDING = 1e-6
 """The same as a share of the largest value, for worst ones that are about 0."""
