@@ -12,6 +12,7 @@ from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import REACH
 from synergrip.grasps.clearance import DEEP, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
+from synergrip.grasps.placing import SAME_SPOT
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
@@ -42,6 +43,11 @@ class TouchingPlaces(Value):
         """Return these places, then others."""
         names = ("positions", "q", "clear")
         return TouchingPlaces(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+    def different(self) -> TouchingPlaces:
+        """Return them without those that stand twice, in their order."""
+        _, first = np.unique(np.round(self.positions, 6), axis=0, return_index=True)
+        return self.taken(np.sort(first))
 
 
 def space(closer: Closer) -> tuple[Array, float]:
@@ -85,11 +91,20 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
 
 
 def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
-    """Return the places at which all contacts touch, in their order."""
+    """Return the places at which all contacts touch, each on a spot of its own, in their order."""
     all_touch = np.flatnonzero(found.touching.all(axis=1))
+    all_touch = all_touch[~_on_one_spot(closer, found.q[all_touch], found.outward[all_touch])]
     positions, q = found.positions[all_touch], found.q[all_touch]
     inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
     return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
+
+
+def _on_one_spot(closer: Closer, q: Array, outward: Array) -> Flags:
+    """Tell in which postures (N, n_q) two contacts are on the same spot, with the normals outward (N, n_c, 3)."""
+    pads = [(pad.link, pad.point) for pad in closer.pads]
+    spots = closer.asked.hand.kinematics.along(q, pads).position - closer.radii[:, None] * outward
+    apart = np.linalg.norm(spots[:, :, None] - spots[:, None], axis=-1) + np.diag(np.full(len(pads), np.inf))
+    return np.asarray((apart < SAME_SPOT).any(axis=(1, 2)))
 
 
 def off_centre(asked: AskedGrasp, places: TouchingPlaces) -> Array:
@@ -110,6 +125,9 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         return closer.path().mean(axis=(0, 1)), Issue(message, key="object.position")
     off = np.where(found.touching, 0.0, np.abs(found.gaps))
     best = int(np.lexsort((off.sum(axis=1), -found.touching.sum(axis=1)))[0])
+    if found.touching[best].all():
+        message = f"wherever all contacts touch, two of them are on the same spot of the {closer.shape.title}; {ask}"
+        return found.positions[best], Issue(message, key="object.position")
     names = [touch.name for touch in closer.asked.touches]
     touch = [name for name, yes in zip(names, found.touching[best], strict=True) if yes]
     others = [

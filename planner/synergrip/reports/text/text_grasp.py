@@ -51,7 +51,8 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
     ]  # fmt: skip
     yield table(HEADER, rows, right=(5, 6))
     touching = [touch.pad for touch in held.touches]
-    others = [spot for spot in spots_of(held.hand, held.q) if spot.name not in {pad.name for pad in touching}]
+    names = {pad.name for pad in touching}
+    others = [spot for spot in spots_of(held.hand, held.q, touching) if spot.name not in names]
     if others:
         yield ""
         yield spots_table(others, "other pad")
