@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import subprocess
@@ -120,3 +121,13 @@ def test_the_help_names_the_file_that_the_pages_begin_with() -> None:
         told = re.search(r"^ Documentation: (.+)$", run(*arguments).stdout, re.MULTILINE)
         assert told is not None
         assert Path(told[1]).samefile(ROOT / "README.md")
+
+
+def test_a_verb_names_all_pages() -> None:
+    told = run("docs").stdout
+    head = re.match(r"Documentation: (.+)\n", told)
+    assert head is not None
+    assert Path(head[1]).samefile(ROOT / "README.md")
+    found = json.loads(run("docs", "--format", "json").stdout)
+    assert {Path(each["file"]).resolve() for each in found["pages"]} == set((ROOT / "docs").rglob("*.md"))
+    assert re.search(r"docs/margins\.md +\w", told)

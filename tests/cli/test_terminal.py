@@ -6,10 +6,13 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer
 from command_line import run
 from pseudo_terminal import WIDE, apart, broken, plain, run_in_terminal, shown, too_long
+from rich.markup import render
 
 from synergrip.cli import beside, running
+from synergrip.cli.app import app
 
 WIDTHS = (60, 80, 120)
 PROBLEMS = {
@@ -104,3 +107,13 @@ def test_what_is_wrong_fits_the_terminal_and_is_one_line_in_a_pipe(tmp_path: Pat
     assert not apart(told)
     (line, *_) = run(*wrong).stderr.splitlines()
     assert " ".join(told.split()).startswith(line)
+
+
+def test_no_words_of_the_help_are_taken_for_markup() -> None:
+    """Of "On paper [mm]" a terminal shows "On paper "."""
+    root = typer.main.get_command(app)
+    verbs = [root, *getattr(root, "commands", {}).values()]
+    verbs += [each for verb in verbs[1:] for each in getattr(verb, "commands", {}).values()]
+    told = [text for verb in verbs for text in (verb.help, *(getattr(each, "help", None) for each in verb.params))]
+    assert len([text for text in told if text]) > 100
+    assert [text for text in told if text and str(render(text)) != text] == []

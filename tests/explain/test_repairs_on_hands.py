@@ -26,6 +26,7 @@ from synergrip.explain.words import nearer
 from synergrip.planning.planning import plan_of_start_posture
 from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.text_no import more_lines
+from synergrip.reports.text.text_plan import verdict_lines
 
 TIGHT = 'limits.normal_force="8 N"'
 
@@ -127,6 +128,29 @@ def told_of(no: sg.Infeasible | sg.Unknown, found: Explanation | None = None) ->
     """Return the text where every row and sentence has a line."""
     with shown_on(Screen(250)):
         return "\n".join(more_lines(found or no.explanation, no.task.times, lambda key: ""))
+
+
+def test_where_no_change_has_a_plan_the_head_does_not_promise_help_and_gives_the_command() -> None:
+    """Keys on the command line are told as such, as they can be pasted."""
+    problem = sg.load_problem("pinch-soft", ["limits.margin=12 N", "task.knots=3"])
+    no = sg.plan(problem.grasp, problem.task)
+    assert isinstance(no, sg.Infeasible)
+    found = no.explanation
+    vain = replace(found, repairs=tuple(replace(each, verified=False, outcome=None) for each in found.repairs))
+    with shown_on(Screen(250)):
+        told = "\n".join(verdict_lines(problem, no, known=vain))
+        helped = "\n".join(verdict_lines(problem, no))
+    command = "synergrip explain pinch-soft --set 'limits.margin=12 N' --set task.knots=3"
+    assert f"\nNo change that was tried has a plan yet; more are tried by\n  {command}\n" in told
+    assert "What would help" not in told
+    assert "What would help" in helped
+    assert command not in helped
+    wider = replace(found.repairs[0], cause="joint_range", key="limits.joint_range")
+    with shown_on(Screen(250)):
+        ranges = "\n".join(verdict_lines(problem, no, known=replace(found, others=(wider,))))
+    assert ranges.count("mechanical stops do not widen") == 1
+    assert "mechanical stops" not in helped
+    assert re.search(r"limits.margin .* --set 'limits.margin=12 N' on the command line\n", told)
 
 
 def test_what_is_known_of_the_start_posture_alone_says_so_where_the_hand_moves() -> None:

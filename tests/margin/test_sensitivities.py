@@ -234,9 +234,20 @@ def test_they_are_printed() -> None:
 
 def test_what_was_interrupted_is_not_said_to_be_nothing(carried: Sensitivities) -> None:
     half = dataclasses.replace(carried, each=carried.of(LARGEST), interrupted=True)
-    told = "\n".join(sensitivity_lines(half))
+    told = "\n".join(sensitivity_lines(half, sg.load_problem("tripod").grasp))
     assert "with these references: interrupted before it was found" in told
     assert "no such change" not in told
+
+
+def test_where_tangents_point_is_told_on_a_hand(carried: Sensitivities) -> None:
+    grasp = sg.load_problem("barrett-ball-carry").grasp
+    first = grasp.contacts[0]
+    one = dataclasses.replace(carried.of(LARGEST)[0], of=first.name, direction="about t")
+    told = " ".join("\n".join(sensitivity_lines(dataclasses.replace(carried, each=(one,)), grasp, whole=True)).split())
+    t = ", ".join(f"{each + 0.0:.3g}" for each in np.round(first.frame[:, 1], 6))
+    assert f" in the palm frame at the start: t of {first.name} ({t})" in told
+    assert " o of " not in told
+    assert "palm frame" not in "".join(sensitivity_lines(carried, sg.load_problem("tripod").grasp, whole=True))
 
 
 def test_the_document_has_them_in_si_units(carried: Sensitivities) -> None:

@@ -6,6 +6,7 @@ import pickle
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from synergrip.errors import InputError, SynergripError, VerdictError
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
+from synergrip.reports.text.text_usages import worst_of
 from synergrip.values import Value
 
 FEASIBLE = ("barrett-ball-carry", "dlr-ball-corners", "tripod")
@@ -91,7 +93,10 @@ def test_a_notebook_shows_a_short_table(name: str) -> None:
     shown, _, picture = html.partition("<svg")
     assert len(shown) < 4000
     if isinstance(answer, Plan):
-        assert html.count("<tr>") == 1 + len(answer.usages)
+        told = [row for usage in answer.usages for row in worst_of(usage)]
+        assert html.count("<tr>") == 1 + len(told)
+        for title, value, *_ in told:
+            assert f"<td>{escape(title)}</td><td>{escape(value)}</td>" in html
         for contact in answer.grasp.contacts:
             assert f">{contact.name}</text>" in picture
 

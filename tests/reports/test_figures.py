@@ -269,5 +269,10 @@ def test_a_problem_shows_its_table() -> None:
     assert "&lt;b&gt;box" in shown
     for contact in problem.grasp.contacts:
         assert contact.name in shown
-    for word in ("NormalForce", "friction", "knots", "load up to"):
+    for word in ("limits.normal_force = 20 N", "limits.joint_torque = up to 2 N m", "friction", "knots", "load up to"):
         assert word in shown
+    assert "(0, 4, 120) mm in the palm frame" in shown
+    assert "(0, 0, -9.81) m/s² in the palm frame at the start" in shown
+    assert "array&gt;" not in shown
+    matrices = synergrip.load_problem("tripod")
+    assert "<td>friction cone<br>limits.normal_force = 10 N" in matrices._repr_html_()

@@ -14,7 +14,7 @@ from synergrip.grasps.contacts.frictionless import Frictionless
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.contacts.soft_finger import SoftFinger
-from synergrip.reports.pictures.cone_sections import first_worst, used_friction
+from synergrip.reports.pictures.cone_sections import used_friction, when_worst
 from synergrip.reports.pictures.contact_colors import COLORS, contact_colors
 
 
@@ -46,7 +46,7 @@ def test_a_contact_without_friction_has_no_cross_section() -> None:
 
 
 def test_rounding_does_not_say_when_a_margin_is_least() -> None:
-    assert first_worst(np.array([1.0, 0.2 + 1e-9, 0.2, 0.5])) == 1
+    assert when_worst(np.array([1.0, 0.2 + 1e-9, 0.2, 0.5])) == 1
 
 
 def test_every_contact_has_a_colour_and_the_first_eight_one_of_their_own() -> None:

@@ -8,6 +8,7 @@ from functools import cache
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,9 @@ from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.html import page
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
+from synergrip.reports.html.tables import tables_of, why_of
 from synergrip.reports.pictures.lines import lines_of
+from synergrip.reports.text.text_usages import worst_of
 from synergrip.reports.view.planned import scene_of
 
 HOSTILE = (
@@ -68,6 +71,28 @@ def test_a_report_refers_to_nothing_outside_itself_and_is_small() -> None:
     text = report_text(document_of("gripper-box"), "t_s\n0\n")
     assert len(text.encode()) < MOST_BYTES
     assert all(link.startswith("#") for link in Tags(text).links)
+
+
+def test_the_table_of_limits_has_the_rows_of_the_text() -> None:
+    """What is bounded on both sides by itself has a row for each."""
+    problem = load_problem("gripper-box")
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    own = [row for usage in answer.usages for row in worst_of(usage)]
+    (table,) = (each for each in tables_of(document_of("gripper-box")) if each.anchor == "limits")
+    told = [tuple(cell.text for cell in row) for row in table.rows]
+    assert [row[:3] + row[4:5] for row in told] == [(*row[:3], row[4]) for row in own]
+    sides = [row for row in told if row[0].endswith("normal force")]
+    assert [(row[0], row[4][0]) for row in sides] == [("largest normal force", "≤"), ("smallest normal force", "≥")]
+    assert sum(row[5] != "–" for row in sides) == 1  # between the knots the worse of both is known
+
+
+def test_a_change_that_no_plan_was_found_with_has_no_command() -> None:
+    document = document_of("robonaut-handle", *ASKED["robonaut-handle"])
+    first = document["repairs"][0]
+    told = [why_of(document | {"repairs": [first | {"verified": known}]}) for known in (True, False)]
+    rows = [None if each is None else (each["repairs"][0]["again"], each["repairs"][0]["set"]) for each in told]
+    assert rows == [("a plan", f"--set {quote(first['set'])}"), ("no plan found", "")]
 
 
 def test_hostile_titles_and_names_stay_text() -> None:

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
-from synergrip import ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip import ActuatorEffort, ElasticMotion, FrictionReserve, Plan, load_problem, plan
+from synergrip.conic.decide import Decision
+from synergrip.conic.limits.actuator_effort import unit_of_efforts
+from synergrip.conic.solution import Claim
+from synergrip.documents.quantities import in_mm
 from synergrip.reports.text.screen import Screen, shown_on
 from synergrip.reports.text.tables import fitted, table, wrapped
+from synergrip.reports.text.text_checked import solved_lines
+from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_plan import verdict_lines
 
 ROWS = [("slip margin", "0.49999 N", "≥ 0.5 N"), ("angle", "-58.84 deg", "≤ 10 deg"), ("torque", "1 N m", "±2 N m")]
@@ -64,16 +74,31 @@ def test_a_place_with_colours_has_bold_heads() -> None:
 def test_a_hold_is_told_as_one() -> None:
     problem = load_problem("pinch-soft")
     told = " ".join(" ".join(verdict_lines(problem, plan(problem.grasp, problem.task))).split())
-    assert "the squeeze moves the object by " in told or "the squeeze does not move the object by itself" in told
-    assert "sag since the start, by change of load: " in told
+    assert re.search(r"moved the object by up to [\d.]+ mm \(t = ", told) or "moves the object" in told
     limited = load_problem("pinch-soft", ['limits.elastic_motion="5 mm"', "limits.safety_factor=1.2"])
     answer = plan(limited.grasp, limited.task)
     assert isinstance(answer, Plan)
     told = "\n".join(verdict_lines(limited, answer))
     assert "slip margin at friction / 1.2" in told
-    assert "the squeeze" not in told  # a row tells it, beside its limit
+    assert "the squeeze alone" not in told  # a row tells it, beside its limit
     assert any(isinstance(limit, ElasticMotion) for limit in limited.task.limits)
     assert FrictionReserve(angle=0.1745329252).title == "slip margin 10 deg inside the cone"
+
+
+def test_a_squeeze_and_a_sag_that_cancel_are_told_as_no_motion() -> None:
+    problem = load_problem("barrett-ball-hold", ["task.knots=4"])
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    net = np.linalg.norm(answer.analysis.response.scale.twist(answer.elastic_motion + answer.motion.sag), axis=1)
+    told = " ".join(" ".join(moved_lines(answer)).split())
+    assert told.startswith(f"moved the object by up to {in_mm(net.max())} (t = ")
+    assert "the squeeze alone" in told
+    cancelled = replace(answer, elastic_motion=-answer.motion.sag)
+    told = " ".join(" ".join(moved_lines(cancelled)).split())
+    assert told == "moved the object stays within 0.001 mm of where it starts: the squeeze makes up for the sag"
+    assert "the squeeze alone" in " ".join(" ".join(moved_lines(cancelled, details=True)).split())
+    one = replace(answer, elastic_motion=0 * answer.motion.sag)
+    assert "all of it by change of load" in " ".join(" ".join(moved_lines(one)).split())
 
 
 def test_details_are_told_to_those_who_ask() -> None:
@@ -87,3 +112,30 @@ def test_details_are_told_to_those_who_ask() -> None:
         assert f"\n{each.name} " in long
     assert "certificate: gap" in long
     assert "certificate: gap" not in short
+
+
+@pytest.mark.parametrize(("name", "unit"), [("barrett-ball-hold", "N m"), ("tripod", "synergy units")])
+def test_efforts_are_told_in_the_unit_of_what_synergies_move(name: str, unit: str) -> None:
+    grasp = load_problem(name).grasp
+    assert unit_of_efforts(grasp) == unit
+    assert [dial.unit for dial in ActuatorEffort(2.0).dials(grasp)] == [unit]
+
+
+def test_what_solvers_come_to_no_end_of_is_told_in_words() -> None:
+    problem = load_problem("pinch-soft")
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    one = answer.decisions[-1]
+    none = replace(one, solution=replace(one.solution, claim=Claim.NOTHING))
+    no = replace(one, solution=replace(one.solution, claim=Claim.INFEASIBLE))
+
+    def told(*decisions: Decision, details: bool = False) -> str:
+        return " ".join(" ".join(solved_lines(decisions, details=details)).split())
+
+    assert told(one, one).endswith(": optimal")
+    assert told(one, none, none).endswith(": optimal (2 of them without an answer of the solver; -v names them)")
+    assert told(one, no, no, none).endswith(
+        f": {one.goal} infeasible (1 of them without an answer of the solver; -v names them)"
+    )
+    assert told(none).endswith(": no answer of the solver")
+    assert "-v" not in told(one, none, details=True)

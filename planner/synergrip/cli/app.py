@@ -14,7 +14,7 @@ from synergrip.cli.explain import explain
 from synergrip.cli.export import export
 from synergrip.cli.figure import figure
 from synergrip.cli.front import front
-from synergrip.cli.lists import hands, problems, schema
+from synergrip.cli.lists import docs, hands, problems, schema
 from synergrip.cli.margins import margins
 from synergrip.cli.plan import plan
 from synergrip.cli.report import report
@@ -61,6 +61,7 @@ for verb in (
     problems,
     hands,
     schema,
+    docs,
 ):
     app.command()(verb)
 app.add_typer(synergies, name="synergies")

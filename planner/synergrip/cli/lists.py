@@ -1,4 +1,4 @@
-"""``synergrip problems``, ``hands`` and ``schema``: what there is."""
+"""``synergrip problems``, ``hands``, ``schema`` and ``docs``: what there is."""
 
 from __future__ import annotations
 
@@ -105,3 +105,20 @@ def schema() -> None:
         from synergrip.problems.problem_file import problem_schema
 
         say(json.dumps(problem_schema(), indent=2))
+
+
+def docs(form: FormatOption = Format.TEXT) -> None:
+    """Say where the documentation is, and list its pages."""
+    with answering(form):
+        from synergrip.files import bundled
+        from synergrip.plain_file import read_text
+        from synergrip.reports.text.tables import table
+
+        start, folder = bundled("README.md"), bundled("docs")
+        pages = {path: read_text(path, "page").partition("\n")[0].lstrip("# ") for path in sorted(folder.rglob("*.md"))}
+        rows = [(str(path.relative_to(start.parent)), title) for path, title in pages.items()]
+        show(
+            form, lambda: f"Documentation: {start}\n\n{table(('page', 'about'), rows)}",
+            lambda: {"documentation": str(start),
+                     "pages": [{"file": str(path), "title": told} for path, told in pages.items()]},
+        )  # fmt: skip

@@ -11,7 +11,7 @@ from synergrip.changes.asked import Asked, Posed
 from synergrip.changes.at_a_value import first_plan, posed_at
 from synergrip.changes.extreme import FAR, Extreme, extreme
 from synergrip.changes.turning import amplitude_dial, duration_dial, friction_dial, load_dial, mass_dial
-from synergrip.conic.limits.actuator_effort import ActuatorEffort
+from synergrip.conic.limits.actuator_effort import ActuatorEffort, unit_of_efforts
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.normal_force import NormalForce, least_normal_force
 from synergrip.margin.along import NEAR, Search
@@ -63,7 +63,7 @@ def wanted(asked: Asked, plan: Plan) -> tuple[Wanted, ...]:
         Wanted(HEAVIEST, "kg", mass, no_mass),
         Wanted(FACTOR, "", load, "there is no load", load.value if load else 1.0),
         Wanted("least_peak_N", "N", _cap(asked, plan), ""),
-        Wanted("least_effort", ActuatorEffort(1.0).unit(grasp), _effort(asked, plan), "there is no effort"),
+        Wanted("least_effort", unit_of_efforts(grasp), _effort(asked, plan), "there is no effort"),
         Wanted(
             "shortest_duration_s", "s", duration_dial(asked, timed),
             "nothing depends on how long the task takes, or a load has times of its own",

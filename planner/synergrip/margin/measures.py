@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from synergrip.conic.limits.ties import first_worst
 from synergrip.documents.naming import made_by
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array, frozen
@@ -25,8 +26,6 @@ FORMULAS = (
     ("lift-off margin", "N", "n - n_min"),
 )
 """Name, unit and formula of every measure."""
-ALIKE = 1e-6
-"""Share of the worst value up to which others are as bad: the first of them is named."""
 
 
 @made_by("margins(grasp, task).measures")
@@ -53,10 +52,7 @@ class Measure(Value):
     @property
     def worst(self) -> Worst:
         """Where it is worst, and when first."""
-        goodness = -self.value if self.most_is_worst else self.value
-        worst = float(goodness.min())
-        alike = ALIKE * abs(worst) if np.isfinite(worst) else 0.0
-        k, i = (int(place[0]) for place in np.nonzero(goodness <= worst + alike))
+        k, i = first_worst(self.value if self.most_is_worst else -self.value, self.value)
         return Worst(float(self.value[k, i]), self.items[i], float(self.times[k]))
 
 

@@ -19,6 +19,11 @@ def bundled_problems() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in bundled("problems").glob("*.toml")))
 
 
+def is_bundled(path: Path) -> bool:
+    """Tell whether a file is one of the problems that ship with the package, known by their names."""
+    return path.parent == bundled("problems") and path.stem in bundled_problems()
+
+
 def find_problem(name_or_path: str) -> Path:
     """Return the file of a problem.
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.ties import BROKEN, ROUNDING, first_largest, first_worst
 from synergrip.conic.rows import Rows, with_room
 from synergrip.documents.judging import Arguments, as_numbers, described
 from synergrip.documents.naming import naming_arguments
@@ -106,24 +107,20 @@ class Usage(Value):
         size = self.scale if self.allowance is None else self.allowance
         return float((self.excess / size).max(initial=-np.inf))
 
-    def worst(self) -> tuple[int, int]:
-        """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`."""
-        return first_largest(self.excess / self.scale)
+    def worst(self, side: int = 0) -> tuple[int, int]:
+        """Return knot and item closest to (or farthest beyond) their bound, measured by `scale`.
+
+        Of the upper bounds alone with `side` 1, of the lower ones with -1.
+        """
+        excess = {1: self.value - self.upper, -1: self.lower - self.value}.get(side, self.excess) / self.scale
+        broken = bool(excess.max(initial=-np.inf) > BROKEN)
+        return first_largest(excess) if broken else first_worst(excess, self.value / self.scale, ROUNDING)
 
     def __repr__(self) -> str:
         """Return the value nearest to its bound, where and when."""
         k, i = self.worst()
         place = f"{shortened(str(self.items[i]))}, t = {self.times[k]:.6g} s"
         return f"Usage({self.title}: {self.value[k, i]:.6g} {self.unit} at {place}, the worst of {self.value.size})"
-
-
-def first_largest(values: Array, tie: float = 1e-6) -> tuple[int, int]:
-    """Return row and column of the largest of `values` (T, m); the first of those that differ by less than `tie`.
-
-    Optimal plans lie on their limits at many knots at once; rounding must not choose the one that is shown.
-    """
-    flat = int(np.argmax(values.ravel() > values.max() - tie))
-    return flat // values.shape[1], flat % values.shape[1]
 
 
 class Limit(Complete, ByContent, ABC):

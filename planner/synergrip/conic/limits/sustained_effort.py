@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from synergrip.conic.formulation import Affine, Formulation
+from synergrip.conic.limits.actuator_effort import unit_of_efforts
 from synergrip.conic.limits.file_key import FileKey, OwnEfforts
 from synergrip.conic.limits.sustained import Sustained
 from synergrip.documents.naming import naming_arguments
 from synergrip.linalg import Array
 from synergrip.statics.motion import Motion
+
+if TYPE_CHECKING:
+    from synergrip.grasps.grasp import Grasp
 
 
 @naming_arguments
@@ -42,6 +47,10 @@ class SustainedEffort(Sustained):
     def reached(self, motion: Motion) -> Array:
         """Return the efforts (T, n_z)."""
         return motion.efforts
+
+    def unit(self, grasp: Grasp) -> str:
+        """Return that of `ActuatorEffort`."""
+        return unit_of_efforts(grasp)
 
 
 IN_FILE = FileKey(

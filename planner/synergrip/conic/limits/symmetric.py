@@ -58,7 +58,7 @@ class Symmetric(Limit):
 
     def unit(self, grasp: Grasp) -> str:
         """Return the unit of the values."""
-        return "synergy units"
+        return SYNERGY_UNITS
 
     def names(self, grasp: Grasp) -> tuple[str, ...]:
         """Return the names of the joints or synergies."""
@@ -126,6 +126,8 @@ class Symmetric(Limit):
         )  # fmt: skip
 
 
+SYNERGY_UNITS = "synergy units"
+"""What values of synergies are in where their columns of S have no unit that is known."""
 FAR_AWAY = 1e6
 """Times the largest finite limit, in files, where a limit in a list is none."""
 NO_HAND = "'hand' needs a hand; a grasp given as matrices states no limits, give numbers"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.reports.figures.margin_figure import note_required
-from synergrip.reports.pictures.cone_sections import first_worst
+from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.hand_scene import draw_hand
 from synergrip.reports.pictures.line_chart import Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines, lines_of
@@ -44,7 +44,7 @@ def draw_overview(document: Mapping[str, Any], folder: Path, path: Path, paper: 
         OSError: the file cannot be written.
     """
     scene = scene_of(document, folder)
-    k = 0 if scene.margins is None else first_worst(scene.margins.min(axis=1))
+    k = 0 if scene.margins is None else when_worst(scene.margins.min(axis=1))
     every = {lines.title: lines for lines in lines_of(document)}
     parts = [every[title] for title in ("slip margin", "normal force") if title in every]
     width, times = paper.wide(WIDE_MM), np.array(document["time_s"])

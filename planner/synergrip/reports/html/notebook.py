@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from html import escape
 
-import numpy as np
-
 from synergrip.documents.quantities import plain, read_as
 from synergrip.errors import shortened
 from synergrip.planning.outcome import Plan
 from synergrip.problems.in_short import many
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.pictures.lines import plan_lines
+from synergrip.reports.text.text_usages import worst_of
 
 HEAD = ("limit", "worst", "where", "when", "bound")
 WIDE = "max-width: 34em"
@@ -31,13 +30,9 @@ def plan_html(plan: Plan) -> str:
 
 
 def _table(plan: Plan) -> str:
-    """Return the value of every limit that is nearest to its bound."""
-    rows = []
-    for usage in plan.usages:
-        k, i = usage.worst()
-        ends = [read_as(float(end), usage.unit) for end in (usage.lower[i], usage.upper[i]) if np.isfinite(end)]
-        value, when = read_as(float(usage.value[k, i]), usage.unit), f"{usage.times[k]:.3g} s"
-        rows.append((usage.title, value, _short(usage.items[i]), when, " to ".join(ends)))
+    """Return the value of every limit that is nearest to its bound, on each side that is bounded by itself."""
+    each = (row for usage in plan.usages for row in worst_of(usage))
+    rows = [(title, shown, _short(item), f"{time:.3g} s", bound) for title, shown, item, time, bound in each]
     head = "".join(f"<th>{cell}</th>" for cell in HEAD)
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)
     return f"<table><tr>{head}</tr>{body}</table>"

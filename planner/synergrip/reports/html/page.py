@@ -19,9 +19,10 @@ from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.tables import missing_of, tables_of, why_of
+from synergrip.reports.html.tables import missing_of, tables_of, usage_told, why_of
 from synergrip.reports.libraries import refuse_without
 from synergrip.reports.pictures.lines import lines_of
+from synergrip.reports.text.text_usages import worst_of
 
 LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""
@@ -126,11 +127,9 @@ def _headline(document: Mapping[str, Any]) -> list[str]:
     told.append(
         f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s{wanted}"
     )
-    for name in ("largest normal force", "joint torque"):
-        for each in document["limits"]:
-            if each["name"] == name:
-                told.append(f"{name} {read_as(abs(each['value']), each['unit'])} at {each['item']}")
-    return told
+    rows = (row for each in document["limits"] for row in worst_of(usage_told(each, document)))
+    named = [row for row in rows if row[0] in ("largest normal force", "joint torque")]
+    return told + [f"{title} {shown.lstrip('-')} at {item}" for title, shown, item, *_ in named]
 
 
 def _inputs(problem: Mapping[str, Any]) -> str:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from shlex import quote
 from typing import Any
 
 import numpy as np
 
+from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import read_as
+from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.contact_colors import contact_colors
+from synergrip.reports.text.text_usages import worst_of
 
 Document = Mapping[str, Any]
 
@@ -42,21 +46,40 @@ def tables_of(document: Document) -> tuple[Table, ...]:
 
 
 def _limits(document: Document) -> Iterator[Table]:
-    """Yield the worst value of every limit, at the knots and between them."""
+    """Yield the worst value of every limit at the knots, on each side that is bounded by itself, and between them."""
     limits = document.get("limits") or ()
     between = {each["name"]: each for each in (document.get("between") or {}).get("limits", ())}
     rows = []
     for each in limits:
-        bounds = [read_as(each[side], each["unit"]) for side in ("lower", "upper") if each[side] is not None]
         other = between.get(each["name"])
-        rows.append((
-            Cell(each["name"]), _number(read_as(each["value"], each["unit"])), Cell(str(each["item"])),
-            _number(f"{each['time_s']:.3g} s"), Cell(" to ".join(bounds)),
-            _number(read_as(other["value"], each["unit"]) if other else "–"),
-        ))  # fmt: skip
+        for title, shown, item, time, bound in worst_of(usage_told(each, document)):
+            # between the knots the worst of both sides is known: it stands beside the side that it is on
+            there = other is not None and title in (each["name"], f"{_side(other)} {each['name']}")
+            rows.append((
+                Cell(title), _number(shown), Cell(item), _number(f"{time:.3g} s"), Cell(bound),
+                _number(read_as(other["value"], each["unit"]) if other and there else "–"),
+            ))  # fmt: skip
     if rows:
         head = ("limit", "worst", "where", "when", "bound", "between the knots")
         yield Table("limits", "Limits", head, tuple(rows))
+
+
+def _side(told: Mapping[str, Any]) -> str:
+    """Return which bound the worst value of a limit is nearer to."""
+    lower, value, upper = told["lower"], told["value"], told["upper"]
+    return "smallest" if upper is None or (lower is not None and value - lower < upper - value) else "largest"
+
+
+def usage_told(told: Mapping[str, Any], document: Document) -> Usage:
+    """Return what is told of a limit; sizes are half the way between the bounds where there are two, as in a range."""
+    series, true = told["series"], document.get("true") or {}
+    ends = ((series["lower"], -np.inf), (series["upper"], np.inf))
+    lower, upper = (np.array([none if end is None else end for end in each], dtype=float) for each, none in ends)
+    half = (upper - lower) / 2
+    scale = np.where(np.isfinite(half) & (half > 0), half, 1.0)
+    values = np.array(series["values"], dtype=float)
+    times = np.array(true.get("time_s", document["time_s"]))
+    return Usage(told["name"], told["unit"], tuple(series["items"]), values, lower, upper, scale, times)
 
 
 def _contacts(document: Document) -> Iterator[Table]:
@@ -70,7 +93,7 @@ def _contacts(document: Document) -> Iterator[Table]:
     forces = None if true is None else np.linalg.norm(np.array(true["force_N"]), axis=2)
     times, rows = document["time_s"], []
     for i, each in enumerate(told):
-        k = 0 if margins is None else int(np.argmin(margins[:, i]))
+        k = 0 if margins is None else when_worst(margins[:, i])
         friction = each["parameters"].get("friction")
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
@@ -150,7 +173,7 @@ def _number(text: str) -> Cell:
 
 
 def why_of(document: Document) -> dict[str, Any] | None:
-    """Return why there is no plan, and the changes that would repair it; None for a plan."""
+    """Return why there is no plan, and the changes that were tried, as the text tells them; None for a plan."""
     if document["verdict"] == "feasible":
         return None
     when, repairs = document.get("when") or {}, document.get("repairs") or ()
@@ -159,7 +182,8 @@ def why_of(document: Document) -> dict[str, Any] | None:
         told.append(f"proven not to help: {_words(', '.join(document['cannot_help']))}")
     rows = [
         {"cause": _words(each["cause"]), "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
-         "set": f"--set {each['set']}"}
+         "again": "a plan" if each["verified"] else "no plan found" if each.get("tried", True) else "not tried",
+         "set": f"--set {quote(each['set'])}" if each["verified"] else ""}
         for each in repairs
     ]  # fmt: skip
     return {"text": (document.get("why") or {}).get("text", ""), "told": told, "repairs": rows}

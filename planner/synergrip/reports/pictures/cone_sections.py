@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from synergrip.conic.limits.ties import first_worst
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.linalg import Array
-from synergrip.margin.measures import ALIKE
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.layout import LETTERS, MARGIN, size_that_fits
 from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
@@ -62,12 +62,12 @@ def draw_cones(sheet: Sheet, cones: Cones, left: float, top: float, width: float
         sheet.write(begin, above + 0.15, _short(contact.name, side), NAME, colors[contact.name], bold=True)
         sheet.write(begin, above + 0.3, told[index], size, GREY)
         panel = sheet.panel(begin, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
-        _section(panel, contact, forces, first_worst(cones.margins[:, index]), colors[contact.name])
+        _section(panel, contact, forces, when_worst(cones.margins[:, index]), colors[contact.name])
 
 
 def _told(cones: Cones, index: int) -> str:
     """Return the least slip margin of a contact, and when it has it."""
-    worst = first_worst(cones.margins[:, index])
+    worst = when_worst(cones.margins[:, index])
     when = f", t = {cones.times[worst]:.3g} s" if len(cones.times) > 1 else ""
     return f"least {cones.margins[worst, index]:.3g} N{when}"
 
@@ -80,10 +80,9 @@ def _grid(cones: Cones, width: float) -> tuple[int, float]:
     return across, min((width + GAP) / across - GAP, LARGEST)
 
 
-def first_worst(values: Array) -> int:
+def when_worst(values: Array) -> int:
     """Return where values (T,) are first as small as they get."""
-    least = float(values.min())
-    return int(np.nonzero(values <= least + ALIKE * abs(least))[0][0])
+    return first_worst(-values[:, None], values[:, None])[0]
 
 
 def used_friction(contact: Contact, forces: Array) -> Array | None:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.conic.limits.limit import Usage, first_largest
+from synergrip.conic.limits.limit import Usage
+from synergrip.conic.limits.ties import first_largest
 from synergrip.documents.quantities import both_apart, in_mm, plain, read_as
 from synergrip.documents.words import listed
 from synergrip.linalg import Array

@@ -25,8 +25,16 @@ def solved_lines(decisions: Sequence[Decision], *, details: bool) -> Iterator[st
     size = f"{len(decisions)} programs of up to {variables}" if len(decisions) > 1 else f"1 program of {variables}"
     tries = sum(decision.attempts for decision in decisions)
     more = f", {tries} attempts" if tries > len(decisions) else ""
-    short = [decision for decision in decisions if decision.solution.claim is not Claim.OPTIMAL]
-    claims = ", ".join(f"{decision.goal} {decision.solution.claim}" for decision in short) or "optimal"
+    # a program that a solver came to no end of says nothing of the answer: which it is, is told with the details
+    short = [each for each in decisions if each.solution.claim not in (Claim.OPTIMAL, Claim.NOTHING)]
+    claims = ", ".join(dict.fromkeys(f"{each.goal} {each.solution.claim}" for each in short))
+    nothing = sum(each.solution.claim is Claim.NOTHING for each in decisions)
+    if nothing == len(decisions):
+        claims = "no answer of the solver"
+    elif nothing:
+        named = "" if details else "; -v names them"
+        claims = f"{claims or 'optimal'} ({nothing} of them without an answer of the solver{named})"
+    claims = claims or "optimal"
     took = f"{1e3 * sum(decision.seconds for decision in decisions):.0f} ms{more}"
     yield from wrapped("solve    ", f"{size} by {solvers} in {took}: {claims}")
     if details:

@@ -77,7 +77,7 @@ def _parts(found: Margins, *, whole: bool) -> Iterator[list[str]]:
     if found.quality is not None:
         yield [*quality_lines(found.quality)]
     if found.sensitivities is not None:
-        yield [*sensitivity_lines(found.sensitivities, whole=whole)]
+        yield [*sensitivity_lines(found.sensitivities, found.plan.grasp, whole=whole)]
 
 
 def _measures(found: Margins) -> str:

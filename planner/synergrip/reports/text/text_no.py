@@ -25,23 +25,25 @@ FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 AT_START = "in the linear model of the start posture"
 LITTLE = 0.005
 """Share of a motion up to which it is not told that it is left undone."""
+STOPS = "limits.joint_range: mechanical stops do not widen; it takes another hand or another start posture"
 BEST = 3
 """Items of a limit that are named."""
 
 
-def no_lines(found: Explanation, times: Array, place: Callable[[str], str]) -> Iterator[str]:
+def no_lines(found: Explanation, times: Array, place: Callable[[str], str], command: str = "") -> Iterator[str]:
     """Yield why there is no plan.
 
     Args:
         found: what is known.
         times: (T,) knots [s] of the task.
-        place: says where in the problem file a key stands.
+        place: says where a key stands: in the problem file, or on the command line.
+        command: tells more than a short form knows.
     """
     yield from wrapped("Why      ", found.text)
-    yield from more_lines(found, times, place)
+    yield from more_lines(found, times, place, command)
 
 
-def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) -> Iterator[str]:
+def more_lines(found: Explanation, times: Array, place: Callable[[str], str], command: str = "") -> Iterator[str]:
     """Yield what is known beyond the reason; arguments as of `no_lines`."""
     if where := _when(found, times):
         yield from wrapped("Where    ", where)
@@ -52,15 +54,16 @@ def more_lines(found: Explanation, times: Array, place: Callable[[str], str]) ->
             more = f" and {len(each.items) - BEST} more" if len(each.items) > BEST else ""
             share = f"{each.share:.0%}" if each.share >= 0.01 else "< 1%"
             rows.append((each.key, share, ", ".join(each.items[:BEST]) + more, place(each.key)))
-        yield table(("limit", "share of the proof", "at", "in the file"), rows, right=(1,))
-    yield from _repairs(found)
+        yield table(("limit", "share of the proof", "at", "stated"), rows, right=(1,))
+    yield from _repairs(found, command)
     if found.interrupted:
         yield from wrapped("note     ", INTERRUPTED)
 
 
-def _repairs(found: Explanation) -> Iterator[str]:
+def _repairs(found: Explanation, command: str) -> Iterator[str]:
+    helped = found.pairs or any(each.verified for each in (*found.repairs, *found.others))
     if found.repairs:
-        yield from _helping(found)
+        yield from _helping(found, command=command if not helped and not found.whole else "")
     if found.missing_synergies is not None:
         yield from _missing(found.missing_synergies)
     if found.others:
@@ -71,7 +74,9 @@ def _repairs(found: Explanation) -> Iterator[str]:
         alone = any(each.verified for each in found.repairs)
         yield from ("", "Pairs of changes that help" if alone else "No single change helps; pairs that do")
         yield _changes(found.pairs)
-    helped = found.pairs or any(each.verified for each in (*found.repairs, *found.others))
+    pairs = (each for pair in found.pairs for each in pair)
+    if any(each.cause == "joint_range" for each in (*found.repairs, *found.others, *pairs)):
+        yield from wrapped("         ", STOPS)
     if found.whole and not helped and not found.interrupted:
         pair = "" if found.posed is None else ", nor any pair"
         yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
@@ -91,14 +96,22 @@ def _no_help(words: str, *, moves: bool) -> Iterator[str]:
         yield from wrapped("No help  ", f"proven of {AT_START.removeprefix('in ')}, whatever the value: {words}")
 
 
-def _helping(found: Explanation) -> Iterator[str]:
-    """Yield the changes that help, and what is to be said of their values."""
-    smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
-    yield from ("", f"What would help{smallest}")
+def _helping(found: Explanation, *, command: str) -> Iterator[str]:
+    """Yield the changes that help, and what is to be said of their values.
+
+    Args:
+        found: what is known.
+        command: what looks for more, where no change of the short form has a plan; else empty.
+    """
+    if command:
+        yield from ("", "No change that was tried has a plan yet; more are tried by", *wrapped("  ", command))
+    else:
+        smallest = "" if found.whole else f", the {len(found.repairs)} smallest" if len(found.repairs) > 1 else ""
+        yield from ("", f"What would help{smallest}")
     yield _changes([(each,) for each in found.repairs])
     yield from _nearer([each for each in found.repairs if each.verified], whole=found.whole)
     if not all(each.verified or not each.tried for each in found.repairs):
-        farther = "" if found.whole else "; synergrip explain plans with larger changes, too"
+        farther = "" if found.whole or command else "; synergrip explain plans with larger changes, too"
         told = "where no plan is found, the linear model of the start posture has one with that value"
         yield from wrapped("         ", f"{told}, and the hand that moves was tried with more{farther}")
     if not all(each.tried for each in found.repairs):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import compress
 from pathlib import Path
+from shlex import quote
 
 from synergrip.documents.quantities import plain
 from synergrip.equilibrium.execution import Execution
@@ -20,7 +21,7 @@ from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
-from synergrip.reports.text.text_problem import problem_lines
+from synergrip.reports.text.text_problem import command_of, problem_lines
 from synergrip.reports.text.text_usages import on_bound, used_rows
 from synergrip.statics.twists import describe_kind
 
@@ -81,7 +82,7 @@ def verdict_lines(
     lines = [*problem_lines(problem), *solved_lines(outcome.decisions, details=details)]
     if isinstance(outcome, Plan):
         lines += [*checked_lines(outcome, details=details), *_executed(outcome), *between_lines(outcome)]
-        lines += [*case_lines(outcome), "", *_feasible(outcome, word)]
+        lines += [*case_lines(outcome), "", *_feasible(outcome, word, details=details)]
     elif isinstance(outcome, Infeasible):
         lines += [
             *proof_lines(outcome, details=details),
@@ -90,7 +91,9 @@ def verdict_lines(
         ]
     else:
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome)]
-        lines += more_lines(known or outcome.explanation, outcome.task.times, placed(problem))
+        lines += more_lines(
+            known or outcome.explanation, outcome.task.times, placed(problem), command_of("explain", problem)
+        )
     notes = notes_together(outcome.notes, problem.notes)
     lines += [line for note in notes for line in wrapped("note     ", note)]
     if outcome.analysis is not None and outcome.analysis.spaces.ambiguous:
@@ -156,7 +159,7 @@ def _if_fixed(fixed: Execution | None) -> str:
     return f" (if they stayed where they are {other})"
 
 
-def _feasible(plan: Plan, word: str) -> Iterator[str]:
+def _feasible(plan: Plan, word: str, *, details: bool) -> Iterator[str]:
     k, i = plan.usages[0].worst()
     contact, time = plan.analysis.grasp.contacts[i].name, plan.motion.times[k]
     best = "" if plan.largest_margin is None else f", the largest {_largest_of(plan)}"
@@ -165,7 +168,7 @@ def _feasible(plan: Plan, word: str) -> Iterator[str]:
     yield f"{head}{best}"
     rows = used_rows(plan.usages, plan.motion, plan.task, plan.analysis)
     yield table(("", "worst", "at", "limit"), rows)
-    yield from moved_lines(plan)
+    yield from moved_lines(plan, details=details)
 
 
 def _largest_of(plan: Plan) -> str:
@@ -180,20 +183,22 @@ def _largest_of(plan: Plan) -> str:
 
 def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
     yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage})"
-    yield from no_lines(known, outcome.task.times, placed(problem))
+    yield from no_lines(known, outcome.task.times, placed(problem), command_of("explain", problem))
     for hint in outcome.hints:
         yield from wrapped("Hint     ", hint)
 
 
 def placed(problem: Problem) -> Callable[[str], str]:
-    """Return what says where in the file of a problem a key stands; empty where it does not."""
+    """Return what says where a key is stated: in the file of a problem, or on the command line; empty where not."""
 
     def place(key: str) -> str:
         found = problem.document.locate(Issue("", key=key))
         if not found.file:
             return ""
+        if found.file.startswith("--set "):
+            return f"--set {quote(found.file.removeprefix('--set '))} on the command line"
         stands = found.source and key.rsplit(".", 1)[-1] in found.source
-        return found.file if found.file.startswith("--set") else f"line {found.line}" if stands else ""
+        return f"line {found.line} of the file" if stands else ""
 
     return place
 

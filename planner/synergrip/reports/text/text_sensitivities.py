@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from synergrip.documents.quantities import plain
+from synergrip.grasps.grasp import Grasp
 from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.text_spots import triple
 
 HEADS = {
     LARGEST: "of the largest margin, {}, by its multipliers", FIXED: "of the worst margin, {}, with these references",
@@ -14,8 +16,9 @@ HEADS = {
 MEANT = "each by 1 % of a number, 1 mm of a contact or 1 deg of its normal"
 
 
-def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[str]:
-    """Yield what changes are worth most, or all of them, one margin after the other."""
+def sensitivity_lines(found: Sensitivities, grasp: Grasp, *, whole: bool = False) -> Iterator[str]:
+    """Yield what changes are worth most, or all of them, one margin after the other; where their tangents point."""
+    named = list[Sensitivity]()
     for kind, head in HEADS.items():
         margin = found.margins[kind]
         if margin is None:
@@ -28,12 +31,29 @@ def sensitivity_lines(found: Sensitivities, *, whole: bool = False) -> Iterator[
             yield f"{of}: {'interrupted before it was found' if found.interrupted else 'no such change adds to it'}"
             continue
         columns = ("change", "adds", "toward less", "toward more", "in", "") if whole else ("change", "adds", "in")
+        named += chosen
         yield of
         yield table(columns, [_row(each, whole=whole) for each in chosen])
+    yield from _tangents(named, grasp)
     if whole:
         for name, why in found.left_out.items():
             if name not in HEADS:
                 yield from wrapped("         ", f"{name}: {why}")
+
+
+def _tangents(named: Sequence[Sensitivity], grasp: Grasp) -> Iterator[str]:
+    """Yield where the tangents point that changes are along or about, of a grasp on a hand."""
+    if grasp.held is None:
+        return
+    asked = {(each.of, each.direction.rsplit(" ", 1)[-1]) for each in named}
+    told = [
+        f"{name} of {contact.name} {triple(contact.frame[:, column], 3)}"
+        for contact in grasp.contacts
+        for column, name in ((1, "t"), (2, "o"))
+        if (contact.name, name) in asked
+    ]
+    if told:
+        yield from wrapped("         ", f"in the palm frame at the start: {', '.join(told)}")
 
 
 def change_of(each: Sensitivity) -> str:

@@ -7,14 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
-from synergrip.conic.limits.limit import Limit, Usage, first_largest
+from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.object_error import AXES, ObjectError
 from synergrip.conic.limits.sustained_effort import SustainedEffort
 from synergrip.conic.limits.synergy_acceleration import SynergyAcceleration
 from synergrip.conic.limits.synergy_rate import SynergyRate
 from synergrip.conic.limits.synergy_reference import SynergyReference
-from synergrip.documents.quantities import both_apart, plain, read_as
+from synergrip.conic.limits.ties import first_worst
+from synergrip.documents.quantities import SHOWN_IN, both_apart, plain, read_as
 from synergrip.grasps.grasp import Grasp
 from synergrip.hands.units import SI_UNITS, joint_kinds, synergy_kinds
 from synergrip.planning.between import LIMIT
@@ -67,7 +68,7 @@ def error_rows(motion: Motion, task: TimedTask, analysis: Analysis) -> list[tupl
     for title, part, unit in (("position error", slice(3), "m"), ("rotation error", slice(3, 6), "rad")):
         if any(axis in task.axes for axis in AXES[part]):
             size = np.linalg.norm(off[:, part], axis=1)
-            k, _ = first_largest(size[:, None], 1e-6 * float(size.max()))
+            k, _ = first_worst(size[:, None], size[:, None])
             rows.append((title, read_as(float(size[k]), unit), f"object, t = {motion.times[k]:.2f} s", ""))
     return rows
 
@@ -82,7 +83,7 @@ def _largest(
     title: str, values: np.ndarray, units: Mapping[str, str], names: Sequence[str], times: np.ndarray
 ) -> tuple[str, ...]:
     size = np.abs(values)
-    k, i = first_largest(size, 1e-6 * float(size.max()))
+    k, i = first_worst(size, values)
     shown = f"{plain(values[k, i])} {units.get(names[i], '')}".rstrip()
     return title, shown, f"{names[i]}, t = {times[k]:.2f} s", ""
 
@@ -93,24 +94,30 @@ def on_bound(usage: Usage, k: int, i: int, bound: float) -> float:
     return bound if abs(value - bound) <= LIMIT * float(usage.size[k, i]) else value
 
 
-def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Yield title, worst value, where and when, and its bound; one row for each side that is bounded by itself.
+def worst_of(usage: Usage, units: Mapping[str, str] | None = None) -> Iterator[tuple[str, str, str, float, str]]:
+    """Yield title, worst value, item, time [s] and bound; one for each side that is bounded by itself.
 
-    `units` are those of some items, where that of the limit says less.
+    Args:
+        usage: of a limit.
+        units: of some items, where that of the limit says less.
     """
     two_sided = np.all(usage.lower == -usage.upper)
     bounds = {"largest ": usage.upper, "smallest ": usage.lower}
     sides = [""] if two_sided else [side for side, bound in bounds.items() if np.any(np.isfinite(bound))]
     for side in sides:
-        excess = {"largest ": usage.value - usage.upper, "smallest ": usage.lower - usage.value}.get(side, usage.excess)
-        k, i = first_largest(excess / usage.scale)
+        k, i = usage.worst({"largest ": 1, "smallest ": -1}.get(side, 0))
         value, lower, upper = float(usage.value[k, i]), float(usage.lower[i]), float(usage.upper[i])
         bound = upper if side == "largest " or (two_sided and value > 0) else lower
         value = on_bound(usage, k, i, bound)
-        unit = units.get(usage.items[i], "")
+        unit = "" if usage.unit in SHOWN_IN else (units or {}).get(usage.items[i], "")
         shown, limit = (f"{told} {unit}".rstrip() for told in both_apart(value, bound, usage.unit))
         sign = "±" if two_sided else "≤ " if side == "largest " else "≥ "
-        where = f"{usage.items[i]}, t = {usage.times[k]:.2f} s"
         limit = limit.lstrip("-") if two_sided else limit
         title = f"{side if len(sides) > 1 else ''}{usage.title}"
-        yield title, shown, where, f"{sign}{limit}"
+        yield title, shown, str(usage.items[i]), float(usage.times[k]), f"{sign}{limit}"
+
+
+def _usage_rows(usage: Usage, units: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
+    """Yield title, worst value, where and when, and its bound."""
+    for title, shown, item, time, limit in worst_of(usage, units):
+        yield title, shown, f"{item}, t = {time:.2f} s", limit
