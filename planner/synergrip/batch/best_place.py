@@ -14,8 +14,10 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.ball import MEETS
 from synergrip.grasps.closing_at_many import Closer
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.in_postures import grasps_in_postures
@@ -40,8 +42,8 @@ BEST = 5
 """Places around which is looked again, nearer."""
 FINE = 1e-3
 """[m] The search ends when places are no farther apart."""
-DIGITS = 4
-"""Of the place in metres, so that it can be written down."""
+DIGITS = (4, 5, 6, 7)
+"""Of the place in metres, so that it can be written down: the first at which all contacts meet the object."""
 ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
 FORCES = (NormalForce, JointTorque, ActuatorEffort)
@@ -142,12 +144,23 @@ class _Judge:
         return together.taken(order[:BEST])
 
     def written(self, places: TouchingPlaces) -> tuple[Grasp, float]:
-        """Return the grasp of the first place that makes one when it is rounded, and its margin."""
-        grasp, _ = _first(np.round(places.positions, DIGITS), self.made)
+        """Return the grasp of the first place at which all contacts meet when it is rounded, and its margin."""
+        rounded = np.array([np.round(position, digits) for position in places.positions for digits in DIGITS])
+        grasp, _ = _first(rounded, self._met)
         held = grasp.held
         assert held is not None
         one = TouchingPlaces(held.body.position[None], held.q[None], np.ones(1, dtype=bool))
         return grasp, float(self.margins(one)[0])
+
+    def _met(self, position: Array) -> tuple[Grasp, Task]:
+        """Return what is made at a position (3,), when closing by itself lets all contacts meet the object there."""
+        grasp, task = self.made(position)
+        gaps = grasp.held.gaps if grasp.held is not None else ()
+        off = max((abs(gap) for gap in gaps if gap is not None), default=0.0)
+        if off > MEETS:
+            message = f"a contact stays {in_mm(off)} off the object at the best place; give the place yourself"
+            raise InputError.at("object.position", message)
+        return grasp, task
 
     def notes(self, margin: float) -> tuple[str, ...]:
         """Return what is to be said of the place."""

@@ -9,7 +9,7 @@ import numpy as np
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.asked_grasp import AskedGrasp
-from synergrip.grasps.ball import REACH
+from synergrip.grasps.ball import MEETS
 from synergrip.grasps.clearance import DEEP, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
 from synergrip.grasps.shapes.shape import Shape
@@ -76,7 +76,7 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
     for _ in range(CENTRED):
         off = np.abs(last.gaps).max(axis=1)
         near = np.argsort(off, kind="stable")
-        near = near[off[near] > REACH][:NEAR]
+        near = near[off[near] > MEETS][:NEAR]
         if not len(near):
             break
         last = closer.closed(last.positions[near] + _shift(last.outward[near], last.gaps[near]))
@@ -128,7 +128,7 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
 
 
 def _away(gap: float, facing: float) -> str:
-    if abs(gap) <= REACH:
+    if abs(gap) <= MEETS:
         return f"faces away from the object ({np.degrees(np.arccos(np.clip(facing, -1, 1))):.0f} deg)"
     return f"stays {in_mm(gap)} away" if gap > 0 else f"is {in_mm(-gap)} inside"
 
