@@ -21,15 +21,18 @@ from synergrip.grasps.ball import MEETS
 from synergrip.grasps.closing_at_many import Closer
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.in_postures import grasps_in_postures
+from synergrip.grasps.pad_overlaps import overlap_notes
 from synergrip.grasps.place_search import (
     TouchingPlaces,
     around,
+    at_stops,
     closed_and_centred,
     nearest,
     off_centre,
     space,
     touching_places,
 )
+from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.hold import Hold
 from synergrip.tasks.task import Task
@@ -46,6 +49,8 @@ DIGITS = (4, 5, 6, 7)
 """Of the place in metres, so that it can be written down: the first at which all contacts meet the object."""
 ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
+NEARLY = 0.05
+"""Share of it that is given for joints that are away from their stops."""
 FORCES = (NormalForce, JointTorque, ActuatorEffort)
 """Limits of how hard a hand may press."""
 ENOUGH = 10.0
@@ -86,7 +91,7 @@ def best_place(
         best = judge.best(more, best)
     tell(SEARCHING, 1.0)
     grasp, margin = judge.written(best)
-    return PlacedObject(grasp, margin, tried, touched, judge.notes(margin))
+    return PlacedObject(grasp, margin, tried, touched, judge.notes(grasp, margin))
 
 
 SEARCHING = "looking for the place of the object"
@@ -132,16 +137,26 @@ class _Judge:
     def best(self, places: TouchingPlaces, others: TouchingPlaces | None = None) -> TouchingPlaces:
         """Return the best few of some places, those first at which the hand stays outside, and of others.
 
-        Of margins that are alike, that goes first whose contacts stand around the middle of the object.
+        Of margins that are nearly the largest, those with the fewest joints at their stops go first; of those that are
+        alike then, that whose contacts stand around the middle of the object.
         """
         few = places.taken(np.unique(np.round(np.linspace(0, len(places.q) - 1, JUDGED)).astype(int)))
         together = few if others is None else others.joined(few)
         margins = self.margins(together)
-        top = float(margins[together.clear].max(initial=-np.inf))
-        alike = margins >= (1 - ALIKE) * top if np.isfinite(top) else np.isneginf(margins)
+        stopped = at_stops(self.asked, together.q).sum(axis=1)
+        first = together.clear if together.clear.any() else ~together.clear
+        near = self._near(margins, first, NEARLY)
+        fewest = near & (stopped == stopped[near & first].min())
+        alike = fewest & self._near(margins, first & fewest, ALIKE)
         middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
         order = np.lexsort((middle, -np.where(alike, np.inf, margins), ~together.clear))
         return together.taken(order[:BEST])
+
+    @staticmethod
+    def _near(margins: Array, among: Flags, share: float) -> Flags:
+        """Return which margins (N,) are at most a share below the largest among some."""
+        top = float(margins[among].max(initial=-np.inf))
+        return np.asarray(margins >= (1 - share) * top if np.isfinite(top) else np.isneginf(margins))
 
     def written(self, places: TouchingPlaces) -> tuple[Grasp, float]:
         """Return the grasp of the first place at which all contacts meet when it is rounded, and its margin."""
@@ -160,10 +175,23 @@ class _Judge:
         if off > MEETS:
             message = f"a contact stays {in_mm(off)} off the object at the best place; give the place yourself"
             raise InputError.at("object.position", message)
+        if grasp.held is not None and (said := overlap_notes(grasp.held.hand, grasp.held.q, grasp.held.touches)):
+            raise InputError.at("object.position", f"at the best place {said[0]}; give the place yourself")
         return grasp, task
 
-    def notes(self, margin: float) -> tuple[str, ...]:
+    def notes(self, grasp: Grasp, margin: float) -> tuple[str, ...]:
         """Return what is to be said of the place."""
+        held = grasp.held
+        stopped = [] if held is None else np.flatnonzero(at_stops(self.asked, held.q[None])[0]).tolist()
+        names = ", ".join(self.asked.hand.joint_names[joint] for joint in stopped)
+        stops = (
+            (f"{names} stand{'s' * (len(stopped) == 1)} at the end of closing: no way is left there to press on",)
+            if names
+            else ()
+        )
+        return (*self._doubts(margin), *stops)
+
+    def _doubts(self, margin: float) -> tuple[str, ...]:
         if not np.isfinite(margin):
             return ("all contacts touch there, but at no place that was judged is the load held with these limits",)
         if self.added:

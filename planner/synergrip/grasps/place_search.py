@@ -12,6 +12,7 @@ from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import MEETS
 from synergrip.grasps.clearance import DEEP, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
+from synergrip.grasps.pad_overlaps import overlaps
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
@@ -21,6 +22,8 @@ ACROSS = 13
 """Places along the longest side of the space that is searched."""
 CENTRED = 3
 """Times that the object is moved to the middle of the pads that stopped before all touched, and closed on again."""
+AT_STOP = 0.01
+"""Share of its range within which a joint stands at its stop."""
 NEAR = 400
 """How many places at most are moved so."""
 
@@ -85,8 +88,11 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
 
 
 def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
-    """Return the places at which all contacts touch, in their order."""
+    """Return the places at which all contacts touch and no pads are inside each other, in their order."""
     all_touch = np.flatnonzero(found.touching.all(axis=1))
+    if len(all_touch):
+        _, depths = overlaps(closer.asked.hand, found.q[all_touch], closer.asked.touches)
+        all_touch = all_touch[depths.max(axis=1, initial=0.0) <= MEETS]
     positions, q = found.positions[all_touch], found.q[all_touch]
     inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
     return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
@@ -99,6 +105,15 @@ def off_centre(asked: AskedGrasp, places: TouchingPlaces) -> Array:
     return np.asarray(np.linalg.norm(middles - places.positions, axis=1))
 
 
+def at_stops(asked: AskedGrasp, q: Array) -> Flags:
+    """Return which joints (N, n_q) closing has brought to their stops, or within 1 % of their range of it."""
+    closing = np.zeros(len(asked.q)) if asked.closing is None else asked.closing
+    lower, upper = (np.array([getattr(joint, end) for joint in asked.hand.joints]) for end in ("lower", "upper"))
+    left = np.where(closing > 0, upper - q, q - lower)
+    room = np.where(np.isfinite(upper - lower), AT_STOP * (upper - lower), 0.0)
+    return np.asarray((closing != 0) & (left <= room))
+
+
 def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
     """Return where it comes nearest to all contacts touching (3,), and what is to be said of it.
 
@@ -108,6 +123,17 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
     if not len(found.q):
         message = f"wherever the object is, a pad is inside the {closer.shape.title} before the hand closes; {ask}"
         return closer.path().mean(axis=(0, 1)), Issue(message, key="object.position")
+    together = np.flatnonzero(found.touching.all(axis=1))
+    if len(together):
+        pairs, depths = overlaps(closer.asked.hand, found.q[together], closer.asked.touches)
+        least = int(np.argmin(depths.max(axis=1)))
+        a, b = pairs[int(np.argmax(depths[least]))]
+        position = found.positions[together[least]]
+        message = (
+            f"wherever all contacts touch, pads are inside each other; least at {_in_mm(position)}: '{a}' and '{b}' by "
+            f"{in_mm(float(depths[least].max()))}; {ask}"
+        )
+        return position, Issue(message, key="object.position")
     off = np.where(found.touching, 0.0, np.abs(found.gaps))
     best = int(np.lexsort((off.sum(axis=1), -found.touching.sum(axis=1)))[0])
     names = [touch.name for touch in closer.asked.touches]
@@ -119,12 +145,15 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         )
         if not yes
     ]
-    place = ", ".join(f"{1e3 * value:.1f}" for value in found.positions[best])
     message = (
-        f"nowhere do all contacts touch when the hand closes; nearest at ({place}) mm: "
+        f"nowhere do all contacts touch when the hand closes; nearest at {_in_mm(found.positions[best])}: "
         f"{' and '.join(touch) or 'none'} touch{'es' * (len(touch) < 2)}, {', '.join(others)}; {ask}"
     )
     return found.positions[best], Issue(message, key="object.position")
+
+
+def _in_mm(position: Array) -> str:
+    return f"({', '.join(f'{1e3 * value:.1f}' for value in position)}) mm"
 
 
 def _away(gap: float, facing: float) -> str:
