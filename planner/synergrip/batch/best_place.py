@@ -184,12 +184,9 @@ class _Judge:
         held = grasp.held
         stopped = [] if held is None else np.flatnonzero(at_stops(self.asked, held.q[None])[0]).tolist()
         names = ", ".join(self.asked.hand.joint_names[joint] for joint in stopped)
-        stops = (
-            (f"{names} stand{'s' * (len(stopped) == 1)} at the end of closing: no way is left there to press on",)
-            if names
-            else ()
-        )
-        return (*self._doubts(margin), *stops)
+        s, what = ("s", "its stop") if len(stopped) == 1 else ("", "their stops")
+        stops = f"closed on it, {names} come{s} to {what}: no way is left there to press on"
+        return (*self._doubts(margin), *([stops] if stopped else []))
 
     def _doubts(self, margin: float) -> tuple[str, ...]:
         if not np.isfinite(margin):

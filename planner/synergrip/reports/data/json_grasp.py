@@ -18,7 +18,9 @@ def in_order_document(problem: Problem) -> dict[str, Any]:
     held = problem.held
     if held is not None:
         body = held.body
-        document |= posture_document(held.hand, held.q, spots_of(held.hand, held.q))
+        document |= posture_document(
+            held.hand, held.q, spots_of(held.hand, held.q, [touch.pad for touch in held.touches])
+        )
         document["object"] = {"title": body.title, "mass_kg": body.mass, "position_m": body.position.tolist()}
         document["contacts"] = [
             {
