@@ -66,6 +66,34 @@ def test_no_place_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found.grasp.held.gaps == pytest.approx([0, 0, 0], abs=1e-9)
 
 
+def test_a_box_is_followed_to_its_place_however_far_it_is() -> None:
+    box = sg.Object(mass=0.2, shape=sg.Box(size=(0.05, 0.06, 0.07)))
+    there = replace(box, position=(-0.0001, 0.0251, 0.1483))  # found at random, 20 mm from the first good one
+    grasp = sg.make_grasp("barrett", there, posture="open", close="close", contacts=CONTACTS)
+    answer = plan_of_start_posture(grasp, TASK.replace(knots=1, linearise="once", goals=[sg.LargestMargin()]))
+    assert isinstance(answer, sg.Plan)
+    assert placed(ball=box).margin > answer.margins.min()
+
+
+@pytest.mark.usefixtures("coarse")
+def test_a_place_where_two_pads_meet_ends_no_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    soft = sg.SoftFinger(friction=0.6, spin_friction=0.005)
+    tips = [sg.ContactAt(tip, soft, stiffness=8e3, spin_stiffness=0.05) for tip in ("left/tip", "right/tip")]
+    ball = sg.Object(mass=0.2, shape=sg.Sphere(radius=0.02))
+
+    def found() -> sg.PlacedObject:
+        return sg.place_object("gripper", ball, posture="open", close="proximal", contacts=tips, task=TASK)
+
+    right = found()
+    assert right.margin > 0
+    meet = np.array([0.00416, 0.01007, 0.09001])  # beside the tips, which close on one spot of it
+    monkeypatch.setattr(best_place, "space", lambda closer: (meet[None], 0.001))
+    with pytest.raises(sg.InputError, match="inside each other.*: 'left/tip' and 'right/tip' by 16 mm"):
+        found()
+    monkeypatch.setattr(best_place, "space", lambda closer: (np.vstack([meet, right.position]), 0.001))
+    assert found().touching >= 1
+
+
 def test_the_line_is_read_as_the_place() -> None:
     line = position_line(np.array([0.0123, -1e-12, 0.17084]))
     assert line == 'position = ["12.3 mm", "0 mm", "170.84 mm"]'
@@ -90,7 +118,7 @@ def test_where_joints_stand_at_their_stops_is_taken_only_for_more_margin(monkeyp
         judge = _Judge(
             asked, lambda position: NotImplemented, sg.load_problem("pinch-soft").grasp, TASK, np.zeros((1, 6)), 0.0
         )
-        assert np.argmax(judge.best(places).positions[0]) == best, margins
+        assert np.argmax(judge.best(places)[0].positions[0]) == best, margins
 
 
 @pytest.mark.usefixtures("coarse")

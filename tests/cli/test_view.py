@@ -119,6 +119,34 @@ def test_one_hand_tells_where_its_pads_are(tmp_path: Path) -> None:
     assert "is for one hand" in run("hands", "--posture", "ball").stderr
 
 
+JAWS = """<robot name="jaws"><link name="palm"/><link name="l"/><link name="r"/>
+<joint name="jl" type="prismatic"><parent link="palm"/><child link="l"/><origin xyz="0.05 0 0.1"/><axis xyz="-1 0 0"/>
+<limit lower="0" upper="0.05" effort="20" velocity="1"/></joint>
+<joint name="jr" type="prismatic"><parent link="palm"/><child link="r"/><origin xyz="-0.05 0 0.1"/><axis xyz="1 0 0"/>
+<limit lower="0" upper="0.05" effort="20" velocity="1"/></joint></robot>"""
+
+
+def test_what_touches_is_no_other_pad_and_no_pads_are_told_as_none(tmp_path: Path) -> None:
+    (tmp_path / "jaws.urdf").write_text(JAWS, encoding="utf-8")
+    assert "pads none" in " ".join(run("hands", str(tmp_path / "jaws.urdf")).stdout.split())
+    contact = {"model": "hard", "friction": 0.6, "stiffness": "8 N/mm", "radius": "1 mm",
+               "point": ["0 mm", "0 mm", "0 mm"]}  # fmt: skip
+    problem = {
+        "schema": 1, "hand": {"model": "jaws.urdf", "posture": "zero", "close": {"jl": 1, "jr": 1}},
+        "object": {"shape": {"box": {"size": 3 * ["20 mm"]}}, "mass": "10 g",
+                   "position": ["0 mm", "0 mm", "100 mm"]},
+        "contact": [contact | {"link": link, "name": f"at {link}"} for link in ("l", "r")],
+        "task": {"gravity": [0, 0, 0]}, "limits": {"normal_force": "20 N"},
+    }  # fmt: skip
+    (tmp_path / "jaws.json").write_text(json.dumps(problem), encoding="utf-8")
+    told = run("validate", str(tmp_path / "jaws.json"))
+    assert told.exit_code == 0, told.stderr
+    assert "at r" in told.stdout
+    assert "fingertip" not in told.stdout
+    places = document("validate", str(tmp_path / "jaws.json"))["places"]
+    assert not [each for each in places if not each["is_pad"]]
+
+
 def test_what_does_not_touch_is_drawn_and_told_all_the_same(tmp_path: Path) -> None:
     apart = ("validate", "human-ball", "--set", "hand.posture=open", "--picture", str(tmp_path / "apart.svg"))
     found = document(*apart, code=2)

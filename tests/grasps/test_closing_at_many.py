@@ -149,6 +149,17 @@ def test_places_where_pads_are_inside_each_other_are_none() -> None:
     assert "pads are inside each other; least at" in nearest(closer, narrow)[1].message
 
 
+def test_places_where_two_pads_are_on_one_spot_are_none() -> None:
+    twins = [JAWS[0], slide("twin", "palm", (-0.05, 5e-5, 0), (1, 0, 0))]
+    tips = (pad("left/tip", "left_link"), pad("twin/tip", "twin_link"))
+    asked = asked_of(hand_of(twins), Sphere(radius=0.02), (1, 1), *tips)
+    closer = Closer(asked)
+    found = closed_and_centred(closer, space(closer)[0])
+    assert found.touching.all(axis=1).any()
+    assert not len(touching_places(closer, found).q)
+    assert "two of them are on the same spot of the ball r 20 mm" in nearest(closer, found)[1].message
+
+
 def test_joints_that_closing_brings_to_their_stops_are_known() -> None:
     asked = asked_of(hand_of(JAWS), Sphere(radius=0.02), (1, -1), *PADS)  # from 0 to 100 mm, one closes downward
     q = np.array([[0.0, 0.05], [0.0995, 0.05], [0.05, 0.0005], [0.05, 0.1]])

@@ -134,6 +134,7 @@ def test_known_places(shape: Shape, point: tuple[float, ...], distance: float, n
 def test_titles_are_short_and_in_millimetres() -> None:
     titles = ["ball r 30 mm", "box 40 x 60 x 100 mm", "cylinder r 20 x 80 mm"]
     assert [shape.title for shape in (SPHERE, BOX, CYLINDER)] == titles
+    assert [Sphere(radius=2).title, Box(size=(0.005, 1, 2)).title] == ["ball r 2000 mm", "box 5 x 1000 x 2000 mm"]
     assert [Turned(shape, turn(AXIS, 0.9)).title for shape in (BOX, CYLINDER)] == [f"{t} (turned)" for t in titles[1:]]
 
 

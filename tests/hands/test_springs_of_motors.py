@@ -18,7 +18,7 @@ def notes(folder, force, q, left=SPRUNG, more=""):
     (folder / "hand.xml").write_text(text, encoding="utf-8")
     hand = load_hand(folder / "hand.xml")
     (chosen, *_) = hand.synergy_sets.values()
-    return [note for note in undriven_notes(hand, chosen, np.array(q), hand.C_q) if "hold springs" in note], text
+    return [note for note in undriven_notes(hand, chosen, np.array(q), hand.C_q) if "motors hold springs" in note], text
 
 
 def test_springs_that_motors_hold_back_are_noted_with_what_they_take(tmp_path):
@@ -30,14 +30,14 @@ def test_springs_that_motors_hold_back_are_noted_with_what_they_take(tmp_path):
     mujoco.mj_forward(model, data)
     takes = -data.qfrc_spring
     assert takes == pytest.approx([1.6, 0.0])
-    assert "'l' with 1.6 (sigma), up to 320% of what they can" in note
+    assert "'l' with 1.6 N m, up to 320% of what they can" in note
     assert "'r' with" not in note
 
 
 def test_springs_of_tendons_count_too(tmp_path):
     tendon = '<tendon><fixed stiffness="3" springlength="0.1"><joint joint="r" coef="2"/></fixed></tendon>'
     (note,), _ = notes(tmp_path, 10, [-0.7, 0.25], more=tendon)
-    assert "'r' with 2.4 (sigma), up to 24% of what they can" in note
+    assert "'r' with 2.4 N m, up to 24% of what they can" in note
 
 
 @pytest.mark.parametrize(("force", "q"), [(0.5, [-0.7, 0.3]), (500, [0.1, 0.2])])

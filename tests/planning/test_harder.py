@@ -10,8 +10,11 @@ import pytest
 
 from synergrip import Plan, Unknown, load_problem, plan
 from synergrip.explain import explained
-from synergrip.planning import walked
+from synergrip.linalg import frozen
+from synergrip.planning import executed_cases, walked
 from synergrip.planning.between import Between
+from synergrip.planning.in_cases import limits_of_cases
+from synergrip.planning.kept_between import MORE, MoreAtKnots
 from synergrip.reports.text.text_between import between_lines
 
 KNOCKED = (
@@ -45,6 +48,28 @@ def test_more_knots_are_told_where_they_are_seen_to_help_only(monkeypatch: pytes
     monkeypatch.setattr(explained, "_tried", lambda *_, **__: ([], False))
     assert not answer.explanation.others
     assert len(asked) == 1
+
+
+def test_what_cases_miss_is_asked_for_also_beside_limits_over_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The mean over time of torques counts in every case; rates of references, the same in all of them, do not."""
+    monkeypatch.setattr(executed_cases, "LOOKED_UP", 0)
+    allowed = ('allow.mass=["50 g", "300 g"]', 'limits.margin="50 mN"', "task.knots=5")
+    problem = load_problem("barrett-ball-carry", [*allowed, "limits.sustained_torque=3", "limits.synergy_rate=9"])
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    task, limits = answer.task, limits_of_cases(answer.task)
+    usages = answer.cases[0].usages
+    over = [1.1 * np.max(usage.upper) if usage.title == "sustained torque" else 0.0 for usage in usages]
+    worst = tuple(
+        replace(usage, value=frozen(np.full_like(usage.value, value)), lower=frozen(np.full_like(usage.lower, -9)))
+        for usage, value in zip(usages, over, strict=True)
+    )
+    more = MoreAtKnots.none(task, 3).for_what_is_missing(Between(0, 0.0, 0.0, 0.0, worst), task, limits)
+    assert more is not None
+    shares = dict(zip([limit.key for limit in task.kept], more.shares, strict=True))
+    assert shares.pop("limits.sustained_torque") == pytest.approx(MORE * 0.1)
+    assert set(shares.values()) == {0.0}
+    assert "limits.synergy_rate" in shares
 
 
 def test_knots_do_not_straighten_a_jump() -> None:

@@ -182,12 +182,11 @@ def test_one_compliance_for_all_leaves_springs_that_nothing_else_helps(tmp_path)
 def test_a_spring_that_the_posture_bends_is_noted(tmp_path):
     held = problem(tmp_path, left=SPRING + ' springref="4"', right=SPRING)
     assert np.degrees(held.held.q[1]) == pytest.approx(4)
-    assert not any("spring rests" in note for note in held.notes)
+    assert not any("out of balance" in note for note in held.notes)
     bent = 'hand.posture={ l = "-10 deg", r = "-10 deg", "r tip" = "3 deg" }'
     held = problem(tmp_path, left=SPRING + ' springref="4"', right=SPRING, changes=[bent])
     assert np.degrees(held.held.q[[1, 3]]) == pytest.approx([4, 3])
-    (note,) = [each for each in held.notes if "its spring rests" in each]
-    assert "joint 'r tip' is at 3 deg, and its spring rests at 0 deg: the force" in note
+    assert "'r tip' is at 3 deg, would go to 0 deg without contact, and is kept from it by 0.0262 N m" in held.notes[0]
 
 
 LINKS = "".join(f'<link name="{name}"/>' for name in ("base", "lift", "turn", "palm", "left", "right"))
@@ -323,8 +322,9 @@ def test_what_motors_need_with_springs_is_that_of_mujoco(free, tmp_path):
     _, bound = planned_with(tmp_path, f"limits.joint_torque={between}")
     (note,) = of_springs(bound.notes)
     k = int(np.argmax(whole[:, i]))
-    assert f"limits.joint_torque does not count, 'l tip' needs {whole[k, i]:.4g} of its {between:.4g}" in note
-    assert f"{abs(alone[k, i]):.4g} of it for contacts" in note
+    assert f"limits.joint_torque does not count, 'l tip' needs {(alone + takes)[k, i]:.4g} N m at" in note
+    assert f"{alone[k, i]:.4g} N m of it for contacts: more than its {between:.4g} N m, which leave contacts " in note
+    assert f"{-between - takes[k, i]:.4g} to {between - takes[k, i]:.4g} N m there" in note
     judged = judge_references(held.grasp, bound.task, References(bound.time, bound.dz_r, {}))
     assert of_springs(judgement_document(judged)["notes"]) == [note]
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
+import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,7 +16,7 @@ import pytest
 from command_line import document, run
 
 import synergrip
-from synergrip.errors import InputError
+from synergrip.errors import InputError, OutputError
 from synergrip.planning.outcome import Plan
 from synergrip.reports.figures import figure as door
 from synergrip.reports.figures.figure import FIGURES, figure
@@ -132,6 +134,26 @@ def test_the_problem_of_a_saved_plan_is_read_again(matrices: Path, tmp_path: Pat
         figure("cones", tmp_path / "own", tmp_path / "cones.svg")  # its files are not here
 
 
+def test_the_problem_of_a_saved_plan_may_be_json(tmp_path: Path) -> None:
+    told = tomllib.loads((ROOT / "problems" / "gripper-box.toml").read_text(encoding="utf-8"))
+    told["task"]["knots"] = 2
+    (tmp_path / "box.json").write_text(json.dumps(told), encoding="utf-8")
+    assert run("plan", str(tmp_path / "box.json"), "-o", str(tmp_path / "box")).exit_code == 0
+    figure("synergies", tmp_path / "box", tmp_path / "figure.svg")
+    assert "left/tip" in " ".join(texts(tmp_path / "figure.svg"))
+
+
+def test_a_title_of_what_are_no_characters_leaves_a_file_that_can_be_read(matrices: Path, tmp_path: Path) -> None:
+    figure("margin", matrices, tmp_path / "figure.svg", title="a\ufffe\uffff\U0010ffff\udcff\x01b \U0001f600")
+    assert "ab \U0001f600" in texts(tmp_path / "figure.svg")
+
+
+def test_units_are_seen_in_the_help() -> None:
+    told = " ".join(run("figure", "--help").stdout.replace("│", " ").split())
+    assert told.count("On paper, in mm") == 2
+    assert "in points" in told
+
+
 def test_how_many_synergies_a_task_needs(tmp_path: Path) -> None:
     found = document("figure", "needed", "table2-hard-motors", "-o", str(tmp_path / "needed.svg"), "--height", "90")
     assert "linear model of the start posture" in found["caption"]
@@ -166,7 +188,7 @@ def test_what_cannot_be_drawn_is_refused_by_its_name(
     [
         ({"what": 3}, "what"), ({"source": 3.5}, "SOURCE"), ({"path": ""}, "path"), ({"width_mm": "wide"}, "width_mm"),
         ({"height_mm": float("nan")}, "height_mm"), ({"font": 3}, "font"), ({"font_size": True}, "font_size"),
-        ({"title": None}, "title"),
+        ({"title": None}, "title"), ({"font_size": None}, "font_size"),
     ],
 )  # fmt: skip
 def test_arguments_in_code_are_refused_by_their_names(wrong: dict[str, Any], key: str, tmp_path: Path) -> None:
@@ -232,6 +254,10 @@ def test_the_viewer_of_a_plan_is_a_frame_with_its_page(saved: Path, tmp_path: Pa
     assert "<script" not in shown  # escaped: it belongs to the frame
     assert viewer.save(tmp_path / "view.html").read_text(encoding="utf-8") == viewer.page
     assert "5 frames of a hand with 2 contacts" in repr(viewer)
+    with pytest.raises(InputError, match="path"):
+        viewer.save("")
+    with pytest.raises(OutputError, match="it is a folder"):
+        viewer.save(tmp_path)
     with pytest.raises(InputError, match="height"):
         synergrip.plan(problem.grasp, problem.task).viewer(height=0)
 

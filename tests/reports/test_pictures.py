@@ -469,10 +469,10 @@ def test_matrices_that_do_not_say_where_the_contacts_are(tmp_path: Path) -> None
 
 def test_more_synergies_than_there_is_room_for(barrett: Hand, tmp_path: Path) -> None:
     path, q = tmp_path / "many.svg", barrett.postures["ball"]
-    draw_synergies(barrett, columns(np.random.default_rng(4).normal(size=(8, 16))), q, path)
+    draw_synergies(barrett, columns(np.random.default_rng(4).normal(size=(8, 17))), q, path)
     titles = [text for text in texts(path) if re.match(r"s\d+  \+", text)]
-    assert [title.split()[0] for title in titles] == [f"s{k}" for k in range(1, 16)]
-    assert "The first 15 of 16 synergies are drawn." in " ".join(texts(path))
+    assert [title.split()[0] for title in titles] == [f"s{k}" for k in range(1, 17)]
+    assert "The first 16 of 17 synergies are drawn." in " ".join(texts(path))
 
 
 def test_synergies_of_a_hand(barrett: Hand, tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from small_hands import hand_of, hinge, pad, slide, touching
 
-from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.asked_grasp import AskedGrasp, grasp_of
 from synergrip.grasps.objects import Box, Object, Sphere
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling, Hand
@@ -18,6 +18,7 @@ from synergrip.hands.models.urdf_balls import Ball, balls_of
 from synergrip.hands.spots import rest_posture, spots_of
 from synergrip.linalg import frozen
 from synergrip.problems.unplaced import unplaced_problem
+from synergrip.reports.text.text_grasp import _held_lines
 from synergrip.reports.text.text_spots import balls_lines, spots_table
 from synergrip.reports.view.looks import plain, table_of
 from synergrip.reports.view.marks import pad_axes
@@ -116,6 +117,22 @@ def test_fingers_without_pads_end_in_their_last_links(barrett: Hand) -> None:
     told = spots_table(spots).splitlines()
     assert [line.split()[:2] for line in told[1:-1]] == [["(origin)", spot.link] for spot in spots]
     assert "not its tip" in told[-1]
+
+
+def test_a_last_link_with_a_contact_is_no_other_pad() -> None:
+    hand = hand_of([slide(name, "palm", (0, 0, 0), (way, 0, 0)) for name, way in (("a", -1.0), ("b", 1.0), ("c", 1.0))])
+    touches = touching(pad("left", "a_link"), pad("right", "b_link"))
+    touches = [replace(touch, aimed=False, pad=replace(touch.pad, normal=frozen([0.0, 0.0, 0.0]))) for touch in touches]
+    asked = AskedGrasp(
+        title="", hand=hand, synergies=hand.synergy_sets["joints"], q=frozen([0.02, 0.02, 0.02]), closing=None,
+        body=Object(mass=0.1, shape=Sphere(0.02), position=frozen(np.zeros(3))), touches=tuple(touches), C_q=hand.C_q,
+        C_z=frozen(np.zeros((3, 3))),
+    )  # fmt: skip
+    grasp = grasp_of(asked)
+    assert grasp.held is not None
+    others = "\n".join(_held_lines(grasp.held, grasp)).split("no contact at")[1]
+    assert "c_link" in others
+    assert "a_link" not in others
 
 
 def test_balls_that_a_urdf_has_on_last_links_are_told_as_pads(tmp_path: Path) -> None:

@@ -80,6 +80,16 @@ def test_hostile_titles_and_names_stay_text() -> None:
     assert unescape(text[text.index("<h1>") + 4 : text.index("</h1>")]) == title
 
 
+@pytest.mark.skipif(browser_path() is None, reason="there is no Chromium to open the report with")
+def test_a_long_name_makes_no_page_wider(tmp_path: Path) -> None:
+    document = document_of("tripod")
+    told = json.dumps(document).replace(document["contacts"][0], 480 * "W")
+    (tmp_path / "long.html").write_text(report_text(json.loads(told)), encoding="utf-8")
+    with browsing(1000, 300) as seen:
+        seen.open(tmp_path / "long.html")
+        assert seen.value("document.documentElement.scrollWidth <= innerWidth")
+
+
 def test_charts_have_the_numbers_of_the_plan_in_units_that_people_read() -> None:
     document = document_of("gripper-box")
     found = {each.title: each for each in lines_of(document)}

@@ -47,6 +47,8 @@ FINE = 1e-3
 """[m] The search ends when places are no farther apart."""
 DIGITS = (4, 5, 6, 7)
 """Of the place in metres, so that it can be written down: the first at which all contacts meet the object."""
+AGAIN, GAIN = 6, 0.002
+"""How often at most it is looked around as far as before, while the largest margin grows by more than this share."""
 ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
 NEARLY = 0.05
@@ -81,14 +83,17 @@ def best_place(
         raise InputError([nearest(closer, found)[1]])
     judge = _Judge.of(asked, touching, made)
     tried, touched, rounds = len(places), len(touching.q), int(np.ceil(np.log2(max(apart / FINE, 1.0))))
-    best = judge.best(touching)
+    best, top = judge.best(touching)
     for turn in range(rounds):
-        tell(SEARCHING, (turn + 1) / (rounds + 1))
         apart /= 2
-        near = around(best.positions, apart)
-        more = touching_places(closer, closed_and_centred(closer, near))
-        tried, touched = tried + len(near), touched + len(more.q)
-        best = judge.best(more, best)
+        for again in range(AGAIN):  # a step that gains is taken again: halved ones alone end before they are there
+            tell(SEARCHING, (turn + 1 + again / AGAIN) / (rounds + 1))
+            near = around(best.positions, apart)
+            more = touching_places(closer, closed_and_centred(closer, near))
+            tried, touched, before = tried + len(near), touched + len(more.q), top
+            best, top = judge.best(more, best)
+            if not top > before + GAIN * abs(before):
+                break
     tell(SEARCHING, 1.0)
     grasp, margin = judge.written(best)
     return PlacedObject(grasp, margin, tried, touched, judge.notes(grasp, margin))
@@ -134,14 +139,15 @@ class _Judge:
         held = np.where(many.verdicts == "feasible", many.largest_margin, -np.inf)
         return np.asarray(held.reshape(count, each).min(axis=1))
 
-    def best(self, places: TouchingPlaces, others: TouchingPlaces | None = None) -> TouchingPlaces:
-        """Return the best few of some places, those first at which the hand stays outside, and of others.
+    def best(self, places: TouchingPlaces, others: TouchingPlaces | None = None) -> tuple[TouchingPlaces, float]:
+        """Return the best few of some places, those first at which the hand stays outside, and of others; and how good.
 
         Of margins that are nearly the largest, those with the fewest joints at their stops go first; of those that are
-        alike then, that whose contacts stand around the middle of the object.
+        alike then, that whose contacts stand around the middle of the object. The one
+        with the largest margin always stays, so that what is given up for these does not add up over the rounds.
         """
         few = places.taken(np.unique(np.round(np.linspace(0, len(places.q) - 1, JUDGED)).astype(int)))
-        together = few if others is None else others.joined(few)
+        together = (few if others is None else others.joined(few)).different()
         margins = self.margins(together)
         stopped = at_stops(self.asked, together.q).sum(axis=1)
         first = together.clear if together.clear.any() else ~together.clear
@@ -150,7 +156,9 @@ class _Judge:
         alike = fewest & self._near(margins, first & fewest, ALIKE)
         middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
         order = np.lexsort((middle, -np.where(alike, np.inf, margins), ~together.clear))
-        return together.taken(order[:BEST])
+        most = int(np.lexsort((-margins, ~together.clear))[0])
+        kept = order[:BEST] if most in order[:BEST] else np.append(order[: BEST - 1], most)
+        return together.taken(kept), float(margins[most])
 
     @staticmethod
     def _near(margins: Array, among: Flags, share: float) -> Flags:

@@ -44,14 +44,14 @@ def figure(
     ],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="Into .svg, .pdf or .png.")],
     form: FormatOption = Format.TEXT,
-    width: Annotated[float | None, typer.Option("--width", metavar="MM", help="On paper [mm].")] = None,
+    width: Annotated[float | None, typer.Option("--width", metavar="MM", help="On paper, in mm.")] = None,
     height: Annotated[
-        float | None, typer.Option("--height", metavar="MM", help="On paper [mm]; of margin, overview and needed.")
+        float | None, typer.Option("--height", metavar="MM", help="On paper, in mm; of margin, overview and needed.")
     ] = None,
     font: Annotated[
         str, typer.Option("--font", metavar="NAME", help="An installed font, or serif, sans-serif, monospace.")
     ] = "",
-    font_size: Annotated[float, typer.Option("--font-size", metavar="PT", help="Of axis labels [points].")] = 8.0,
+    font_size: Annotated[float, typer.Option("--font-size", metavar="PT", help="Of axis labels, in points.")] = 8.0,
     title: Annotated[str, typer.Option("--title", help="Above the figure; none without it.")] = "",
     overrides: SetOption = None,
 ) -> None:

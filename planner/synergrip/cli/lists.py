@@ -99,7 +99,7 @@ def _text(hand: Hand) -> str:
         "postures": hand.postures,
         "pads": hand.pads,
     }
-    named = [line for key, names in parts.items() for line in wrapped(f"  {key:14}", ", ".join(names))]
+    named = [line for key, names in parts.items() for line in wrapped(f"  {key:14}", ", ".join(names) or "none")]
     return "\n".join([*wrapped(f"{hand.name}  ", hand.title), *named])
 
 

@@ -13,6 +13,7 @@ from synergrip.grasps.ball import MEETS
 from synergrip.grasps.clearance import DEEP, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
 from synergrip.grasps.pad_overlaps import overlaps
+from synergrip.grasps.placing import SAME_SPOT
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
@@ -45,6 +46,11 @@ class TouchingPlaces(Value):
         """Return these places, then others."""
         names = ("positions", "q", "clear")
         return TouchingPlaces(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+    def different(self) -> TouchingPlaces:
+        """Return them without those that stand twice, in their order."""
+        _, first = np.unique(np.round(self.positions, 6), axis=0, return_index=True)
+        return self.taken(np.sort(first))
 
 
 def space(closer: Closer) -> tuple[Array, float]:
@@ -88,14 +94,23 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
 
 
 def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
-    """Return the places at which all contacts touch and no pads are inside each other, in their order."""
+    """Return the places at which all contacts touch, each on a spot of its own, and no pads are inside each other."""
     all_touch = np.flatnonzero(found.touching.all(axis=1))
+    all_touch = all_touch[~_on_one_spot(closer, found.q[all_touch], found.outward[all_touch])]
     if len(all_touch):
         _, depths = overlaps(closer.asked.hand, found.q[all_touch], closer.asked.touches)
         all_touch = all_touch[depths.max(axis=1, initial=0.0) <= MEETS]
     positions, q = found.positions[all_touch], found.q[all_touch]
     inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
     return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
+
+
+def _on_one_spot(closer: Closer, q: Array, outward: Array) -> Flags:
+    """Tell in which postures (N, n_q) two contacts are on the same spot, with the normals outward (N, n_c, 3)."""
+    pads = [(pad.link, pad.point) for pad in closer.pads]
+    spots = closer.asked.hand.kinematics.along(q, pads).position - closer.radii[:, None] * outward
+    apart = np.linalg.norm(spots[:, :, None] - spots[:, None], axis=-1) + np.diag(np.full(len(pads), np.inf))
+    return np.asarray((apart < SAME_SPOT).any(axis=(1, 2)))
 
 
 def off_centre(asked: AskedGrasp, places: TouchingPlaces) -> Array:
@@ -123,19 +138,13 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
     if not len(found.q):
         message = f"wherever the object is, a pad is inside the {closer.shape.title} before the hand closes; {ask}"
         return closer.path().mean(axis=(0, 1)), Issue(message, key="object.position")
-    together = np.flatnonzero(found.touching.all(axis=1))
-    if len(together):
-        pairs, depths = overlaps(closer.asked.hand, found.q[together], closer.asked.touches)
-        least = int(np.argmin(depths.max(axis=1)))
-        a, b = pairs[int(np.argmax(depths[least]))]
-        position = found.positions[together[least]]
-        message = (
-            f"wherever all contacts touch, pads are inside each other; least at {_in_mm(position)}: '{a}' and '{b}' by "
-            f"{in_mm(float(depths[least].max()))}; {ask}"
-        )
-        return position, Issue(message, key="object.position")
+    if told := _overlapping(closer, found, ask):
+        return told
     off = np.where(found.touching, 0.0, np.abs(found.gaps))
     best = int(np.lexsort((off.sum(axis=1), -found.touching.sum(axis=1)))[0])
+    if found.touching[best].all():
+        message = f"wherever all contacts touch, two of them are on the same spot of the {closer.shape.title}; {ask}"
+        return found.positions[best], Issue(message, key="object.position")
     names = [touch.name for touch in closer.asked.touches]
     touch = [name for name, yes in zip(names, found.touching[best], strict=True) if yes]
     others = [
@@ -150,6 +159,24 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         f"{' and '.join(touch) or 'none'} touch{'es' * (len(touch) < 2)}, {', '.join(others)}; {ask}"
     )
     return found.positions[best], Issue(message, key="object.position")
+
+
+def _overlapping(closer: Closer, found: ClosedAtMany, ask: str) -> tuple[Array, Issue] | None:
+    """Return the place where pads are least inside each other, when they are wherever all contacts touch."""
+    together = np.flatnonzero(found.touching.all(axis=1))
+    if not len(together):
+        return None
+    pairs, depths = overlaps(closer.asked.hand, found.q[together], closer.asked.touches)
+    most = depths.max(axis=1, initial=0.0)
+    least = int(np.argmin(most))
+    if most[least] <= MEETS:
+        return None
+    position, (a, b) = found.positions[together[least]], pairs[int(np.argmax(depths[least]))]
+    message = (
+        f"wherever all contacts touch, pads are inside each other; least at {_in_mm(position)}: '{a}' and '{b}' by "
+        f"{in_mm(float(most[least]))}; {ask}"
+    )
+    return position, Issue(message, key="object.position")
 
 
 def _in_mm(position: Array) -> str:

@@ -16,6 +16,8 @@ from synergrip.linalg import frozen
 def told_drives(tree: LinkTree, couplings: Mapping[str, Coupling], file: HandFile) -> Drives | None:
     """Return notes where a hand.toml is silent on joints that no motor of the model file drives; it has the last word.
 
+    What springs take of motors stays as the model file has it: a hand.toml says nothing of that.
+
     Args:
         tree: what the model file says.
         couplings: what follows what, by both files.
@@ -24,7 +26,14 @@ def told_drives(tree: LinkTree, couplings: Mapping[str, Coupling], file: HandFil
     if tree.drives is None:
         return None
     none = frozen(np.zeros((len(tree.moving), len(tree.moving))))
-    return Drives(none, notes=tuple(_notes(tree.drives, couplings, file)))
+    order = [tree.moving.index(table.name) for table in file.joint]
+    K, b = tree.drives.stiffness, tree.drives.pulled
+    return Drives(
+        none,
+        notes=tuple(_notes(tree.drives, couplings, file)),
+        stiffness=None if K is None else frozen(K[np.ix_(order, order)]),
+        pulled=None if b is None else frozen(b[order]),
+    )
 
 
 def _notes(drives: Drives, couplings: Mapping[str, Coupling], file: HandFile) -> Iterator[str]:

@@ -6,17 +6,15 @@ from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
-from synergrip.documents.quantities import SHOWN_IN
 from synergrip.errors import InputError
 from synergrip.hands.arm import palm_of
 from synergrip.hands.drives import Drives
 from synergrip.hands.hand import Hand, SynergySet
 from synergrip.hands.synergies.matrix import JOINTS
-from synergrip.hands.units import SI_UNITS
+from synergrip.hands.unbalanced import stated_otherwise
+from synergrip.hands.units import joint_kinds, synergy_kinds, torque_unit
 from synergrip.linalg import Array, frozen
 
-AWAY = 1e-6
-"""Distance of a joint from where its spring rests that is no rounding [rad or m]."""
 HELD = 0.01
 """Share of a torque or effort limit that springs may take of motors without a note."""
 MOST_NAMED = 12
@@ -82,8 +80,7 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
     if drives is None:
         return
     yield from drives.notes
-    springs = drives.compliance
-    other = np.any(~np.isclose(C_q, springs, rtol=1e-9, atol=0.0) & (springs != 0), axis=1)
+    other = stated_otherwise(drives, C_q)
     if other.any():
         names = [name for name, each in zip(hand.joint_names, other, strict=True) if each]
         yield f"hand.compliance.joint stands in place of what the springs of the model file say of {_listed(names)}"
@@ -96,13 +93,6 @@ def undriven_notes(hand: Hand, synergies: SynergySet, q: Array, C_q: Array) -> I
     loose = [name for name in drives.loose if name not in moved]
     if loose:
         yield f"no actuator of the model file is known to drive {_listed(loose)}: no synergy moves them"
-    away = [name for name in sprung if abs(_value(hand, q, name) - drives.sprung[name]) > AWAY]
-    for name in away:
-        factor, unit = SHOWN_IN[SI_UNITS[hand.joints[hand.joint_names.index(name)].kind]]
-        yield (
-            f"joint '{name}' is at {factor * _value(hand, q, name):.4g} {unit}, and its spring rests at "
-            f"{factor * drives.sprung[name]:.4g} {unit}: the force of the spring there is not part of the plan"
-        )
     yield from _against_springs(hand, drives, synergies, q)
 
 
@@ -114,22 +104,22 @@ def _against_springs(hand: Hand, drives: Drives, synergies: SynergySet, q: Array
     efforts = synergies.S.T @ torques
     by_motors = np.max(np.abs(efforts) / synergies.effort_limits, initial=0.0)
     if (share := max(by_joints, by_motors)) > HELD:
-        named = zip(synergies.synergies, efforts, strict=True)
-        pulls = [f"'{name}' with {effort:.3g}" for name, effort in named if effort]
+        kinds = synergy_kinds(synergies, joint_kinds(hand.joints).values()).items()
+        pulls = [
+            f"'{name}' with {effort:.3g} {torque_unit([kind])}"
+            for (name, kind), effort in zip(kinds, efforts, strict=True)
+            if effort
+        ]
         more = f" and {len(pulls) - MOST_NAMED} more" if len(pulls) > MOST_NAMED else ""
         yield (
-            f"motors hold springs of the model file back in this posture: {', '.join(pulls[:MOST_NAMED])}{more} "
-            f"(sigma), up to {share:.0%} of what they can. joint_torque and actuator_effort count what contacts ask "
-            "for alone: lower these limits by as much"
+            f"motors hold springs of the model file in this posture: {', '.join(pulls[:MOST_NAMED])}{more}, up to "
+            f"{share:.0%} of what they can. Limits of torques and efforts count what contacts ask for alone: of +-m a "
+            "motor that springs ask for e can give contacts -m - e to m - e"
         )
 
 
 def _moved(hand: Hand, synergies: SynergySet) -> tuple[str, ...]:
     return tuple(name for name, row in zip(hand.joint_names, synergies.S, strict=True) if np.any(row))
-
-
-def _value(hand: Hand, q: Array, name: str) -> float:
-    return float(q[hand.joint_names.index(name)])
 
 
 def _message(hand: Hand, names: Sequence[str], palm: tuple[str, tuple[str, ...]]) -> str:

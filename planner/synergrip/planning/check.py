@@ -16,6 +16,7 @@ from synergrip.planning.between import LIMIT, Between, between
 from synergrip.planning.claims import Claims, compared
 from synergrip.planning.formulated import formulated
 from synergrip.planning.fresh_samples import FreshSamples
+from synergrip.planning.in_balance import spring_checks
 from synergrip.planning.in_case import InCase
 from synergrip.planning.in_cases import case_checks, in_cases
 from synergrip.planning.outcome import BETWEEN, Check
@@ -103,7 +104,8 @@ def judge_references(grasp: Grasp, task: TimedTask, references: References) -> J
     _refuse(analysis, task)
     judged = _judged(analysis, task, references, times)
     claims = _claims(judged, task, references)
-    return replace(judged, checks=(*judged.checks, *claims.checks), claims=claims)
+    checks = (*spring_checks(grasp, judged.motion.forces), *judged.checks, *claims.checks)
+    return replace(judged, checks=checks, claims=claims)
 
 
 def _refuse(analysis: Analysis, task: TimedTask) -> None:

@@ -139,7 +139,8 @@ def kept_in_cases(
     if harder is None:
         more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
         worst = worst_of_all([case.usages for case in cases.cases])
-        still = more.for_what_is_missing(Between(0, 0.0, 0.0, 0.0, worst, (), cases.rooms), walker.task)
+        missing = Between(0, 0.0, 0.0, 0.0, worst, (), cases.rooms)
+        still = more.for_what_is_missing(missing, walker.task, there.limits)
         harder = None if still is None else replace(walker, more=still)
     return None if harder is None else walked_harder(walk, harder)
 

@@ -202,7 +202,7 @@ def _more(samples: Samples, worst: tuple[Usage, ...]) -> MoreAtKnots | None:
     walker, rooms = samples.there.walker, samples.there.rooms(worst)
     more = walker.more or MoreAtKnots.none(walker.task, walker.start.grasp.n_c)
     missing = Between(0, 0.0, 0.0, 0.0, worst, (), rooms)
-    still = replace(more, rounds=0).for_what_is_missing(missing, walker.task)
+    still = replace(more, rounds=0).for_what_is_missing(missing, walker.task, samples.there.limits)
     in_vain = still is None or (isinstance(walker.task.goal, LargestMargin) and still.shares == more.shares)
     return None if still is None or in_vain else replace(still, rounds=more.rounds)
 

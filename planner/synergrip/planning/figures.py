@@ -100,7 +100,7 @@ def _between(
         why = f"{where}{executed.why}"
         return None, (Check(f"{where}{EQUILIBRIUM}", np.inf, BALANCED),), (why,)
     motion, there = moved(executed, looks, walker, formulation)
-    limits = [limit for limit in task.all_limits if not limit.couples_knots]
+    limits = task.of_instants
     usages = tuple(limit.usage(there, motion) for limit in limits)
     rooms = rooms_of(walk, walker, limits, usages)
     known = linear or Between(walker.samples, 0.0, 0.0, 0.0, usages)

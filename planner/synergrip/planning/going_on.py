@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from synergrip.planning.executing import Executor
 from synergrip.planning.formulated import formulated
 from synergrip.planning.outcome import Infeasible, Outcome, Plan
 from synergrip.planning.pace import WHOLE, Effort
+from synergrip.planning.runaway import answered
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.walk import Walker
 from synergrip.planning.walked import answer_of
@@ -62,7 +64,7 @@ def gone_on(no: Infeasible, planned: Planned, answers: Answerer, effort: Effort 
     promised = forward(start.response, task.times, references, task.wrench)
     begun = replace(whole, target=walker.wanted, intersample=None)
     begin = replace(hold, task=task, formulation=whole, between=between(task, start, begun, promised))
-    answer = answer_of(walk_from_hold(walker, references), walker, begin)
+    answer = answered(walker, lambda walker: walk_from_hold(walker, references), partial(answer_of, linear=begin))
     told = f"the linear model of the start posture alone says no: {no.why}"
     if isinstance(answer, Plan):
         return replace(answer, notes=(*answer.notes, told))

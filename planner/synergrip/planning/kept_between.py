@@ -42,12 +42,15 @@ class MoreAtKnots(Value):
         """Return that limits are asked for as they are."""
         return cls(frozen(np.zeros((len(task.times), n_c))), (0.0,) * len(task.kept))
 
-    def for_what_is_missing(self, between: Between, task: TimedTask) -> MoreAtKnots | None:
+    def for_what_is_missing(
+        self, between: Between, task: TimedTask, limits: Sequence[Limit] | None = None
+    ) -> MoreAtKnots | None:
         """Return more than this, by what is missing between the knots; None where nothing is, or it is asked in vain.
 
         Args:
-            between: what the limits of the task use at the true states.
+            between: what limits of the task use at the true states.
             task: whose knots they are.
+            limits: which of its limits these are, friction cones first; those that speak of an instant when None.
         """
         rooms = between.rooms or (np.zeros(1),) * len(between.usages)
         short = [bool(np.any(usage.excess > room)) for usage, room in zip(between.usages, rooms, strict=True)]
@@ -56,8 +59,9 @@ class MoreAtKnots(Value):
         cones, *others = between.usages
         margin = self.margin + MORE * _beside(task.times, cones.times, cones.excess) * short[0]
         shares = np.array(self.shares)
-        of_instants = [i for i, limit in enumerate(task.kept) if not limit.couples_knots]
-        for i, usage, over in zip(of_instants, others, short[1:], strict=True):
+        looked_at = task.of_instants if limits is None else limits
+        places = [i for i, limit in enumerate(task.kept) if any(limit is each for each in looked_at)]
+        for i, usage, over in zip(places, others, short[1:], strict=True):
             shares[i] += MORE * over * float((usage.excess / task.kept[i].whole(usage)).max(initial=0.0))
         if self.rounds == ROUNDS or shares.max(initial=0.0) > MOST_SHARE:
             return None

@@ -55,6 +55,9 @@ class Effort:
     vain than that it is, and none is begun where the start posture says no."""
     strict: bool = False
     """Whether brief passes go on until what is promised is true."""
+    still: bool = False
+    """Whether passes leave the rigid motions that a task leaves free as they are on the path: forces hardly change with
+    these, and for next to nothing a goal goes as far as a step may, pass after pass."""
     near: Execution | None = None
     """What the same hand went through for nearly the same task: passes begin there, and not at the plan of the start
     posture, where the hand is still in equilibrium at as many instants."""

@@ -10,18 +10,22 @@ from synergrip.conic.goals.least_effort import LeastEffort
 from synergrip.conic.well_formed import refuse_malformed
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckError, kind_of
+from synergrip.grasps.chosen_tangents import tangent_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import grasp_doubts
+from synergrip.grasps.unbalanced_springs import unbalanced_notes
 from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.first_goal import Planner
 from synergrip.planning.formulated import formulated
 from synergrip.planning.holding import held
+from synergrip.planning.in_balance import in_balance
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
 from synergrip.planning.refusals import refusal_certificate
 from synergrip.planning.reversed_normals import with_hint
 from synergrip.planning.solvers import SOLVERS, Answerer, answerer
+from synergrip.planning.springs import limits_with_springs
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.restraint import NO_LOAD
 from synergrip.tasks.plausible import task_doubts
@@ -60,9 +64,12 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     """
     outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
-    doubts = (*grasp_doubts(outcome.grasp), *task_doubts(task, outcome.task, outcome.grasp))
+    asked = outcome.grasp
+    said = (*unbalanced_notes(asked), *tangent_notes(asked))
+    doubts = (*said, *grasp_doubts(asked), *task_doubts(task, outcome.task, asked))
     if not isinstance(outcome, Plan):
-        return replace(outcome, asked=task, notes=(*outcome.notes, *map(str, doubts)))
+        of_springs = limits_with_springs(outcome.grasp, outcome.task)
+        return replace(outcome, asked=task, notes=(*outcome.notes, *of_springs, *map(str, doubts)))
     return replace(outcome, notes=(*outcome.notes, *map(str, doubts))) if doubts else outcome
 
 
@@ -77,6 +84,10 @@ def planned_with(
 
 def planned_along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
     """Return the answer about the hand that moves, where there is one, of that of the start posture."""
+    return in_balance(_along(outcome, answers, effort))
+
+
+def _along(outcome: Outcome, answers: Answerer, effort: Effort) -> Outcome:
     analysis = outcome.analysis
     if outcome.grasp.held is None or not (analysis is None or analysis.response.restrained):
         return outcome  # an object that is free to move has no stiffness there, and no true equilibrium to look for

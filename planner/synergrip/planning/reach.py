@@ -41,6 +41,15 @@ def off(walk: Walk, walker: Walker) -> Array:
     return np.maximum(walk.way.behind, strayed(walk, walker))
 
 
+def held_nowhere(walk: Walk, walker: Walker) -> bool:
+    """Return whether the object is not even held at the first knot, where it is wanted where it starts."""
+    if np.any(walker.wanted[0]):
+        return False
+    if walk.until is None:
+        return not len(walk.executed.states)
+    return walk.until == walker.task.times[0] and not walker.arrived(walk)
+
+
 def reached_by(walk: Walk, walker: Walker) -> Reached:
     """Return until when the motion was followed, the nearest pose of the object, and what keeps it from going on."""
     times, executed = walker.task.times, walk.executed

@@ -59,7 +59,7 @@ def verified_plan(task: TimedTask, analysis: Analysis, stage: Stage, largest: fl
     cases = in_cases(task, analysis, formulation, motion.dz_r)
     checks += case_checks(cases, LIMIT)
     there = found.usages if found is not None and task.between == "hold" else ()
-    of_instants, of_cases = [each for each in task.all_limits if not each.couples_knots], limits_of_cases(task)
+    of_instants, of_cases = task.of_instants, limits_of_cases(task)
     asked = [*zip(task.all_limits, usages, strict=True), *zip(of_instants, there, strict=bool(there))]
     asked += [pair for case in cases for pair in zip(of_cases, case.usages, strict=True)]
     _judge(checks, exact, asked, analysis.response.scale.largest_force(motion.forces))

@@ -254,7 +254,7 @@ class Walker:
         sizes = expected_units(start, task, np.zeros_like(beta), self.wanted, OF_PATH * walk.largest)
         formulation = formulate(
             start.response, start.spaces, start.coordinates, times=task.times, wrench=task.wrench, beta=beta,
-            beta_basis=way.basis, target=self.wanted, units=sizes, redundancy=True, stated=units_of(start, task),
-            each=way.each,
+            beta_basis=way.basis[:, :0] if self.effort.still else way.basis, target=self.wanted, units=sizes,
+            redundancy=True, stated=units_of(start, task), each=way.each,
         )  # fmt: skip
         return AlongPath.around_path(replace(formulation, allowed=task.allowed), path)

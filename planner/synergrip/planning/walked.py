@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -23,8 +24,9 @@ from synergrip.planning.let_go import undone_notes
 from synergrip.planning.otherwise import walked_harder
 from synergrip.planning.outcome import BETWEEN, Plan, Unknown
 from synergrip.planning.pace import WHOLE, Effort
-from synergrip.planning.reach import hindrances, notes, off, reached_by
+from synergrip.planning.reach import held_nowhere, hindrances, notes, off, reached_by
 from synergrip.planning.rolling import rolling_notes
+from synergrip.planning.runaway import answered
 from synergrip.planning.solvers import Answerer
 from synergrip.planning.springs import spring_notes
 from synergrip.planning.until import figures_until, kept_until
@@ -46,16 +48,17 @@ def on_the_hand(plan: Plan, answers: Answerer, effort: Effort = WHOLE) -> Plan |
     """
     walker = Walker(plan.task, plan.analysis, Executor.of(plan.analysis, plan.task), answers, effort=effort)
     if plan.task.linearise == "along" and not plan.interrupted:
-        return answer_of(_from_near(walker, effort) or walk_from_plan(walker, plan.motion), walker, plan)
+        judge = partial(answer_of, linear=plan)
+        return answered(walker, lambda walker: _from_near(walker) or walk_from_plan(walker, plan.motion), judge)
     answer = _executed(walker.executed(plan.dz_r, plan.forces, plan.motion), walker, plan)
     if plan.interrupted and not isinstance(answer, Plan):
         raise KeyboardInterrupt
     return answer
 
 
-def _from_near(walker: Walker, effort: Effort) -> Walk | None:
+def _from_near(walker: Walker) -> Walk | None:
     """Return the walk that passes from a motion near by end with; None where there is none, or not for this task."""
-    near = effort.near
+    near = walker.effort.near
     if near is None or not near.whole or not np.array_equal(near.times, walker.task.times):
         return None
     begun = walker.executed(near.references, None, near, fewer=True)
@@ -130,7 +133,7 @@ def _not_reached(walk: Walk, walker: Walker, linear: Plan) -> Unknown:
     reached = reached_by(walk, walker)
     found = figures_until(walk, walker, linear.formulation, reached.until_s)
     told = tuple(kept_until(found, walker))
-    if not np.any(walker.wanted):
+    if not np.any(walker.wanted) or held_nowhere(walk, walker):
         when = f"{'after' if walker.arrived(walk) else 'at'} t = {reached.until_s:.3g} s"
         held = f"the hand that moves does not hold the object within its limits {when}"
         return replace(_unknown(walker, linear, f"{held}: {hindrances(walk, walker)}", walk, found), notes=told)

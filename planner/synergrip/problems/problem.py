@@ -15,10 +15,12 @@ from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, Issue, RigidContactError, SynergripError
+from synergrip.grasps.chosen_tangents import tangent_notes
 from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
+from synergrip.grasps.unbalanced_springs import unbalanced_notes
 from synergrip.linalg import frozen
 from synergrip.problems.contact_factors import with_factors
 from synergrip.problems.doubts import doubts_of, spot_notes
@@ -188,7 +190,8 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
 
     grasp = with_factors(hand_grasp(file, path.parent), file.contacts, "contacts")
     notes = grasp.held.notes if grasp.held else ()
-    return _Touching(grasp, (*notes, *frame_notes(grasp)), doubts_of(grasp, file, path.parent))
+    notes = (*unbalanced_notes(grasp), *notes, *frame_notes(grasp), *tangent_notes(grasp))
+    return _Touching(grasp, notes, doubts_of(grasp, file, path.parent))
 
 
 def located(problem: Problem, error: SynergripError) -> SynergripError:

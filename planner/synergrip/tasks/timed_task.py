@@ -185,6 +185,11 @@ class TimedTask(Value):
         return (SlipMargin(self.margin), *self.kept)
 
     @cached_property
+    def of_instants(self) -> tuple[Limit, ...]:
+        """The limits that speak of an instant, not of changes over time; friction cones first."""
+        return tuple(limit for limit in self.all_limits if not limit.couples_knots)
+
+    @cached_property
     def kept(self) -> tuple[Limit, ...]:
         """All limits but the friction cones: those stated, and those that tracking adds."""
         part: Literal["rigid", "whole"] = "rigid" if self.tracking == "rigid" else "whole"

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import plain
 from synergrip.grasps.shapes.shape import Shape, Size
 from synergrip.linalg import Array
 
@@ -37,7 +38,7 @@ class Box(Shape):
     @property
     def title(self) -> str:
         """Short text."""
-        return "box " + " x ".join(f"{edge * 1e3:.3g}" for edge in self.size) + " mm"
+        return "box " + " x ".join(plain(1e3 * edge, 3) for edge in self.size) + " mm"
 
     def surface(self, points: Array) -> tuple[Array, Array]:
         """Return signed distances and the normals of the nearest faces (of the corner direction outside an edge)."""

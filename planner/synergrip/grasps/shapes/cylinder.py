@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import plain
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
 
@@ -38,7 +39,7 @@ class Cylinder(Shape):
     @property
     def title(self) -> str:
         """Short text."""
-        return f"cylinder r {self.radius * 1e3:.3g} x {self.height * 1e3:.3g} mm"
+        return f"cylinder r {plain(1e3 * self.radius, 3)} x {plain(1e3 * self.height, 3)} mm"
 
     def surface(self, points: Array) -> tuple[Array, Array]:
         """Return signed distances and the normals of the nearest of side and caps."""

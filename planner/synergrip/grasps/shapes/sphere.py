@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import plain
 from synergrip.grasps.shapes.shape import Shape, Size, circle
 from synergrip.linalg import Array
 from synergrip.vectors import lengths_of
@@ -37,7 +38,7 @@ class Sphere(Shape):
     @property
     def title(self) -> str:
         """Short text."""
-        return f"ball r {self.radius * 1e3:.3g} mm"
+        return f"ball r {plain(1e3 * self.radius, 3)} mm"
 
     def surface(self, points: Array) -> tuple[Array, Array]:
         """Return signed distances and outward normals; at the centre itself the normal is z."""

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
+from synergrip.reports.data.saving import path_of, written_at
 from synergrip.reports.view.scene import Scene
 
 LOWEST, HIGHEST = 50, 10_000
@@ -35,11 +36,19 @@ class Viewer:
         return f'<iframe title="3-D view" style="{style}" srcdoc="{escape(self.page)}"></iframe>'
 
     def save(self, path: str | Path) -> Path:
-        """Write the page into a file that opens offline, and return it."""
-        place = Path(path)
+        """Write the page into a file that opens offline, and return it.
+
+        Raises:
+            InputError: no path of a file.
+            OutputError: it cannot be written.
+        """
+        place = path_of(path, "path")
+        written_at("path", place, lambda: self._write(place))
+        return place
+
+    def _write(self, place: Path) -> None:
         with atomic_path(place) as temporary:
             temporary.write_text(self.page, encoding="utf-8")
-        return place
 
 
 def viewer_of(scene: Scene, height: int) -> Viewer:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -125,8 +126,13 @@ def _of_provenance(document: Mapping[str, Any]) -> Question:
         if isfile(shipped) and sha256(shipped.read_bytes()).hexdigest() == problem["sha256"]:
             found = load_problem(name, overrides)
         else:
-            found = load_problem(tomllib.loads(content) if isinstance(content, str) else content, overrides)
-    except (InputError, tomllib.TOMLDecodeError) as error:
+            found = load_problem(_read(content) if isinstance(content, str) else content, overrides)
+    except (InputError, ValueError) as error:  # of a text that is no TOML or JSON, too
         message = f"the problem '{name}' of this plan cannot be read again ({error}); give the problem file itself"
         raise InputError.at(KEY, message) from None
     return Question(found.title, found.grasp, found.timed)
+
+
+def _read(text: str) -> dict[str, Any]:
+    """Return what a problem file says; no TOML begins with a brace, and all JSON of a problem does."""
+    return dict(json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text))

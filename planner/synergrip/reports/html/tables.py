@@ -75,7 +75,7 @@ def _contacts(document: Document) -> Iterator[Table]:
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
             _number("–" if friction is None else f"{friction:.3g}"), _number(read_as(each["pad_radius_m"], "m")),
-            _number(", ".join(f"{1e3 * x:.1f}" for x in each["point_m"])),
+            _number(", ".join(f"{round(1e3 * x, 1) + 0.0:.1f}" for x in each["point_m"])),
             _number("–" if margins is None else f"{margins[k, i]:.4g} N"),
             _number("–" if margins is None else f"{times[k]:.3g} s"),
             _number("–" if forces is None else f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),

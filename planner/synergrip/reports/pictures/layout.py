@@ -10,7 +10,7 @@ import numpy as np
 
 from synergrip.linalg import Array
 
-MOST = 15
+MOST = 16
 """Columns that are drawn; what is left out is said."""
 ACROSS = 5
 """Columns beside each other."""

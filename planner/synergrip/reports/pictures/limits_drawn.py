@@ -16,6 +16,8 @@ BEYOND = 0.26
 SIZE = 6.5
 """Of the letters at a bound [points]."""
 DASHED = (0, (4, 3))
+OVER = 4.5
+"""Bounds near the lines are drawn over them: what lies on a bound must not hide it."""
 
 
 def draw_bounds(axes: Any, lines: Lines, scale: float, upright: bool) -> None:
@@ -32,7 +34,7 @@ def draw_bounds(axes: Any, lines: Lines, scale: float, upright: bool) -> None:
     low, high = get()
     near, low_far, high_far = apart(lines, low, high)
     for level in near:
-        stroke(level, color=INK, lw=scale, ls=DASHED, zorder=1.5)
+        stroke(level, color=INK, lw=scale, ls=DASHED, zorder=OVER)
     if low_far is None and high_far is None:
         return
     low, high = get()

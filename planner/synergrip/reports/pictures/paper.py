@@ -37,7 +37,7 @@ class Paper:
             ("width_mm", NARROWEST, WIDEST, "mm"), ("height_mm", NARROWEST, WIDEST, "mm"),
             ("font_size", SMALLEST, LARGEST, "points"),
         ):  # fmt: skip
-            if (given := getattr(self, name)) is not None:
+            if (given := getattr(self, name)) is not None or name == "font_size":
                 value = judge.number(name, given, at_least=least, unit=unit)
                 if value > most:
                     judge.refuse(name, f"must be {most:g} {unit} or less, got {value:g}")

@@ -147,8 +147,8 @@ class Sheet:
 
 
 def readable(text: str) -> str:
-    """Return a text without control characters."""
-    return "".join(c for c in text if unicodedata.category(c) != "Cc")
+    """Return a text without what no picture file may hold: control characters, half and no characters (U+FFFF)."""
+    return "".join(c for c in text if unicodedata.category(c) not in ("Cc", "Cs") and ord(c) & 0xFFFE != 0xFFFE)
 
 
 def no_noise(axes: Any, values: Array, unit: str = "") -> None:
