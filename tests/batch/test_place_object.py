@@ -88,7 +88,7 @@ def test_a_place_where_two_pads_meet_ends_no_search(monkeypatch: pytest.MonkeyPa
     assert right.margin > 0
     meet = np.array([0.00416, 0.01007, 0.09001])  # beside the tips, which close on one spot of it
     monkeypatch.setattr(best_place, "space", lambda closer: (meet[None], 0.001))
-    with pytest.raises(sg.InputError, match="inside each other.*: 'left/tip' and 'right/tip' by 16 mm"):
+    with pytest.raises(sg.InputError, match=r"inside each other.*: 'left/tip' and 'right/tip' by 16 mm"):
         found()
     monkeypatch.setattr(best_place, "space", lambda closer: (np.vstack([meet, right.position]), 0.001))
     assert found().touching >= 1

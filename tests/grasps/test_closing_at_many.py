@@ -150,7 +150,7 @@ def test_places_where_pads_are_inside_each_other_are_none() -> None:
 
 
 def test_places_where_two_pads_are_on_one_spot_are_none() -> None:
-    twins = [JAWS[0], slide("twin", "palm", (-0.05, 5e-5, 0), (1, 0, 0))]
+    twins = [JAWS[0], slide("twin", "palm", (-0.05, 5e-6, 0), (1, 0, 0))]
     tips = (pad("left/tip", "left_link"), pad("twin/tip", "twin_link"))
     asked = asked_of(hand_of(twins), Sphere(radius=0.02), (1, 1), *tips)
     closer = Closer(asked)
