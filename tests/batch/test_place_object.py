@@ -9,8 +9,11 @@ import pytest
 
 import synergrip as sg
 from synergrip.batch import best_place
+from synergrip.batch.best_place import _Judge
 from synergrip.batch.placed_object import position_line
 from synergrip.grasps import place_search
+from synergrip.grasps.asked_grasp import asked_grasp
+from synergrip.grasps.place_search import TouchingPlaces
 from synergrip.planning.planning import plan_of_start_posture
 
 TIPS = [f"finger{i}/tip" for i in (1, 2, 3)]
@@ -85,7 +88,7 @@ def test_a_place_where_two_pads_meet_ends_no_search(monkeypatch: pytest.MonkeyPa
     assert right.margin > 0
     meet = np.array([0.00416, 0.01007, 0.09001])  # beside the tips, which close on one spot of it
     monkeypatch.setattr(best_place, "space", lambda closer: (meet[None], 0.001))
-    with pytest.raises(sg.InputError, match="two of them are on the same spot of the ball r 20 mm"):
+    with pytest.raises(sg.InputError, match=r"inside each other.*: 'left/tip' and 'right/tip' by 16 mm"):
         found()
     monkeypatch.setattr(best_place, "space", lambda closer: (np.vstack([meet, right.position]), 0.001))
     assert found().touching >= 1
@@ -97,6 +100,25 @@ def test_the_line_is_read_as_the_place() -> None:
     placed = sg.load_problem("barrett-ball-hold", [f"object.{line}", "hand.posture=open", "hand.close=close"])
     assert placed.held is not None
     assert placed.held.body.position == pytest.approx([0.0123, 0.0, 0.17084], abs=1e-15)
+
+
+def test_where_joints_stand_at_their_stops_is_taken_only_for_more_margin(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = asked_grasp("barrett", BALL, posture="open", close="close", contacts=CONTACTS, anywhere=True)
+    assert asked.closing is not None
+    ends = [joint.upper if way else 0.0 for joint, way in zip(asked.hand.joints, asked.closing, strict=True)]
+    places = TouchingPlaces(np.eye(3), np.array([ends, asked.q, asked.q]), np.ones(3, dtype=bool))
+    unholdable = -np.inf
+    for margins, best in (
+        ([1.0, 0.96, 0.5], 1),
+        ([1.0, 0.94, 0.5], 0),
+        ([0.1, unholdable, unholdable], 0),
+        ([unholdable, 0.1, 0.2], 2),
+    ):
+        monkeypatch.setattr(_Judge, "margins", lambda self, among, known=margins: np.array(known))
+        judge = _Judge(
+            asked, lambda position: NotImplemented, sg.load_problem("pinch-soft").grasp, TASK, np.zeros((1, 6)), 0.0
+        )
+        assert np.argmax(judge.best(places)[0].positions[0]) == best, margins
 
 
 @pytest.mark.usefixtures("coarse")

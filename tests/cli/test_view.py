@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import importlib.util
 import json
 import re
@@ -19,6 +20,7 @@ from synergrip.batch import best_place
 from synergrip.errors import InputError
 from synergrip.grasps import place_search
 from synergrip.problems.problem import load_problem
+from synergrip.reports.html.page import report_text
 
 PLACES = "[...document.querySelectorAll('table tr')].map(each => each.innerText).join('\\n')"
 HOSTILE = "export default {a: 1} <img src=x onerror=boom()> ${7 * 7} **b** | c"
@@ -172,7 +174,11 @@ def test_an_object_without_a_place_gets_one_that_can_be_written_into_the_file(mo
     written = document("plan", *asked, "--set", f"object.{line[1]}")
     assert (written["notes"], written["dz_r"]) == ([], auto["dz_r"])
     saved = json.loads(Path("auto/plan.json").read_text(encoding="utf-8"))
-    assert saved["provenance"]["overrides"][-1].replace(" ", "") == f"object.{line[1]}".replace(" ", "")
+    put = f"object.{line[1]}".replace(" = ", "=")
+    assert saved["provenance"]["overrides"][-1] == f'{put}  # found by object.position = "auto"'
+    told = html.unescape(report_text(saved))
+    assert f'found by <code>object.position = "auto"</code>: <code>{put}</code></p>' in told
+    assert "<code>object.position=auto</code></p>" in told  # what was changed on the command line, to the last one
     with pytest.raises(InputError, match='"auto" is looked for by the command line'):
         load_problem("barrett-ball-hold", [*sets, "object.position=auto"])
     far = run("validate", *asked, "--set", "object.position=auto", "--set", "object.shape.sphere.radius=1 mm")

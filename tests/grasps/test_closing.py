@@ -107,6 +107,20 @@ def test_a_joint_at_its_limit_stops_those_that_follow_it_and_no_other() -> None:
     )
 
 
+def test_a_pad_that_its_limit_keeps_just_off_the_object_does_not_touch() -> None:
+    """The joints of such a pad have no way left to press; one that is tied to a pad that touches has."""
+    left = slide("left", "palm", (-0.05, 0, 0), (1, 0, 0), upper=0.02959)
+    joints = [left, slide("right", "palm", (0.05, 0, 0), (-1, 0, 0))]
+    body = thing_at((0, 0, 0), Sphere(0.02))
+    ((_, message),) = refused(hand_of(joints), [0, 0], [1, 1], body, *TIPS)
+    assert "it is 0.41 mm away (left at its limit)" in message
+    near = hand_of([replace(left, upper=0.02999), joints[1]])
+    assert close(near, frozen([0, 0]), frozen([1, 1]), body, touching(*TIPS)) == pytest.approx([0.02999, 0.03])
+    tied = hand_of([replace(left, upper=0.1), joints[1]], couplings={"right": Coupling({"left": 1.0}, rigid=True)})
+    beside = thing_at((0.0002, 0, 0), Sphere(0.02))
+    assert close(tied, frozen([0, 0]), frozen([1, 1]), beside, touching(*TIPS)) == pytest.approx([0.0298, 0.0298])
+
+
 # A finger of two hinges in a plane, beside a cylinder that stands on it.
 
 A, B = 0.05, 0.03

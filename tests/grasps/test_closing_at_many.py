@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -13,13 +13,15 @@ from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp, asked_grasp
 from synergrip.grasps.clearance import deepest, depth
 from synergrip.grasps.closing import close
-from synergrip.grasps.closing_at_many import Closer
+from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.objects import Box, Object, Shape, Sphere
+from synergrip.grasps.pad_overlaps import overlap_notes, overlaps
 from synergrip.grasps.place_search import (
     TouchingPlaces,
     around,
+    at_stops,
     closed_and_centred,
     nearest,
     off_centre,
@@ -30,6 +32,7 @@ from synergrip.hands.hand import Coupling, Hand, Pad
 from synergrip.linalg import frozen
 
 JAWS = (slide("left", "palm", (-0.05, 0, 0), (1, 0, 0)), slide("right", "palm", (0.05, 0, 0), (-1, 0, 0)))
+ANY = frozen(np.zeros(3))
 PADS = (pad("left/tip", "left_link"), pad("right/tip", "right_link"))
 
 
@@ -101,7 +104,7 @@ def test_a_pad_that_does_not_move_says_where_the_object_can_be() -> None:
     closer = Closer(asked_of(hand, Sphere(radius=0.02), (1, 1, 0), *PADS, thumb))
     found = touching_places(closer, closed_and_centred(closer, space(closer)[0]))
     assert len(found.q) > 5
-    assert np.linalg.norm(found.positions - [0, -0.02, 0], axis=1) == pytest.approx(0.02, abs=6e-4)
+    assert np.linalg.norm(found.positions - [0, -0.02, 0], axis=1) == pytest.approx(0.02, abs=3e-5)
     assert np.all(found.q[:, 2] == 0)
 
 
@@ -119,6 +122,48 @@ def test_what_lacks_most_is_told_with_its_distance() -> None:
     assert rest < gap + 0.02
     assert "touches, " in issue.message
     assert f"stays {1e3 * rest:.3g} mm away" in issue.message
+
+
+def test_places_where_pads_are_inside_each_other_are_none() -> None:
+    """Two round pads side by side, 23 mm apart across, need 24 mm: only where one is farther than the other."""
+    joints = [*JAWS, slide("third", "palm", (0.05, 0.023, 0), (-1, 0, 0))]
+    tips = tuple(pad(f"{name}/tip", f"{name}_link", radius=0.012) for name in ("left", "right", "third"))
+    asked = asked_of(hand_of(joints), Sphere(radius=0.035), (1, 1, 1), *(replace(tip, normal=ANY) for tip in tips))
+    asked = replace(asked, touches=tuple(replace(touch, aimed=False) for touch in asked.touches))
+    closer = Closer(asked)
+    closed = closed_and_centred(closer, space(closer)[0])
+    everywhere, found = closed.q[closed.touching.all(axis=1)], touching_places(closer, closed)
+    before, after = (np.hypot(0.023, q[:, 1] - q[:, 2]) for q in (everywhere, found.q))
+    assert before.min() < 0.0235
+    assert len(after) > 3
+    assert after.min() > 0.024 - 2.1e-5
+    pairs, depths = overlaps(asked.hand, np.array([[0, 0.01, 0.01]]), asked.touches)
+    assert pairs[int(np.argmax(depths))] == ("right/tip", "third/tip")
+    assert depths.max() == pytest.approx(0.001, abs=1e-12)
+    (note,) = overlap_notes(asked.hand, np.array([0, 0.01, 0.01]), asked.touches)
+    assert "'right/tip' and 'third/tip' by 1 mm;" in note
+    assert not overlap_notes(asked.hand, np.array([0, 0.01, 0.02]), asked.touches)
+    worst = np.flatnonzero(closed.touching.all(axis=1))[np.argsort(before)[:1]]
+    narrow = ClosedAtMany(*(getattr(closed, each.name)[worst] for each in fields(closed)))
+    assert not len(touching_places(closer, narrow).q)
+    assert "pads are inside each other; least at" in nearest(closer, narrow)[1].message
+
+
+def test_places_where_two_pads_are_on_one_spot_are_none() -> None:
+    twins = [JAWS[0], slide("twin", "palm", (-0.05, 5e-6, 0), (1, 0, 0))]
+    tips = (pad("left/tip", "left_link"), pad("twin/tip", "twin_link"))
+    asked = asked_of(hand_of(twins), Sphere(radius=0.02), (1, 1), *tips)
+    closer = Closer(asked)
+    found = closed_and_centred(closer, space(closer)[0])
+    assert found.touching.all(axis=1).any()
+    assert not len(touching_places(closer, found).q)
+    assert "two of them are on the same spot of the ball r 20 mm" in nearest(closer, found)[1].message
+
+
+def test_joints_that_closing_brings_to_their_stops_are_known() -> None:
+    asked = asked_of(hand_of(JAWS), Sphere(radius=0.02), (1, -1), *PADS)  # from 0 to 100 mm, one closes downward
+    q = np.array([[0.0, 0.05], [0.0995, 0.05], [0.05, 0.0005], [0.05, 0.1]])
+    assert at_stops(asked, q).tolist() == [[False, False], [True, False], [False, True], [False, False]]
 
 
 def test_a_hand_that_does_not_close_is_refused() -> None:

@@ -64,7 +64,7 @@ def test_a_hand_that_closes_on_what_it_is_told_to() -> None:
 
 def test_a_bar_that_lies_across_between_five_contacts() -> None:
     shape = sg.Turned(sg.Cylinder(radius=0.035, height=0.12), turn((1, 0, 0), math.radians(90)))
-    bar = sg.Object(title="bar", shape=shape, mass=0.5, position=np.array([0, 0, 0.0551]))
+    bar = sg.Object(title="bar", shape=shape, mass=0.5, position=np.array([0, 0, 0.05504]))
     pads = ("palm", "left/tip", "right/tip", "left/proximal", "right/proximal")
     contacts = [sg.ContactAt(p, sg.HardFinger(friction=0.8), stiffness=8e3, tangential_stiffness=4e3) for p in pads]
     made = sg.make_grasp("gripper", bar, posture="bar", synergies="synergies", contacts=contacts)

@@ -136,6 +136,16 @@ def test_a_squeeze_that_the_motors_cannot_give_is_not_blamed_on_joints_that_a_sh
     assert "joint '" not in answer.why
 
 
+def test_an_object_that_is_not_even_held_where_it_starts_is_not_told_of_as_not_brought_on() -> None:
+    problem = load_problem("barrett-ball-roll", ("limits.margin=1.4956 N", "task.knots=5"))
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Unknown)
+    assert answer.stage == "execution"
+    assert answer.reached is None
+    held = "the hand that moves does not hold the object within its limits at t = 0 s: limits.margin (finger1/tip, "
+    assert answer.why.startswith(held)
+
+
 def test_a_contact_that_leaves_its_face_is_what_is_told_of_shorter_pieces_too() -> None:
     """The last pieces before the edge are not taken for other reasons; the edge is why there is no more."""
     problem = load_problem({

@@ -28,6 +28,7 @@ WORDS = (
     "gives by",
     "more than any arm",
     "held for, too",
+    "though off its surface",
 )
 """One of each doubt."""
 
@@ -79,6 +80,18 @@ def test_what_can_hardly_be_meant_is_noted_with_its_place(override: str, key: st
 @pytest.mark.parametrize("override", NOT_NOTED)
 def test_what_is_usual_is_not_noted(override: str) -> None:
     assert not doubts(load_problem("gripper-box", override).notes)
+
+
+def test_contacts_off_the_surface_are_noted_with_their_force_until_they_are_allowed_for() -> None:
+    """A finger of 1.204 N/mm in the grasp of both; `allow.contact_gap` of what is told ends the note."""
+    place = "object.position=['0.2004 mm', '4 mm', '120 mm']"
+    (note,) = doubts(load_problem("gripper-box", place).notes)
+    assert "contacts.at[0]: taken to touch the box" in note
+    assert "'left/tip' 0.181 mm inside (about 0.22 N more than planned)" in note
+    assert "'right/tip' 0.22 mm outside (about 0.27 N less than planned)" in note
+    allow = note.split("allow.")[1].split(" asks")[0].replace(" = {", "={")
+    assert not doubts(load_problem("gripper-box", [place, f"allow.{allow}"]).notes)
+    assert not doubts(load_problem("gripper-box", "object.position=['0.03 mm', '4 mm', '120 mm']").notes)
 
 
 def test_the_place_is_the_line_of_the_file_also_of_one_with_matrices(tmp_path: Path) -> None:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from small_hands import hand_of, hinge, pad, slide, touching
 
-from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.asked_grasp import AskedGrasp, grasp_of
 from synergrip.grasps.objects import Box, Object, Sphere
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling, Hand
+from synergrip.hands.models.urdf_balls import Ball, balls_of
 from synergrip.hands.spots import rest_posture, spots_of
 from synergrip.linalg import frozen
 from synergrip.problems.unplaced import unplaced_problem
+from synergrip.reports.text.text_grasp import _held_lines
+from synergrip.reports.text.text_spots import balls_lines, spots_table
 from synergrip.reports.view.looks import plain, table_of
 from synergrip.reports.view.marks import pad_axes
 from synergrip.reports.view.posed import Posed
@@ -110,6 +114,40 @@ def test_fingers_without_pads_end_in_their_last_links(barrett: Hand) -> None:
     assert not any(spot.pad for spot in spots)
     assert all(spot.normal is None for spot in spots)
     assert "no pads" in hand_shown(bare).notes[0]
+    told = spots_table(spots).splitlines()
+    assert [line.split()[:2] for line in told[1:-1]] == [["(origin)", spot.link] for spot in spots]
+    assert "not its tip" in told[-1]
+
+
+def test_a_last_link_with_a_contact_is_no_other_pad() -> None:
+    hand = hand_of([slide(name, "palm", (0, 0, 0), (way, 0, 0)) for name, way in (("a", -1.0), ("b", 1.0), ("c", 1.0))])
+    touches = touching(pad("left", "a_link"), pad("right", "b_link"))
+    touches = [replace(touch, aimed=False, pad=replace(touch.pad, normal=frozen([0.0, 0.0, 0.0]))) for touch in touches]
+    asked = AskedGrasp(
+        title="", hand=hand, synergies=hand.synergy_sets["joints"], q=frozen([0.02, 0.02, 0.02]), closing=None,
+        body=Object(mass=0.1, shape=Sphere(0.02), position=frozen(np.zeros(3))), touches=tuple(touches), C_q=hand.C_q,
+        C_z=frozen(np.zeros((3, 3))),
+    )  # fmt: skip
+    grasp = grasp_of(asked)
+    assert grasp.held is not None
+    others = "\n".join(_held_lines(grasp.held, grasp)).split("no contact at")[1]
+    assert "c_link" in others
+    assert "a_link" not in others
+
+
+def test_balls_that_a_urdf_has_on_last_links_are_told_as_pads(tmp_path: Path) -> None:
+    link = '<link name="{}"><{}><origin xyz="{}"/><geometry><sphere radius="{}"/></geometry></{}></link>'
+    parts = [
+        ("a", "collision", "0 0 0.01", "0.012"), ("b", "visual", "0 0 0.01", "0.012"),
+        ("c", "collision", "0 0", "0.01"), ("d", "collision", "0 0 0", "nan"), ("e", "visual", "0 0 0", "0.01"),
+    ]  # fmt: skip
+    (tmp_path / "h.urdf").write_text(f"<robot>{''.join(link.format(*p, p[1]) for p in parts)}</robot>")
+    balls = balls_of(str(tmp_path / "h.urdf"), "abcd")
+    assert balls == dict.fromkeys("ab", Ball(0.012, (0.0, 0.0, 0.01)))
+    told = " ".join(" ".join(balls_lines(balls)).split())
+    assert "a, b: a ball of radius 12 mm at (0, 0, 10) mm" in told
+    assert 'link = "a", point = ["0 mm", "0 mm", "10 mm"], radius = "12 mm" }]' in told
+    assert balls_of(str(tmp_path / "h.xml"), "abcd") == balls_of("", "a") == {}
 
 
 def unplaced(*overrides: str) -> AskedGrasp:

@@ -14,20 +14,25 @@ from synergrip.conic.goals.largest_margin import LargestMargin
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
 from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.normal_force import NormalForce
+from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.grasps.ball import MEETS
 from synergrip.grasps.closing_at_many import Closer
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.in_postures import grasps_in_postures
+from synergrip.grasps.pad_overlaps import overlap_notes
 from synergrip.grasps.place_search import (
     TouchingPlaces,
     around,
+    at_stops,
     closed_and_centred,
     nearest,
     off_centre,
     space,
     touching_places,
 )
+from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.hold import Hold
 from synergrip.tasks.task import Task
@@ -40,12 +45,14 @@ BEST = 5
 """Places around which is looked again, nearer."""
 FINE = 1e-3
 """[m] The search ends when places are no farther apart."""
-DIGITS = 4
-"""Of the place in metres, so that it can be written down."""
+DIGITS = (4, 5, 6, 7)
+"""Of the place in metres, so that it can be written down: the first at which all contacts meet the object."""
 AGAIN, GAIN = 6, 0.002
 """How often at most it is looked around as far as before, while the largest margin grows by more than this share."""
 ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
+NEARLY = 0.05
+"""Share of it that is given for joints that are away from their stops."""
 FORCES = (NormalForce, JointTorque, ActuatorEffort)
 """Limits of how hard a hand may press."""
 ENOUGH = 10.0
@@ -89,7 +96,7 @@ def best_place(
                 break
     tell(SEARCHING, 1.0)
     grasp, margin = judge.written(best)
-    return PlacedObject(grasp, margin, tried, touched, judge.notes(margin))
+    return PlacedObject(grasp, margin, tried, touched, judge.notes(grasp, margin))
 
 
 SEARCHING = "looking for the place of the object"
@@ -135,30 +142,61 @@ class _Judge:
     def best(self, places: TouchingPlaces, others: TouchingPlaces | None = None) -> tuple[TouchingPlaces, float]:
         """Return the best few of some places, those first at which the hand stays outside, and of others; and how good.
 
-        Of margins that are alike, that goes first whose contacts stand around the middle of the object. The one with
-        the largest margin always stays, so that what is given up for the middle does not add up over the rounds.
+        Of margins that are nearly the largest, those with the fewest joints at their stops go first; of those that are
+        alike then, that whose contacts stand around the middle of the object. The one
+        with the largest margin always stays, so that what is given up for these does not add up over the rounds.
         """
         few = places.taken(np.unique(np.round(np.linspace(0, len(places.q) - 1, JUDGED)).astype(int)))
         together = (few if others is None else others.joined(few)).different()
         margins = self.margins(together)
-        top = float(margins[together.clear].max(initial=-np.inf))
-        alike = margins >= (1 - ALIKE) * top if np.isfinite(top) else np.isneginf(margins)
+        stopped = at_stops(self.asked, together.q).sum(axis=1)
+        first = together.clear if together.clear.any() else ~together.clear
+        near = self._near(margins, first, NEARLY)
+        fewest = near & (stopped == stopped[near & first].min())
+        alike = fewest & self._near(margins, first & fewest, ALIKE)
         middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
         order = np.lexsort((middle, -np.where(alike, np.inf, margins), ~together.clear))
         most = int(np.lexsort((-margins, ~together.clear))[0])
         kept = order[:BEST] if most in order[:BEST] else np.append(order[: BEST - 1], most)
         return together.taken(kept), float(margins[most])
 
+    @staticmethod
+    def _near(margins: Array, among: Flags, share: float) -> Flags:
+        """Return which margins (N,) are at most a share below the largest among some."""
+        top = float(margins[among].max(initial=-np.inf))
+        return np.asarray(margins >= (1 - share) * top if np.isfinite(top) else np.isneginf(margins))
+
     def written(self, places: TouchingPlaces) -> tuple[Grasp, float]:
-        """Return the grasp of the first place that makes one when it is rounded, and its margin."""
-        grasp, _ = _first(np.round(places.positions, DIGITS), self.made)
+        """Return the grasp of the first place at which all contacts meet when it is rounded, and its margin."""
+        rounded = np.array([np.round(position, digits) for position in places.positions for digits in DIGITS])
+        grasp, _ = _first(rounded, self._met)
         held = grasp.held
         assert held is not None
         one = TouchingPlaces(held.body.position[None], held.q[None], np.ones(1, dtype=bool))
         return grasp, float(self.margins(one)[0])
 
-    def notes(self, margin: float) -> tuple[str, ...]:
+    def _met(self, position: Array) -> tuple[Grasp, Task]:
+        """Return what is made at a position (3,), when closing by itself lets all contacts meet the object there."""
+        grasp, task = self.made(position)
+        gaps = grasp.held.gaps if grasp.held is not None else ()
+        off = max((abs(gap) for gap in gaps if gap is not None), default=0.0)
+        if off > MEETS:
+            message = f"a contact stays {in_mm(off)} off the object at the best place; give the place yourself"
+            raise InputError.at("object.position", message)
+        if grasp.held is not None and (said := overlap_notes(grasp.held.hand, grasp.held.q, grasp.held.touches)):
+            raise InputError.at("object.position", f"at the best place {said[0]}; give the place yourself")
+        return grasp, task
+
+    def notes(self, grasp: Grasp, margin: float) -> tuple[str, ...]:
         """Return what is to be said of the place."""
+        held = grasp.held
+        stopped = [] if held is None else np.flatnonzero(at_stops(self.asked, held.q[None])[0]).tolist()
+        names = ", ".join(self.asked.hand.joint_names[joint] for joint in stopped)
+        s, what = ("s", "its stop") if len(stopped) == 1 else ("", "their stops")
+        stops = f"closed on it, {names} come{s} to {what}: no way is left there to press on"
+        return (*self._doubts(margin), *([stops] if stopped else []))
+
+    def _doubts(self, margin: float) -> tuple[str, ...]:
         if not np.isfinite(margin):
             return ("all contacts touch there, but at no place that was judged is the load held with these limits",)
         if self.added:

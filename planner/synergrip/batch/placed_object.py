@@ -16,7 +16,7 @@ class PlacedObject(Value):
     """Where an object is held best.
 
     Example:
-        >>> found = PlacedObject(grasp=grasp, margin=11.3, tried=1800, touching=643)  # as place_object returns it
+        >>> found = PlacedObject(grasp=grasp, margin=11.3, tried=1800, touching=625)  # as place_object returns it
         >>> found.line
         'position = ["0 mm", "3.3454 mm", "148.8372 mm"]'
     """
@@ -43,6 +43,15 @@ class PlacedObject(Value):
     def line(self) -> str:
         """The position as it stands in a problem file."""
         return position_line(self.position)
+
+
+FOUND = '  # found by object.position = "auto"'
+"""Ends an override by which an object is where it was found, so that an answer says who chose the place."""
+
+
+def found_override(position: Array) -> str:
+    """Return the override that puts an object at a position (3,) [m] which was looked for."""
+    return f"object.{position_line(position).replace(' = ', '=')}{FOUND}"
 
 
 def position_line(position: Array) -> str:

@@ -60,18 +60,22 @@ def hands(
 
 def _one(hand: Hand, posture: str | None, picture: Path | None, form: Format) -> None:
     """Tell of one hand, in a posture."""
+    from synergrip.hands.models.urdf_balls import balls_of
     from synergrip.hands.spots import spots_of
     from synergrip.reports.data.json_spots import posture_document
     from synergrip.reports.text.text_grasp import posture_lines
-    from synergrip.reports.text.text_spots import spots_table
+    from synergrip.reports.text.text_spots import balls_lines, spots_table
     from synergrip.reports.view.shown import hand_shown
 
     shown = hand_shown(hand, posture)
     spots, q = spots_of(hand, shown.begin.q), shown.begin.q
-    written = draw_shown(shown, picture)
+    balls = balls_of(hand.file, [spot.link for spot in spots if not spot.pad])
+    round_ = {link: {"radius_m": ball.radius, "point_m": list(ball.point)} for link, ball in balls.items()}
+    written = [*balls_lines(balls), *draw_shown(shown, picture)]
     show(
         form, lambda: "\n".join([_text(hand), "", *posture_lines(hand, q), "", spots_table(spots), *written]),
-        lambda: _names(hand) | posture_document(hand, q, spots) | ({"picture": str(picture)} if picture else {}),
+        lambda: _names(hand) | posture_document(hand, q, spots) | {"balls": round_}
+        | ({"picture": str(picture)} if picture else {}),
     )  # fmt: skip
 
 

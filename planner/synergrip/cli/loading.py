@@ -40,7 +40,7 @@ def is_unplaced(error: InputError) -> bool:
 
 def _placed(name: str, given: list[str]) -> Problem:
     from synergrip.batch.best_place import best_place
-    from synergrip.batch.placed_object import position_line
+    from synergrip.batch.placed_object import found_override
     from synergrip.cli.beside import aside
     from synergrip.cli.progress import shares
     from synergrip.errors import InputError
@@ -48,7 +48,7 @@ def _placed(name: str, given: list[str]) -> Problem:
     from synergrip.problems.unplaced import unplaced_problem
 
     def put(position: Array) -> Problem:
-        return load_problem(name, [*given, f"object.{position_line(position).replace(' = ', '=')}"])
+        return load_problem(name, [*given, found_override(position)])
 
     def made(position: Array) -> tuple[Grasp, Task]:
         there = put(position)

@@ -76,9 +76,7 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
     of_joints = grasp.C_q + S @ grasp.C_z @ S.mT
     C = grasp.C_s + J @ of_joints @ J.mT
     n_l = grasp.n_l
-    upper = np.concatenate([C * EVEN, G.mT], axis=-1)
-    lower = np.concatenate([G, np.zeros((*G.shape[:-1], 6))], axis=-1)
-    inverse = np.linalg.pinv(np.concatenate([upper, lower], axis=-2))  # an object that is free to move stays
+    inverse = _of_springs(C, G)
     found = []
     for row, gap in zip(grasp.normal_rows, gaps, strict=True):
         if gap > 0:
@@ -89,3 +87,20 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
             parts = (force, torque, joint, answer[..., n_l:] / EVEN)
             found.append(Departure(*(frozen(np.atleast_2d(part)) for part in parts)))
     return found
+
+
+def normal_stiffness(grasp: Grasp) -> Array:
+    """Return by how much the normal force of each contact (n_c,) [N/m] changes with its own gap: ``(I - G+ G) K``.
+
+    That is the stiffness of contact, joints and synergies, with the object free to give way to the other contacts.
+    """
+    C = grasp.C_s + grasp.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ grasp.J.T
+    rows = np.asarray(grasp.normal_rows)
+    return frozen(EVEN * np.diag(_of_springs(C, grasp.G))[rows])
+
+
+def _of_springs(C: Array, G: Array) -> Array:
+    """Return the inverse of ``C dlambda + G' du = g``, ``G dlambda = 0``, with C times `EVEN`; leading axes ... ."""
+    upper = np.concatenate([C * EVEN, G.mT], axis=-1)
+    lower = np.concatenate([G, np.zeros((*G.shape[:-1], 6))], axis=-1)
+    return np.linalg.pinv(np.concatenate([upper, lower], axis=-2))  # an object that is free to move stays

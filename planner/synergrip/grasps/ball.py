@@ -12,6 +12,10 @@ from synergrip.linalg import Array, frozen
 
 REACH = 0.5e-3
 """How far a pad may be from the surface of the object it is said to touch [m]."""
+MEETS = 0.02e-3
+"""A pad that closing leaves farther from the surface than this does not touch it [m]."""
+WRITTEN = 0.05e-3
+"""A contact is off by so much where places are written to 0.1 mm; one that is off by more is told [m]."""
 FLAT = 1e-6
 """Relative size below which a spread of the pads, or a difference between two sides, counts as none."""
 SETTLED = 1e-15  # [m]

@@ -11,7 +11,7 @@ import numpy as np
 
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue
-from synergrip.grasps.ball import REACH
+from synergrip.grasps.ball import MEETS, REACH
 from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch
@@ -174,11 +174,12 @@ class _Closing:
     def missed(self, state: _State) -> Iterator[Issue]:
         """Yield one issue for each pad that still waits: how close it came, where, and what stopped it."""
         for pad, now in self._waiting_gaps(state):
-            if now <= REACH:  # as near as a contact has to be
-                continue
             touch, movers = self.gaps.touches[pad], self.movers[pad] & (self.direction != 0)
-            gap, closed = min(self._seen(state, pad))
             stops = {j: state.stops[j] for j in np.flatnonzero(movers).tolist()}
+            # tied to a pad that touches, it is as near as a contact has to be; at a limit it never presses
+            if now <= (MEETS if all(stop.pad is None for stop in stops.values()) else REACH):
+                continue
+            gap, closed = min(self._seen(state, pad))
             why = [f"{self.hand.joint_names[j]} {stop.text}" for j, stop in stops.items()]
             yield Issue(
                 f"pad '{touch.pad.name}' does not reach the {self.gaps.shape.title}: at its closest, closed by "

@@ -8,7 +8,7 @@ import numpy as np
 
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
-from synergrip.grasps.ball import REACH
+from synergrip.grasps.ball import MEETS
 from synergrip.grasps.closing import AT_LIMIT, MOST_STEPS, STEP, coupled
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
@@ -34,8 +34,8 @@ class ClosedAtMany(Value):
 
     @property
     def touching(self) -> Flags:
-        """(N, n_c) which contacts a grasp could have: near enough, and facing the object."""
-        return np.asarray((np.abs(self.gaps) <= REACH) & (self.facing > 0))
+        """(N, n_c) which contacts meet the object, and face it."""
+        return np.asarray((np.abs(self.gaps) <= MEETS) & (self.facing > 0))
 
     def joined(self, other: ClosedAtMany) -> ClosedAtMany:
         """Return these places, then those of another."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from synergrip.grasps.clearance import collision_notes
 from synergrip.grasps.objects import Object
+from synergrip.grasps.pad_overlaps import overlap_notes
 from synergrip.grasps.placing import Touch
 from synergrip.hands.arm import arm_notes
 from synergrip.hands.coupling_notes import parted_notes
@@ -47,4 +48,5 @@ class Held(ByContent):
         arm = arm_notes(self.hand, self.synergies, touching)
         parted = parted_notes(self.hand, self.q)
         ranges = contradictions(ranges_of_followers(self.hand))
-        return (*read, *arm, *ranges, *parted, *collision_notes(self.hand, self.q, self.body, self.touches))
+        inside = collision_notes(self.hand, self.q, self.body, self.touches)
+        return (*read, *arm, *ranges, *parted, *inside, *overlap_notes(self.hand, self.q, self.touches))

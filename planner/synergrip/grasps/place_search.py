@@ -9,9 +9,10 @@ import numpy as np
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.asked_grasp import AskedGrasp
-from synergrip.grasps.ball import REACH
+from synergrip.grasps.ball import MEETS
 from synergrip.grasps.clearance import DEEP, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
+from synergrip.grasps.pad_overlaps import overlaps
 from synergrip.grasps.placing import SAME_SPOT
 from synergrip.grasps.shapes.shape import Shape
 from synergrip.grasps.stops import Flags
@@ -22,6 +23,8 @@ ACROSS = 13
 """Places along the longest side of the space that is searched."""
 CENTRED = 3
 """Times that the object is moved to the middle of the pads that stopped before all touched, and closed on again."""
+AT_STOP = 0.01
+"""Share of its range within which a joint stands at its stop."""
 NEAR = 400
 """How many places at most are moved so."""
 
@@ -82,7 +85,7 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
     for _ in range(CENTRED):
         off = np.abs(last.gaps).max(axis=1)
         near = np.argsort(off, kind="stable")
-        near = near[off[near] > REACH][:NEAR]
+        near = near[off[near] > MEETS][:NEAR]
         if not len(near):
             break
         last = closer.closed(last.positions[near] + _shift(last.outward[near], last.gaps[near]))
@@ -91,9 +94,12 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
 
 
 def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
-    """Return the places at which all contacts touch, each on a spot of its own, in their order."""
+    """Return the places at which all contacts touch, each on a spot of its own, and no pads are inside each other."""
     all_touch = np.flatnonzero(found.touching.all(axis=1))
     all_touch = all_touch[~_on_one_spot(closer, found.q[all_touch], found.outward[all_touch])]
+    if len(all_touch):
+        _, depths = overlaps(closer.asked.hand, found.q[all_touch], closer.asked.touches)
+        all_touch = all_touch[depths.max(axis=1, initial=0.0) <= MEETS]
     positions, q = found.positions[all_touch], found.q[all_touch]
     inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
     return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
@@ -114,6 +120,15 @@ def off_centre(asked: AskedGrasp, places: TouchingPlaces) -> Array:
     return np.asarray(np.linalg.norm(middles - places.positions, axis=1))
 
 
+def at_stops(asked: AskedGrasp, q: Array) -> Flags:
+    """Return which joints (N, n_q) closing has brought to their stops, or within 1 % of their range of it."""
+    closing = np.zeros(len(asked.q)) if asked.closing is None else asked.closing
+    lower, upper = (np.array([getattr(joint, end) for joint in asked.hand.joints]) for end in ("lower", "upper"))
+    left = np.where(closing > 0, upper - q, q - lower)
+    room = np.where(np.isfinite(upper - lower), AT_STOP * (upper - lower), 0.0)
+    return np.asarray((closing != 0) & (left <= room))
+
+
 def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
     """Return where it comes nearest to all contacts touching (3,), and what is to be said of it.
 
@@ -123,6 +138,8 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
     if not len(found.q):
         message = f"wherever the object is, a pad is inside the {closer.shape.title} before the hand closes; {ask}"
         return closer.path().mean(axis=(0, 1)), Issue(message, key="object.position")
+    if told := _overlapping(closer, found, ask):
+        return told
     off = np.where(found.touching, 0.0, np.abs(found.gaps))
     best = int(np.lexsort((off.sum(axis=1), -found.touching.sum(axis=1)))[0])
     if found.touching[best].all():
@@ -137,16 +154,37 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         )
         if not yes
     ]
-    place = ", ".join(f"{1e3 * value:.1f}" for value in found.positions[best])
     message = (
-        f"nowhere do all contacts touch when the hand closes; nearest at ({place}) mm: "
+        f"nowhere do all contacts touch when the hand closes; nearest at {_in_mm(found.positions[best])}: "
         f"{' and '.join(touch) or 'none'} touch{'es' * (len(touch) < 2)}, {', '.join(others)}; {ask}"
     )
     return found.positions[best], Issue(message, key="object.position")
 
 
+def _overlapping(closer: Closer, found: ClosedAtMany, ask: str) -> tuple[Array, Issue] | None:
+    """Return the place where pads are least inside each other, when they are wherever all contacts touch."""
+    together = np.flatnonzero(found.touching.all(axis=1))
+    if not len(together):
+        return None
+    pairs, depths = overlaps(closer.asked.hand, found.q[together], closer.asked.touches)
+    most = depths.max(axis=1, initial=0.0)
+    least = int(np.argmin(most))
+    if most[least] <= MEETS:
+        return None
+    position, (a, b) = found.positions[together[least]], pairs[int(np.argmax(depths[least]))]
+    message = (
+        f"wherever all contacts touch, pads are inside each other; least at {_in_mm(position)}: '{a}' and '{b}' by "
+        f"{in_mm(float(most[least]))}; {ask}"
+    )
+    return position, Issue(message, key="object.position")
+
+
+def _in_mm(position: Array) -> str:
+    return f"({', '.join(f'{1e3 * value:.1f}' for value in position)}) mm"
+
+
 def _away(gap: float, facing: float) -> str:
-    if abs(gap) <= REACH:
+    if abs(gap) <= MEETS:
         return f"faces away from the object ({np.degrees(np.arccos(np.clip(facing, -1, 1))):.0f} deg)"
     return f"stays {in_mm(gap)} away" if gap > 0 else f"is {in_mm(-gap)} inside"
 

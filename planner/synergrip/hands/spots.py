@@ -1,4 +1,4 @@
-"""Where the pads and fingertips of a hand are in a posture: what one needs to know to put an object between them."""
+"""Where pads, and last links of fingers without any, are in a posture: what one needs to put an object between them."""
 
 from __future__ import annotations
 

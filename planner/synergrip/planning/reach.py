@@ -61,6 +61,7 @@ def reached_by(walk: Walk, walker: Walker) -> Reached:
         apart = _apart(walk, walker, slice(max(k - 1, 0), max(k, 1)))
         astray = walk.way is not None and walk.way.behind[k] <= walker.allowed
     told, most = describe_displacement(pose, walker.start.response.scale.length), float(far.max())
+    told = told if pose.any() else "that of the start"
     beyond = f"the motion goes on, by {in_mm(most)} at most, where no rigid motion does"
     why = f"{beyond} (Gamma_ucs there)" if astray else hindrances(walk, walker)
     known = np.isfinite(most) and (astray or not _at_ends(walk, dict(_ends(walk, walker)), straight=False))

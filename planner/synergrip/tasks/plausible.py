@@ -14,6 +14,7 @@ from synergrip.grasps.scale import scale_of
 from synergrip.tasks.allowances import Allowances
 from synergrip.tasks.gravity import Gravity
 from synergrip.tasks.inertia_left_out import left_out_notes
+from synergrip.tasks.off_surface import off_surface
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
@@ -52,6 +53,7 @@ def task_doubts(task: Task | TimedTask, timed: TimedTask, grasp: Grasp) -> Itera
     if isinstance(task, Task) and task.allow is not None:
         yield from _beside_what_is_stated(task.allow, grasp)
         yield from _far_off(task.allow, timed, grasp)
+    yield from off_surface(timed, grasp)
     yield from _large_motion(timed, grasp)
     yield from left_out_notes(task, timed, grasp)
 

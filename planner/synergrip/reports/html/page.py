@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.batch.placed_object import FOUND
 from synergrip.documents.quantities import read_as
 from synergrip.files import atomic_path
 from synergrip.linalg import Array
@@ -57,7 +58,7 @@ def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(
     scene, note = _scene(document, folder)
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document))
     tables, no, proven = tables_of(document), why_of(document), document.get("provenance") or {}
-    problem = proven.get("problem") or {}
+    problem, overrides = proven.get("problem") or {}, proven.get("overrides") or ()
     contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts or scene)
     contents += [(table.anchor, table.title) for table in tables] + [("inputs", "Inputs"), ("downloads", "Downloads")]
     files = {"plan.json": to_json(dict(document)), "plan.csv": csv}
@@ -65,7 +66,8 @@ def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(
         _template().render(
             title=document["title"], under=_under(document), verdict=document["verdict"],
             headline=_headline(document), contents=contents, no=no, scene=scene, scene_note=note, charts=charts,
-            tables=tables, overrides=proven.get("overrides") or (), inputs=_inputs(problem),
+            tables=tables, overrides=[each for each in overrides if not each.endswith(FOUND)],
+            found=[each.removesuffix(FOUND) for each in overrides if each.endswith(FOUND)], inputs=_inputs(problem),
             files=[{"name": name, "packed": _packed(text)} for name, text in files.items() if text],
         )
     )  # fmt: skip

@@ -51,11 +51,11 @@ def _held_lines(held: Held, grasp: Grasp) -> Iterator[str]:
     ]  # fmt: skip
     yield table(HEADER, rows, right=(5, 6))
     touching = [touch.pad for touch in held.touches]
-    names = {pad.name for pad in touching}
-    others = [spot for spot in spots_of(held.hand, held.q, touching) if spot.name not in names]
+    named = {(pad.link, pad.name) for pad in touching}
+    others = [spot for spot in spots_of(held.hand, held.q, touching) if (spot.link, spot.name) not in named]
     if others:
         yield ""
-        yield spots_table(others, "other pad")
+        yield spots_table(others, "other pad" if all(spot.pad for spot in others) else "no contact at")
 
 
 def posture_lines(hand: Hand, q: Array) -> Iterator[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.documents.quantities import in_mm
-from synergrip.grasps.ball import REACH
+from synergrip.grasps.ball import WRITTEN
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch
 from synergrip.hands.hand import Hand, Pad
@@ -90,7 +90,7 @@ def away(gap: float | None) -> str:
     """Return how far a pad is from the surface [m] in words."""
     if gap is None:
         return ""
-    if abs(gap) <= REACH:
+    if abs(gap) <= WRITTEN:
         return "touches"
     return f"{in_mm(abs(gap))} {'away' if gap > 0 else 'inside'}"
 
@@ -99,7 +99,7 @@ def _caption(gaps: list[float | None]) -> str:
     known = [gap for gap in gaps if gap is not None]
     if not known:
         return "the object has no shape: contacts are where the pads are"
-    return f"{sum(abs(gap) <= REACH for gap in known)} of {len(known)} contacts touch"
+    return f"{sum(abs(gap) <= WRITTEN for gap in known)} of {len(known)} contacts touch"
 
 
 def middle_of(posed: Posed, q: Array) -> Array:
