@@ -4,9 +4,9 @@
 
 Prints for each problem: the worst slip margin that a plan of the start posture promises and the one that the hand then
 really keeps (executed with rolling pads); the worst margin of the plan along the motion, at its knots and between them;
-how often it was linearised anew, and its processor time relative to that of the plan of the start posture (the least of
-`TIMES` each, by turns), with the knots of the problem, and with --knots also with 41 and with 401, where so many fit
-its corners.
+how often it was linearised anew, and its processor time relative to that of the plan of the start posture: first as it
+is made, then as `linearise = "once"` gives it, which is executed, too, before it is shown (the least of `TIMES` each,
+by turns); with the knots of the problem, and with --knots also with 41 and with 401, where so many fit its corners.
 """
 
 from __future__ import annotations
@@ -38,13 +38,14 @@ def seconds(run: Callable[[], Outcome]) -> float:
 
 
 def ratio(grasp: Grasp, task: Task) -> str:
-    """Return the time of a plan along the motion relative to that of the start posture; "-" where there is none."""
-    runs = (lambda: plan_of_start_posture(grasp, task), lambda: plan(grasp, task))
+    """Return the time of a plan along the motion relative to the two of the start posture; "-" where there is none."""
+    once = task.replace(linearise="once")
+    runs = (lambda: plan_of_start_posture(grasp, task), lambda: plan(grasp, once), lambda: plan(grasp, task))
     try:
-        before, after = np.min([[seconds(run) for run in runs] for _ in range(TIMES)], axis=0)
+        bare, executed, along = np.min([[seconds(run) for run in runs] for _ in range(TIMES)], axis=0)
     except InputError:  # a corner that is on no knot
-        return "-"
-    return f"x{after / before:.1f}"
+        return f"{'-':>12}"
+    return f"{f'x{along / bare:.1f}':>5}  {f'x{along / executed:.1f}':>5}"
 
 
 def told(answer: Outcome) -> str:
@@ -61,9 +62,8 @@ def main() -> None:
     names = [name for name in sys.argv[1:] if name != "--knots"] or sorted(
         path.stem for path in bundled("problems").glob("*.toml")
     )
-    columns = f"{'promised':>8}  {'true':>8}  {'along':>8}  {'between':>8}  passes   time" + "  at 41  at 401" * bool(
-        counts
-    )
+    times = ["   time   once", *(f"{f'at {count}':>7}   once" for count in counts)]
+    columns = f"{'promised':>8}  {'true':>8}  {'along':>8}  {'between':>8}  passes" + "".join(times)
     print(f"{'problem':28}  {'knots':>5}  {columns}")
     for name in names:
         problem = load_problem(name)
@@ -79,8 +79,10 @@ def main() -> None:
         executed = Executor.of(once.analysis, once.task).run(once.time, once.dz_r, once.task.wrench, once.motion)
         promised, true = once.margins.min(), executed.margins.min()
         ratios = [ratio(problem.grasp, each) for each in (task, *(task.replace(knots=count) for count in counts))]
-        times = "  ".join(f"{each:>5}" for each in ratios)
-        print(f"{name:28}  {len(once.time):>5}  {promised:>8.3f}  {true:>8.3f}  {told(along)}  {times}", flush=True)
+        print(
+            f"{name:28}  {len(once.time):>5}  {promised:>8.3f}  {true:>8.3f}  {told(along)}  {'  '.join(ratios)}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -65,7 +65,7 @@ def _axes(nodes: Any, name: str, count: int, long: float) -> Any:
         return None
     turns = np.tile(np.array([1.0, 0.0, 0.0, 0.0], dtype=np.float32), (count, 1))
     places = np.zeros((count, 3), dtype=np.float32)
-    return nodes.add_batched_axes(name, turns, places, axes_length=long, axes_radius=long / 20)
+    return nodes.add_batched_axes(name, turns, places, axes_length=long, axes_radius=long / 40)
 
 
 def _put(node: Any, places: Array, turned: Array) -> None:
