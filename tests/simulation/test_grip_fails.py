@@ -56,6 +56,7 @@ def test_a_changed_file_promises_nothing(held: Path, dropped: synergrip.Simulati
     assert json.loads((held / "plan.json").read_text())["true"] is not None
     text = " ".join(simulation_text(dropped).split())
     assert dropped.as_written is False
+    assert dropped.plan_digest is None, "nobody may take it for a play of the plan that was written"
     assert dropped.true is None
     assert dropped.true_worst is None
     assert "plan.json is not as it was written" in str(dropped.likely_cause)

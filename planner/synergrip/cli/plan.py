@@ -139,7 +139,7 @@ def _page(document: dict[str, Any], outcome: Outcome, folder: Path) -> str:
     from synergrip.reports.data.plan_files import csv_of
     from synergrip.reports.html.page import report_text
 
-    return report_text(document, csv_of(outcome), folder)
+    return report_text(document, csv_of(outcome), folder, folder)
 
 
 def _save(outcome: Outcome, path: Path) -> None:

@@ -32,7 +32,7 @@ def report(
         place = output or file.parent / REPORT
         possible("--output", place, refuse_unwritable)
         with writing("--output", place):
-            page.write_report(place, document, csv, file.parent)
+            page.write_report(place, document, csv, file.parent, file.parent)
         ending.keep(place)
         told: dict[str, Any] = {"report": str(place), "verdict": document["verdict"], "exit_code": 0}
         show(form, lambda: f"wrote {place}", lambda: told)

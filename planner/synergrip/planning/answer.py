@@ -68,6 +68,9 @@ class Answer(Value):
     def report(self, path: str | Path, *, problem: Asked | None = None) -> Path:
         """Write the report, the page of ``synergrip plan --report``, and return the file: it opens offline.
 
+        A simulation of this very answer (``synergrip simulate FOLDER -o FOLDER``) that stands in the folder of the
+        file is a part of it.
+
         Args:
             path: the file, replaced whole or not at all.
             problem: what was asked, as `load_problem` returns it, for title, notes and inputs.

@@ -37,6 +37,13 @@ def unchanged(document: Mapping[str, Any]) -> bool | None:
     return bool(digest(document, keys) == stated["sha256"])
 
 
+def stated_digest(document: Mapping[str, Any]) -> str | None:
+    """Return the digest that a document tells of itself, whether it is right or not; None when it tells none."""
+    told = document.get(KEY)
+    found = told.get("sha256") if isinstance(told, Mapping) else None
+    return found if isinstance(found, str) else None
+
+
 def digest(document: Mapping[str, Any], keys: Sequence[str]) -> str:
     """Return the SHA-256 of the values of some keys, numbers by their 64 bits."""
     found = hashlib.sha256()

@@ -22,7 +22,7 @@ from synergrip.hands.models.model_file import read_model
 from synergrip.hands.models.tree import LinkTree
 from synergrip.linalg import Array, frozen
 from synergrip.plain_file import read_bytes
-from synergrip.planning.digest import unchanged
+from synergrip.planning.digest import stated_digest, unchanged
 from synergrip.planning.references import plan_file
 from synergrip.simulation.geoms import GEOMS, sizes_of
 from synergrip.simulation.told_values import Told
@@ -83,6 +83,8 @@ class PlayedPlan(Value):
     unchanged: bool | None = None
     """Whether the file is as it was written, by its digest; None when it has none. What one that was
     changed says of true equilibria is left out: nobody has found them."""
+    digest: str | None = None
+    """Of a file that is as it was written, by which it is known again; None otherwise."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -115,7 +117,9 @@ def read_played_plan(path: Path) -> PlayedPlan:
         message = "has no 'execution': a grasp given as matrices has no hand to move; plan it on a hand to simulate it"
         raise InputError.at(KEY, f"'{file}' {message}")
     try:
-        return _played(Told(data, ""), Told(data["execution"], "execution"), file.parent, unchanged(data))
+        whole = unchanged(data)
+        found = _played(Told(data, ""), Told(data["execution"], "execution"), file.parent, whole)
+        return replace(found, digest=stated_digest(data) if whole else None)
     except InputError as error:
         raise error.under(f"{KEY} '{file}'") from None
 

@@ -93,6 +93,8 @@ class Simulation(Value):
     knots: Array = field(repr=False)  # (T,) [s] of the plan
     knots_promised: tuple[Array, Array] = field(repr=False)
     """Margins (T, n_c) [N] and motion (T, 6) there."""
+    plan_digest: str | None = field(default=None, repr=False)
+    """Of the plan.json that was played, as it tells it; None where that is not as it was written."""
 
     @cached_property
     def worst(self) -> tuple[float, str, float]:
@@ -223,7 +225,7 @@ def _simulation(
         frozen(plan.margins.min(axis=0)), float(plan.margins.min()), None if true is None else float(true.min()), half,
         allowed_difference(plan), differences(plan, found.least), None, notes_of(plan, found, speed),
         found.model.text, plan.unchanged, found.lost_at, found.slipped_at, found.flown, plan.times,
-        (plan.margins, plan.du),
+        (plan.margins, plan.du), plan.digest,
     )  # fmt: skip
     sliding = dict.fromkeys([*made.lost, *made.slipped, *made.at_cone])
     circumstances = Circumstances(

@@ -38,7 +38,7 @@ def report(outcome: Outcome, path: str | Path, problem: Asked | None) -> Path:
     place = path_of(path, "path")
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
-    written_at("path", place, lambda: write_report(place, document, csv_of(outcome)))
+    written_at("path", place, lambda: write_report(place, document, csv_of(outcome), beside=place.parent))
     return place
 
 

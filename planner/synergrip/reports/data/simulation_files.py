@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.files import refuse_unwritable_folder
+from synergrip.planning.digest import with_digest
 from synergrip.planning.told import finite
 from synergrip.simulation.simulation import Simulation
 from synergrip.together import refuse_others, replace_together
@@ -20,12 +21,13 @@ MOTION = ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")
 
 
 def simulation_document(simulation: Simulation) -> dict[str, Any]:
-    """Return a simulation as a JSON document, SI units."""
+    """Return a simulation as a JSON document, SI units, with its own digest and that of the plan it is of."""
     worst, contact, time = simulation.worst
     shift, turn = simulation.motion_error
     half, true = simulation.half_step, simulation.true
-    return {
+    return with_digest({
         "title": simulation.title, "verdict": simulation.verdict, "exit_code": simulation.exit_code,
+        "plan_sha256": simulation.plan_digest,
         "engine": "mujoco", "speed": simulation.speed, "step_s": simulation.step,
         "friction_factor": simulation.friction, "as_written": simulation.as_written,
         "failed_at_s": simulation.failed_at, "ended_at_s": simulation.ended,
@@ -55,7 +57,7 @@ def simulation_document(simulation: Simulation) -> dict[str, Any]:
         "slip_m": simulation.slip.tolist(), "spin_rad": simulation.spin.tolist(),
         "touching": simulation.touching.tolist(), "apart_s": simulation.apart.tolist(),
         "du": simulation.du.tolist(), "q": simulation.q.tolist(),
-    }  # fmt: skip
+    })  # fmt: skip
 
 
 def simulation_csv(simulation: Simulation) -> str:

@@ -41,7 +41,7 @@ def _chart(times: Array, lines: Lines, missing: Sequence[tuple[float, float]]) -
     top = ABOVE + head_of(lines, times, wide)
 
     def fill(sheet: Sheet) -> None:
-        some = replace(lines, values=lines.values[shown])
+        some = replace(lines, values=lines.values[shown], target=None if lines.target is None else lines.target[shown])
         draw_chart(sheet, Box(LEFT, top, wide, HIGH), times[shown], some, missing=missing, title_left=0.08)
 
     sides = 100 * LEFT / WIDE, 100 * (1 - RIGHT / WIDE)

@@ -1,7 +1,8 @@
 """The report of an answer: one file (HTML) that opens in a browser without a network.
 
-It is made from the document of the answer (plan.json) and nothing else but the hand file that this names, so that the
-report of a saved answer is that of a new one. What comes from the user is escaped by the template.
+It is made from the document of the answer (plan.json), the hand file that this names, and what a simulation of this
+very plan has written beside it, so that the report of a saved answer is that of a new one. What comes from the user is
+escaped by the template.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
 from synergrip.reports.html.charts import charts_of
+from synergrip.reports.html.physics import physics_of
 from synergrip.reports.html.tables import missing_of, tables_of, usage_told, why_of
 from synergrip.reports.libraries import refuse_without
 from synergrip.reports.pictures.lines import lines_of
@@ -29,7 +31,9 @@ LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""
 
 
-def write_report(path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path()) -> None:
+def write_report(
+    path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None
+) -> None:
     """Write the report of an answer, whole or not at all.
 
     Args:
@@ -37,12 +41,13 @@ def write_report(path: Path, document: Mapping[str, Any], csv: str = "", folder:
         document: of the answer, as in plan.json.
         csv: of the plan, as in plan.csv, to be downloaded.
         folder: where the hand file is looked for when it is not a bundled one.
+        beside: folder in which a simulation of the plan is looked for, if any.
 
     Raises:
         InputError: Jinja or viser is not installed, or the hand file has changed.
         OSError: it cannot be written.
     """
-    text = report_text(document, csv, folder)
+    text = report_text(document, csv, folder, beside)
     with atomic_path(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -52,12 +57,13 @@ def refuse_without_libraries() -> None:
     refuse_without(LIBRARIES, "report")
 
 
-def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path()) -> str:
+def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None) -> str:
     """Return the report of an answer as `write_report` writes it."""
     refuse_without_libraries()
     scene, note = _scene(document, folder)
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document))
-    tables, no, proven = tables_of(document), why_of(document), document.get("provenance") or {}
+    tables, no = (*tables_of(document), *physics_of(document, beside)), why_of(document)
+    proven = document.get("provenance") or {}
     problem, overrides = proven.get("problem") or {}, proven.get("overrides") or ()
     contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts or scene)
     contents += [(table.anchor, table.title) for table in tables] + [("inputs", "Inputs"), ("downloads", "Downloads")]

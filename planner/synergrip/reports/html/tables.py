@@ -29,7 +29,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Table:
-    """A table under a title, with sentences before and after it."""
+    """A table under a title, with sentences before and after it, and charts (SVG) below."""
 
     anchor: str
     title: str
@@ -37,6 +37,7 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...] = ()
     before: tuple[str, ...] = field(default=())
     after: tuple[str, ...] = field(default=())
+    drawn: tuple[str, ...] = field(default=())
 
 
 def tables_of(document: Document) -> tuple[Table, ...]:

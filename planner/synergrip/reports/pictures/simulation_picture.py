@@ -26,9 +26,22 @@ def draw_simulation(simulation: Simulation, path: Path) -> None:
         InputError: a suffix that says no format.
         OSError: the file cannot be written.
     """
-    names = tuple(simulation.contacts)
+    parts, times = simulation_lines(simulation)
+    worst, contact, time = simulation.worst
+    start, failed = float(simulation.knots[0]), simulation.failed_at
+    since = "" if failed is None else f", first {moment(failed, start)}"
+    under = (
+        f"in MuJoCo, {simulation.speed}: {simulation.verdict}{since}; smallest margin {worst:.4g} N at {contact}, "
+        f"{moment(time, start).removeprefix('at ')} ({simulation.promised_worst:.4g} N {promised_word(simulation)}); "
+        f"dashed: as {promised_word(simulation)}, and limits"
+    )
+    draw_charts(parts, times, simulation.title, under, path)
+
+
+def simulation_lines(simulation: Simulation) -> tuple[tuple[Lines, ...], Array]:
+    """Return margins, slips and motion beside what was promised, and the times of both [s]."""
     slip = 1e3 * simulation.slip
-    rest = simulation.knots > simulation.time[-1]
+    names, rest = tuple(simulation.contacts), simulation.knots > simulation.time[-1]
     margins, motion = simulation.knots_promised
     parts = (
         _chart("slip margin", "N", names, simulation.margin, (0.0,), np.vstack([simulation.promised, margins[rest]])),
@@ -43,15 +56,7 @@ def draw_simulation(simulation: Simulation, path: Path) -> None:
             )
         ),
     )  # fmt: skip
-    worst, contact, time = simulation.worst
-    start, failed = float(simulation.knots[0]), simulation.failed_at
-    since = "" if failed is None else f", first {moment(failed, start)}"
-    under = (
-        f"in MuJoCo, {simulation.speed}: {simulation.verdict}{since}; smallest margin {worst:.4g} N at {contact}, "
-        f"{moment(time, start).removeprefix('at ')} ({simulation.promised_worst:.4g} N {promised_word(simulation)}); "
-        f"dashed: as {promised_word(simulation)}, and limits"
-    )
-    draw_charts(parts, np.append(simulation.time, simulation.knots[rest]), simulation.title, under, path)
+    return parts, np.append(simulation.time, simulation.knots[rest])
 
 
 def _chart(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -17,35 +17,49 @@ from synergrip.simulation.watching import SLIPPED, SPUN
 
 def simulation_text(simulation: Simulation, color: bool = False) -> str:
     """Return the answer of ``synergrip simulate``."""
+    header, rows = contact_cells(simulation)
+    cells = table(header, rows, right=range(1, len(header) - 1))
+    lines = [simulation.title, how_played(simulation), "", cells, ""]
+    for label, said in sentences(simulation):
+        lines += wrapped(f"{label:9}", said)
+    word = verdict_word("feasible" if simulation.verdict == "held" else "unknown", color)
+    word = word.replace("feasible", "held").replace("unknown", simulation.verdict)
+    return "\n".join([*lines, "", f"{word}  {became(simulation)}"])
+
+
+def how_played(simulation: Simulation) -> str:
+    """Return in which engine it was played, how fast, how finely, and with which friction."""
     how = "so slowly that inertia does not count" if simulation.speed == "slow" else "at the speed of the plan"
-    lines = [simulation.title, f"played in MuJoCo {how}, {simulation.step:g} s a step", "", _contacts(simulation), ""]
+    friction = "" if simulation.friction == 1 else f", all friction multiplied by {simulation.friction:g}"
+    return f"played in MuJoCo {how}, {simulation.step:g} s a step{friction}"
+
+
+def sentences(simulation: Simulation) -> Iterator[tuple[str, str]]:
+    """Yield what is told beside the contacts, each with the word that stands before it."""
     worst, contact, time = simulation.worst
     promised = f"{plain(simulation.promised_worst)} N {promised_word(simulation)}"
     if simulation.true_worst is not None:
         promised += f", {plain(simulation.true_worst)} N at the true equilibrium"
     when = moment(time, simulation.knots[0])
-    lines += wrapped("margin   ", f"{plain(worst)} N at least, {contact} {when} ({promised})")
+    yield "margin", f"{plain(worst)} N at least, {contact} {when} ({promised})"
     shift, turn = simulation.motion_error
     moved = [float(np.linalg.norm(part)) for part in np.split(simulation.du[-1], 2)]
     end = "at the end" if simulation.ended is None else "where the play was ended"
-    said = (
-        f"{in_mm(moved[0], 4)} and {plain(np.degrees(moved[1]), 3)} deg {end}; "
-        f"from the plan's motion at most {in_mm(shift)} and {plain(np.degrees(turn), 3)} deg"
+    yield (
+        "motion",
+        (
+            f"{in_mm(moved[0], 4)} and {plain(np.degrees(moved[1]), 3)} deg {end}; "
+            f"from the plan's motion at most {in_mm(shift)} and {plain(np.degrees(turn), 3)} deg"
+        ),
     )
-    lines += wrapped("motion   ", said)
     if simulation.half_step is not None:
         margins, motion = simulation.half_step
-        said = (
-            f"with half the step margins differ by {plain(margins, 2)} N and the motion by {in_mm(motion, 2)} at most"
-        )
-        lines += wrapped("step     ", said)
+        apart = f"margins differ by {plain(margins, 2)} N and the motion by {in_mm(motion, 2)} at most"
+        yield "step", f"with half the step {apart}"
     if simulation.differences:
-        lines += wrapped("differs  ", _differs(simulation))
+        yield "differs", _differs(simulation)
     for note in simulation.notes:
-        lines += wrapped("note     ", note)
-    word = verdict_word("feasible" if simulation.verdict == "held" else "unknown", color)
-    word = word.replace("feasible", "held").replace("unknown", simulation.verdict)
-    return "\n".join([*lines, "", f"{word}  {_said(simulation)}"])
+        yield "note", note
 
 
 def promised_word(simulation: Simulation) -> str:
@@ -53,7 +67,8 @@ def promised_word(simulation: Simulation) -> str:
     return "claimed" if simulation.as_written is False else "promised"
 
 
-def _said(simulation: Simulation) -> str:
+def became(simulation: Simulation) -> str:
+    """Return what became of the contacts."""
     if simulation.lost:
         return _first("no touch at", simulation, simulation.lost, simulation.lost_at)
     if simulation.slipped:
@@ -98,7 +113,8 @@ def _differs(simulation: Simulation) -> str:
     return f"{parts}: more than {plain(simulation.within, 2)} N apart; likely cause: {simulation.likely_cause}"
 
 
-def _contacts(simulation: Simulation) -> str:
+def contact_cells(simulation: Simulation) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Return the names of the columns and the cells of a table of the contacts."""
     header: tuple[str, ...] = ("contact", "margin", promised_word(simulation), "true", "at", "slip", "spin", "")
     rows, (slid, spun) = list[tuple[str, ...]](), simulation.crept
     for i, name in enumerate(simulation.contacts):
@@ -114,4 +130,4 @@ def _contacts(simulation: Simulation) -> str:
         )  # fmt: skip
     if simulation.true is None:
         header, rows = header[:3] + header[4:], [row[:3] + row[4:] for row in rows]
-    return table(header, rows, right=range(1, len(header) - 1))
+    return header, rows

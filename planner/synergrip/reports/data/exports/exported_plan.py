@@ -13,8 +13,7 @@ from synergrip.documents.documents import read_document
 from synergrip.errors import InputError, kind_of, shortened
 from synergrip.linalg import Array, frozen
 from synergrip.planning.arrays import one_line
-from synergrip.planning.digest import KEY as DIGEST
-from synergrip.planning.digest import unchanged
+from synergrip.planning.digest import stated_digest, unchanged
 from synergrip.planning.outcome import Plan
 from synergrip.planning.references import plan_file
 from synergrip.simulation.told_values import Told
@@ -160,9 +159,8 @@ def _figures(told: Told, source: Told) -> str:
 
 
 def _digest(data: Mapping[str, Any]) -> str:
-    stated = data.get(DIGEST)
-    found = stated.get("sha256") if isinstance(stated, dict) else None
-    return found if isinstance(found, str) and found.isalnum() else ""
+    found = stated_digest(data) or ""
+    return found if found.isalnum() else ""
 
 
 def _states(told: Told, folder: Path, q: Array, du: Array, dz_r: Array) -> HandStates:
