@@ -23,10 +23,11 @@ from synergrip.problems.problem import load_problem
 from synergrip.reports import libraries
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.html import page
+from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
 from synergrip.reports.html.tables import tables_of, why_of
-from synergrip.reports.pictures.lines import lines_of
+from synergrip.reports.pictures.lines import Lines, lines_of
 from synergrip.reports.text.text_usages import worst_of
 from synergrip.reports.view.planned import scene_of
 
@@ -124,6 +125,13 @@ def test_charts_have_the_numbers_of_the_plan_in_units_that_people_read() -> None
     forces = np.linalg.norm(np.array(document["true"]["force_N"]), axis=2)
     assert np.allclose(found["contact force"].values, forces)
     assert found["slip margin"].names == tuple(document["contacts"])
+
+
+def test_a_chart_of_many_instants_has_what_is_wanted_at_those_that_are_drawn() -> None:
+    times, ramp = np.linspace(0, 1, 500), np.linspace(0, 2, 500)[:, None]
+    lines = Lines("slip margin", "N", ("left",), ramp, target=ramp, of_contacts=True)
+    (chart,) = charts_of(times, [lines])
+    assert chart.svg.startswith("<svg")
 
 
 def test_of_a_no_the_hand_is_seen_at_its_start_and_what_would_repair_it_is_told() -> None:
