@@ -22,11 +22,12 @@ from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
 from synergrip.reports import libraries
 from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.viewer import viewer_of
 from synergrip.reports.html import page
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
-from synergrip.reports.html.tables import tables_of, why_of
+from synergrip.reports.html.tables import tables_of, usage_told, why_of
 from synergrip.reports.pictures.lines import Lines, lines_of
 from synergrip.reports.text.text_usages import worst_of
 from synergrip.reports.view.planned import scene_of
@@ -86,6 +87,19 @@ def test_the_table_of_limits_has_the_rows_of_the_text() -> None:
     sides = [row for row in told if row[0].endswith("normal force")]
     assert [(row[0], row[4][0]) for row in sides] == [("largest normal force", "≤"), ("smallest normal force", "≥")]
     assert sum(row[5] != "–" for row in sides) == 1  # between the knots the worse of both is known
+
+
+@pytest.mark.parametrize("name", ["human-glass", "human-ball-near"])
+def test_what_is_a_little_beyond_its_bound_is_told_as_the_text_tells_it(name: str) -> None:
+    """Which value is the worst, and which is on its bound, is a question of sizes that plan.json tells."""
+    problem, document = load_problem(name), document_of(name)
+    answer = plan(problem.grasp, problem.task)
+    assert isinstance(answer, Plan)
+    own = [row for usage in answer.usages for row in worst_of(usage)]
+    assert [row for each in document["limits"] for row in worst_of(usage_told(each, document))] == own
+    for each in document["limits"]:  # as it was written before it told them
+        series = {key: value for key, value in each["series"].items() if key not in ("scale", "allowance")}
+        assert np.array_equal(usage_told(each | {"series": series}, document).value, series["values"])
 
 
 def test_a_change_that_no_plan_was_found_with_has_no_command() -> None:
@@ -217,6 +231,8 @@ def test_what_is_not_installed_is_said_before_anything_is_planned(monkeypatch: p
     monkeypatch.setattr(libraries, "find_spec", lambda name: None if name == "viser" else object())
     with pytest.raises(InputError, match=r"needs viser, which is not installed: pip install 'synergrip\[view\]'"):
         page.refuse_without_libraries()
+    with pytest.raises(InputError, match="needs viser, which is not installed"):
+        viewer_of(scene_of(document_of("gripper-box")), 400)
 
 
 @pytest.mark.skipif(browser_path() is None, reason="there is no Chromium to open the report with")

@@ -107,10 +107,15 @@ def nearest(usage: Usage) -> tuple[str, str]:
 
 
 def series_document(usage: Usage) -> dict[str, Any]:
-    """Return the worst value of a limit and all of them: at the knots, of its items, with the bounds of each."""
+    """Return the worst value of a limit and all of them: at the knots, of its items, with the bounds of each.
+
+    And the sizes that an excess is judged by, so that whoever reads them finds the same worst value, and the same on
+    its bound.
+    """
     ends = {"lower": usage.lower, "upper": usage.upper}
     bounds = {end: [finite(value) for value in values] for end, values in ends.items()}
-    series = {"items": list(usage.items), "values": usage.value, **bounds}
+    sizes = {"scale": usage.scale, "allowance": usage.allowance}
+    series = {"items": list(usage.items), "values": usage.value, **bounds, **sizes}
     return usage_document(usage) | {"series": series}
 
 

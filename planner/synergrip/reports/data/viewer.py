@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from html import escape
-from importlib.util import find_spec
 from pathlib import Path
 
 from synergrip.errors import InputError
 from synergrip.files import atomic_path
 from synergrip.reports.data.saving import path_of, written_at
+from synergrip.reports.libraries import refuse_without
 from synergrip.reports.view.scene import Scene
 
 LOWEST, HIGHEST = 50, 10_000
@@ -59,9 +59,7 @@ def viewer_of(scene: Scene, height: int) -> Viewer:
     """
     if isinstance(height, bool) or not isinstance(height, int) or not LOWEST <= height <= HIGHEST:
         raise InputError.at("height", f"expected a whole number of pixels from {LOWEST} to {HIGHEST}, got {height!r}")
-    if find_spec("viser") is None:
-        message = "the 3-D view needs viser, which is not installed: pip install 'synergrip[view]'"
-        raise InputError.at("viewer", message)
+    refuse_without({"viser": "viser"}, "viewer")
     from synergrip.reports.view.drawn import page
 
     frames, contacts = len(scene.times), len(scene.contacts)

@@ -72,22 +72,14 @@ def _side(told: Mapping[str, Any]) -> str:
 
 
 def usage_told(told: Mapping[str, Any], document: Document) -> Usage:
-    """Return what is told of a limit.
-
-    Sizes are half the way between the bounds where there are two, as in a range; those of forces the largest force of
-    each instant, against which plans judge them.
-    """
+    """Return what is told of a limit; sizes are 1 in documents that were written before they told them."""
     series, true = told["series"], document.get("true") or {}
     ends = ((series["lower"], -np.inf), (series["upper"], np.inf))
     lower, upper = (np.array([none if end is None else end for end in each], dtype=float) for each, none in ends)
-    half = (upper - lower) / 2
-    scale = np.where(np.isfinite(half) & (half > 0), half, 1.0)
     values = np.array(series["values"], dtype=float)
     times = np.array(true.get("time_s", document["time_s"]))
-    forces = np.array(true["lambda"] if "lambda" in true else document["lambda"], dtype=float)
-    largest = np.abs(forces).max(axis=1)
-    judged_by_forces = told["unit"] == "N" and len(largest) == len(times) and largest.min() > 0
-    allowance = np.repeat(largest[:, None], len(scale), axis=1) if judged_by_forces else None
+    scale = series.get("scale") or np.ones(len(lower))
+    allowance = series.get("allowance")
     return Usage(told["name"], told["unit"], tuple(series["items"]), values, lower, upper, scale, times, allowance)
 
 
