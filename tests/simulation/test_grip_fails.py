@@ -14,7 +14,7 @@ from command_line import document, run
 import synergrip
 from synergrip.planning.digest import KEY, with_digest
 from synergrip.reports.pictures.simulation_picture import draw_simulation
-from synergrip.reports.text.text_simulation import simulation_text
+from synergrip.reports.text.text_simulation import became, simulation_text
 from synergrip.simulation.watching import Watch
 
 
@@ -50,6 +50,19 @@ def test_what_falls_before_the_start_is_told_as_that(dropped: synergrip.Simulati
     text = " ".join(simulation_text(dropped).split())
     assert "s before the start, as pads stuck no longer and before anything moved" in text
     assert "inertia, " not in text
+
+
+def test_a_slip_before_the_start_and_a_loss_after_it_are_told_with_their_own_times(
+    played: synergrip.Simulation,
+) -> None:
+    lost = np.arange(len(played.contacts)) == 0
+    later = replace(played, apart=np.where(lost, 1.0, 0.0), lost_at=np.where(lost, 0.8133, np.nan))
+    first = f"no touch at {played.contacts[0]}, first at 0.8133 s"
+    assert became(later) == first
+    slipped = replace(later, slip=np.full_like(played.slip, 1e-3), slipped_at=np.where(lost, np.nan, -0.1))
+    assert slipped.failed_before
+    loose = "as pads stuck no longer and before anything moved"
+    assert became(slipped) == f"{first}; the object slipped 0.1 s before the start, {loose}"
 
 
 def test_a_changed_file_promises_nothing(held: Path, dropped: synergrip.Simulation) -> None:

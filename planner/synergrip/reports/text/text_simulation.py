@@ -86,11 +86,15 @@ def became(simulation: Simulation) -> str:
 
 def _first(what: str, simulation: Simulation, names: Sequence[str], times: Array) -> str:
     """Return what became of contacts, and when the first of them was that far; times (n_c,)."""
+    start = simulation.knots[0]
     at = [float(times[simulation.contacts.index(name)]) for name in names]
-    known = [time for time in at if not np.isnan(time)]
-    when = f", first {moment(min(known), simulation.knots[0])}" if known else ""
-    loose = ", as pads stuck no longer and before anything moved" if simulation.failed_before else ""
-    return f"{what} {', '.join(names)}{when}{loose}"
+    first = min((time for time in at if not np.isnan(time)), default=None)
+    when = f", first {moment(first, start)}" if first is not None else ""
+    if simulation.failed_at is not None and simulation.failed_before:
+        slipped = first is None or first >= start  # what is told came later than what failed first
+        when += f"; the object slipped {moment(simulation.failed_at, start)}" if slipped else ""
+        when += ", as pads stuck no longer and before anything moved"
+    return f"{what} {', '.join(names)}{when}"
 
 
 def _creeping(simulation: Simulation, name: str) -> str:
