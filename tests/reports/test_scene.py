@@ -9,6 +9,7 @@ import socket
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.view import drawn
 from synergrip.reports.view.planned import MOST, scene_of
 from synergrip.reports.view.scene import Scene
-from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
+from synergrip.reports.view.solid import Solid, ball, cone, of_shape, ribs, rod
 
 
 @cache
@@ -66,6 +67,18 @@ def test_rods_balls_and_cones_are_of_unit_size() -> None:
     assert volume(ball()) == pytest.approx(4 / 3 * np.pi, rel=0.1)
     assert np.ptp(cone().points[:, 2]) == 1.0
     assert np.linalg.norm(cone().points[:, :2], axis=1).max() == 1.0
+    assert np.allclose(np.linalg.norm(ribs().points[:, :2], axis=1), ribs().points[:, 2]), "ribs lie on the cone"
+    assert set(ribs().triangles.ravel()) == set(range(len(ribs().points)))
+
+
+def test_copies_have_the_colours_of_everything_else_and_are_seen_through_what_is_held() -> None:
+    made = dict[str, dict[str, Any]]()
+    nodes = SimpleNamespace(add_batched_meshes_simple=lambda name, *_, **told: made.update({name: told}))
+    drawn._several(nodes, "clear", cone(), 2, np.tile([0, 188, 255], (2, 1)), opacity=0.3)
+    drawn._several(nodes, "full", cone(), 1, (0, 188, 255))
+    assert made["clear"]["batched_colors"].tolist() == [[0, 128, 255]] * 2  # linear, as the viewer takes them
+    assert made["clear"]["batched_opacities"].tolist() == [0.3, 0.3]
+    assert made["full"]["batched_opacities"] is None  # with any, it would be hidden behind what is held
 
 
 @pytest.mark.parametrize("name", ["human-ball", "gripper-box"])

@@ -10,10 +10,10 @@ from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.view.scene import Frame, Scene
 from synergrip.reports.view.serving import serving
-from synergrip.reports.view.solid import Solid, ball, cone, of_shape, rod
+from synergrip.reports.view.solid import Solid, ball, cone, of_shape, ribs, rod
 from synergrip.vectors import quaternions
 
-HAND, OBJECT, WEIGHT = (122, 134, 152), (214, 196, 160), (90, 90, 90)
+HAND, OBJECT, WEIGHT = (182, 190, 201), (214, 196, 160), (90, 90, 90)
 """Colours of the hand, of what it holds, and of gravity."""
 LONGEST = 0.9
 """Length of the longest force, of the size of the scene."""
@@ -62,8 +62,8 @@ class Drawn:
         nodes.add_frame("/palm", axes_length=0.35 * size, axes_radius=0.012 * size)
         self._ground(nodes)
         self._gravity = nodes.add_arrows(
-            "/gravity", self._weight(scene.up[0]), WEIGHT, shaft_radius=0.015 * size, head_radius=0.04 * size,
-            head_length=0.1 * size,
+            "/gravity", self._weight(scene.up[0]), _of_copies(WEIGHT), shaft_radius=0.015 * size,
+            head_radius=0.04 * size, head_length=0.1 * size,
         )  # fmt: skip
         bones, joints = len(scene.bones[0]), 2 * len(scene.bones[0])
         self._bones = _several(nodes, "/palm/bones", rod(), bones, HAND)
@@ -71,8 +71,9 @@ class Drawn:
         self._pads = _several(nodes, "/palm/pads", ball(), len(scene.pad_names), HAND)
         self._object = _body(nodes, scene)
         self._cones = _several(nodes, "/palm/cones", cone(), len(scene.contacts), np.array(colors), opacity=0.3)
+        self._ribs = _several(nodes, "/palm/ribs", ribs(), len(scene.contacts), np.array(colors))
         self._arrows = None if scene.margins is None else nodes.add_arrows(
-            "/palm/forces", np.zeros((len(colors), 2, 3)), np.array(colors, dtype=np.uint8),
+            "/palm/forces", np.zeros((len(colors), 2, 3)), _of_copies(colors),
             shaft_radius=0.02 * size, head_radius=0.05 * size, head_length=0.12 * size,
         )  # fmt: skip
         apart = len(scene.contacts) if scene.margins is None else 0  # from pads to where the object is nearest
@@ -122,7 +123,8 @@ class Drawn:
             self._object.position, self._object.wxyz = tuple(frame.position), tuple(turned)
         high = CONE * scene.size
         ends = np.stack([frame.places, frame.places + high * frame.normals], axis=1)
-        _lay(self._cones, ends, high * scene.friction)
+        for cones in (self._cones, self._ribs):
+            _lay(cones, ends, high * scene.friction)
         forces = np.stack([frame.places, frame.places + self._force * frame.forces], axis=1)
         if self._arrows is not None:
             self._arrows.points = forces.astype(np.float32)
@@ -164,10 +166,11 @@ def _several(nodes: Any, name: str, solid: Solid, count: int, color: Any, opacit
     """Draw `count` copies of a solid, which are placed later; None for none."""
     if not count:
         return None
+    clear = None if opacity == 1.0 else np.full(count, opacity)  # what has any is not seen through what is held
     return nodes.add_batched_meshes_simple(
         name, solid.points.astype(np.float32), solid.triangles.astype(np.uint32), np.tile([1.0, 0, 0, 0], (count, 1)),
-        np.zeros((count, 3)), batched_scales=np.ones((count, 3)), batched_colors=np.asarray(color, dtype=np.uint8),
-        batched_opacities=np.full(count, opacity), side="double", lod="off",
+        np.zeros((count, 3)), batched_scales=np.ones((count, 3)), batched_colors=_of_copies(color),
+        batched_opacities=clear, side="double", lod="off",
     )  # fmt: skip
 
 
@@ -198,6 +201,13 @@ def _upright(directions: Array) -> Array:
     turns = np.column_stack([1 + z, -y, x, np.zeros_like(z)])
     turns[z < -1 + 1e-12] = [0.0, 1.0, 0.0, 0.0]  # all that lead there are as short
     return np.asarray(turns / np.linalg.norm(turns, axis=1, keepdims=True))
+
+
+def _of_copies(color: Any) -> Any:
+    """Return colours (..., 3) as the viewer takes those of copies and arrows: linear, where all others are sRGB."""
+    share = np.asarray(color) / 255
+    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+    return np.round(255 * linear).astype(np.uint8)
 
 
 def _rgb(color: str) -> tuple[int, ...]:

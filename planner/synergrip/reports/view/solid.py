@@ -11,6 +11,8 @@ from synergrip.linalg import Array, Places
 
 ROUND = 24
 """Corners of what is round."""
+STRIPS, NARROW = 6, 0.06
+"""How many strips a cone has, and the width of each and of the band along its rim."""
 DIRECTIONS = 400
 """In how many directions the farthest point of a shape is looked for."""
 SAME = 1e-7
@@ -49,6 +51,18 @@ def cone() -> Solid:
     after = np.roll(np.arange(ROUND), -1) + 1
     sides = np.column_stack([np.zeros(ROUND, dtype=int), after, np.arange(ROUND) + 1])
     return Solid(np.vstack([np.zeros(3), ring]), sides)
+
+
+def ribs() -> Solid:
+    """Return a band along the rim of the cone and strips down its sides: opaque, it is seen through what is held."""
+    ring, angles = cone().points[1:], np.linspace(0.0, 2 * np.pi, STRIPS, endpoint=False)
+    sides = [np.column_stack([np.cos(angles + turn), np.sin(angles + turn), np.ones(STRIPS)]) for turn in (0.0, NARROW)]
+    here, first = np.arange(ROUND), 2 * ROUND + 1 + np.arange(STRIPS)
+    after = np.roll(here, -1)
+    triangles = [(here, after, ROUND + here), (after, ROUND + after, ROUND + here),
+                 (np.full(STRIPS, 2 * ROUND), first, first + STRIPS)]  # fmt: skip
+    points = np.vstack([ring, (1 - NARROW) * ring, np.zeros((1, 3)), *sides])
+    return Solid(points, np.vstack([np.column_stack(corners) for corners in triangles]))
 
 
 def hull(points: Array) -> Solid:
