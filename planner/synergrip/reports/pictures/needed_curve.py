@@ -67,9 +67,9 @@ def draw_needed(needed: SynergiesNeeded, path: Path, title: str, paper: Paper | 
             axes.tick_params(labelsize=TICKS * sheet.scale)
             axes.set_ylabel(label, fontsize=LABEL * sheet.scale)
             axes.set_xlabel("synergies", fontsize=LABEL * sheet.scale)
-            if index < 2:  # the second has crosses, too
-                axes.legend(loc="lower right", fontsize=KEY * sheet.scale, ncols=1 + index, facecolor="white",
-                            edgecolor="none", framealpha=0.9)  # fmt: skip
+            if index == 1:  # the first has no crosses; above the axes no mark of the key is taken for a cross
+                axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=KEY * sheet.scale, ncols=4,
+                            columnspacing=1.0, frameon=False, borderaxespad=0.0)  # fmt: skip
 
     write_picture(path, width, high, draw, USUAL if paper is None else paper.letters)
     return f"{title}: {under}. Crosses: no plan."

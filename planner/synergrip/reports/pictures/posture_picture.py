@@ -15,8 +15,8 @@ from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.free_places import free_places
 from synergrip.reports.pictures.layout import Columns
 from synergrip.reports.pictures.page import Page
-from synergrip.reports.pictures.scene import front_and_back
-from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
+from synergrip.reports.pictures.scene import draw_solid
+from synergrip.reports.pictures.sheet import GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.solids import outline
 from synergrip.reports.pictures.view import View, best_view
 from synergrip.reports.view.scene import Frame, Scene
@@ -96,10 +96,7 @@ class _Picture:
     def _draw(self, panel: Panel, view: View, off: float) -> None:
         frame, scene = self.frame, self.scene
         if scene.shape is not None:
-            near, middle = 5.0 + float(view.depth(frame.position)), view.flat(frame.position)
-            panel.area(self._solid(view), FAINT, 0.5, near)
-            for piece, in_front in (each for line in scene.shape.lines() for each in front_and_back(line, view)):
-                panel.strokes([view.flat(piece) + middle], GREY, 0.6 if in_front else 0.25, near, dashed=not in_front)
+            draw_solid(panel, view, scene.shape, frame.position)
         lines = [view.flat(bone) for bone in frame.bones]
         for bone, line in zip(frame.bones, lines, strict=True):
             panel.strokes([line], INK, 3.0, 5.0 + float(view.depth(bone).mean()))

@@ -9,6 +9,7 @@ import numpy as np
 
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.objects import Object
+from synergrip.grasps.shapes.shape import Shape
 from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.forces import ContactForces
@@ -26,15 +27,21 @@ def draw_object(panel: Panel, view: View, body: Object, at: Array, contacts: Seq
 
     A bare mass is a cross in the polygon that its contacts make, taken in the order in which they stand around it.
     """
-    near, middle = 5.0 + float(view.depth(at)), view.flat(at)
     if body.shape is None:
+        near = 5.0 + float(view.depth(at))
         panel.area(around(view.flat(at + np.array([c.point for c in contacts]))), FAINT, 0.35, near)
-        panel.cross(middle, GREY, near)
+        panel.cross(view.flat(at), GREY, near)
         return
-    edge = outline(body.shape, view) + middle
+    draw_solid(panel, view, body.shape, at)
+
+
+def draw_solid(panel: Panel, view: View, shape: Shape, at: Array) -> None:
+    """Draw a shape translucent with its outline and lines, its centre at `at` (3,)."""
+    near, middle = 5.0 + float(view.depth(at)), view.flat(at)
+    edge = outline(shape, view) + middle
     panel.area(edge, FAINT, 0.45, near)
     panel.strokes([edge], GREY, 0.9, near)
-    for line in body.shape.lines():
+    for line in shape.lines():
         for piece, in_front in front_and_back(line, view):
             panel.strokes([view.flat(piece) + middle], GREY, 0.6 if in_front else 0.25, near, dashed=not in_front)
 
