@@ -40,6 +40,10 @@ class Unbalanced:
     forces: Array
     """(n_l,) what is added to the contact forces."""
 
+    def pressed(self, grasp: Grasp) -> float:
+        """Return what is added to a normal force of the grasp at most [N], or taken from it."""
+        return round(float(np.abs(self.forces[grasp.normal_rows]).max()), FINEST)
+
 
 def unbalanced_springs(grasp: Grasp) -> Unbalanced | None:
     """Return the springs of a grasp that are out of balance; None where there are none."""
@@ -75,10 +79,10 @@ def unbalanced_notes(grasp: Grasp) -> Iterator[str]:
                 f"without contact, and is kept from it by {torque:.3g} {torque_unit([joint.kind])}"
             )
     more = f"; and {len(told) - MOST_NAMED} more joints" if len(told) > MOST_NAMED else ""
-    pressed = round(float(np.abs(found.forces[grasp.normal_rows]).max()), FINEST)
     yield (
         "springs of the model file that no motor holds are out of balance where the grasp begins, and no plan counts "
         f"it: {'; '.join(told[:MOST_NAMED])}{more}. They would push the object by about {in_mm(found.moved)}, "
         f"({', '.join(in_mm(float(each)) for each in found.push[:3])}) along x, y, z of the palm, and change normal "
-        f"forces by up to {plain(pressed)} N (linear). Place it where they settle, or give a posture in which they do"
+        f"forces by up to {plain(found.pressed(grasp))} N (linear). Place it where they settle, or give a "
+        "posture in which they do"
     )
