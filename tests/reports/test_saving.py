@@ -59,9 +59,9 @@ def test_code_writes_the_files_of_the_command_line(name: str, tmp_path: Path) ->
         elif path.suffix == ".csv":
             assert path.read_bytes() == other.read_bytes()
         else:
-            one, two = np.load(path), np.load(other)
-            assert set(one) == set(two)
-            assert all(np.array_equal(one[key], two[key]) for key in one)
+            with np.load(path) as one, np.load(other) as two:
+                assert set(one) == set(two)
+                assert all(np.array_equal(one[key], two[key]) for key in one)
 
 
 def test_an_answer_made_in_code_is_written_without_a_problem(tmp_path: Path) -> None:
