@@ -77,7 +77,7 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
     Pads that closing does not move say where the object can be: it is moved until they touch. A hand whose fingers stop
     together, as a gripper of one motor, touches with all pads only in their middle: there it is closed on again.
     """
-    held = ~closer.moved
+    held = ~closer.joints.moved
     for _ in range(CENTRED if held.any() else 0):
         seen = closer.seen(positions, np.tile(closer.begin, (len(positions), 1)))
         positions = positions + _shift(seen.outward[:, held], seen.gaps[:, held])
