@@ -164,8 +164,8 @@ class _Way:
         """Stop joints at their limits, and those that carry pads that touch, with all that they take along."""
         ended = self.joints.at_limit(self.q[who])
         stopped = (ended[:, :, None] & self.joints.takes).any(axis=1)
-        touched = np.asarray(self.waiting[who] & (self.gaps[who] <= TOUCHING))
-        carriers = (touched[:, :, None] & self.joints.movers).any(axis=1)
+        touched = self.waiting[who] & (self.gaps[who] <= TOUCHING)
+        carriers = np.asarray((touched[:, :, None] & self.joints.movers).any(axis=1))
         stopped |= (carriers[:, :, None] & self.joints.tied).any(axis=1)
         self.moving[who] &= ~stopped
         self.waiting[who] &= ~touched

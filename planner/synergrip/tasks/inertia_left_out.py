@@ -104,4 +104,3 @@ def _rounded_up(values: Array) -> list[float]:
     kept = np.where(values > NOTHING * values.max(), values, 0.0)
     last = 10.0 ** (np.floor(np.log10(np.where(kept > 0, kept, 1.0))) - 1)
     return [float(each) for each in np.ceil(kept / last * (1 - NOTHING)) * last]
-
