@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from synergrip import Plan, Unknown, load_problem, plan
-from synergrip.grasps.unbalanced_springs import unbalanced_springs
 from synergrip.planning.check import judge_references
 from synergrip.planning.in_balance import BALANCE, out_of_balance
 from synergrip.planning.references import References
 from synergrip.reports.text.text_broken import broken
+from synergrip.statics.unbalanced_springs import unbalanced_springs
 
 JAW = """<body name="{0}" pos="{1} 0 0.1"><inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
   <joint name="{0}" type="slide" axis="{2} 0 0" range="-0.02 {3}" stiffness="{4}" damping="20"/>{5}</body>"""

@@ -10,9 +10,9 @@ import numpy as np
 
 from synergrip.documents.quantities import in_mm, plain
 from synergrip.grasps.grasp import Grasp
-from synergrip.grasps.unbalanced_springs import Unbalanced, unbalanced_springs
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Check, Outcome, Plan, Unknown
+from synergrip.statics.unbalanced_springs import Unbalanced, unbalanced_springs
 
 MOVES = 1e-4
 """How far springs may push the object [m]."""
@@ -55,6 +55,7 @@ def out_of_balance(found: Unbalanced, grasp: Grasp) -> str:
 
 
 def _check(found: Unbalanced, forces: Array) -> Check:
+    """Return what springs do to the object, and add to the largest of forces (T, n_l), as a share of what they may."""
     largest = float(np.abs(forces).max(initial=0.0))
     pressed = float(np.abs(found.forces).max()) / (PRESSES * largest) if largest else 0.0
     return Check(BALANCE, max(found.moved / MOVES, pressed), 1.0)

@@ -23,14 +23,13 @@ from synergrip.conic.limits.symmetric import Symmetric
 from synergrip.conic.limits.ties import first_worst
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.undriven import HELD
 from synergrip.hands.units import joint_kinds, synergy_kinds, torque_unit
 from synergrip.linalg import Array
 from synergrip.tasks.timed_task import TimedTask
 
 LITTLE = 1e-3
 """Share of a limit that springs may take without being told of: to about that limits are kept."""
-HELD = 0.01
-"""Share of a limit that springs may take of motors at the start without being told of where there is no plan."""
 MOST_NAMED = 6
 """Joints or synergies that a note names."""
 COUNTED = (JointTorque, ActuatorEffort, SustainedTorque, SustainedEffort)

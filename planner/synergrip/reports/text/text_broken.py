@@ -11,7 +11,6 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.conic.limits.ties import first_largest
 from synergrip.documents.quantities import both_apart, in_mm, plain, read_as
 from synergrip.documents.words import listed
-from synergrip.grasps.unbalanced_springs import unbalanced_springs
 from synergrip.linalg import Array
 from synergrip.planning.between import LIMIT
 from synergrip.planning.check import LINEAR, RIGID, Judgement
@@ -19,6 +18,7 @@ from synergrip.planning.in_balance import BALANCE, out_of_balance
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.verified import EQUILIBRIUM
+from synergrip.statics.unbalanced_springs import unbalanced_springs
 
 STABILITY = "stability"
 PULLED = 1e-6

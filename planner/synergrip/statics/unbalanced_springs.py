@@ -1,9 +1,7 @@
 """What it does to a grasp that springs which no motor holds are bent away from their balance where it begins.
 
 Contact forces of a plan begin where nothing presses; springs out of balance press there already. By the linear model of
-the grasp, with ``K_c = (C_s + J C_q J' + J S C_z S' J')^-1`` and the way dq that the joints would go without contact,
-
-    du = (G K_c G')^-1 G K_c J dq,    d lambda = K_c (J dq - G' du)
+the grasp, the way dq that the joints would go without contact shifts the springs of the contacts by J dq (`shifts`).
 """
 
 from __future__ import annotations
@@ -18,6 +16,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.hands.unbalanced import way_to_rest
 from synergrip.hands.units import SI_UNITS, torque_unit
 from synergrip.linalg import Array, frozen
+from synergrip.statics.shifts import of_shifts, total_compliance
 
 MOST_NAMED = 6
 """Joints that a note names."""
@@ -53,16 +52,11 @@ def unbalanced_springs(grasp: Grasp) -> Unbalanced | None:
     way = way_to_rest(held.hand, held.synergies, held.q, grasp.C_q)
     if not way.any():
         return None
-    G, J = grasp.G, grasp.J
-    through = J @ grasp.S
-    C = grasp.C_s + J @ grasp.C_q @ J.T + through @ grasp.C_z @ through.T
-    K = np.linalg.pinv(C, hermitian=True)
-    du = np.linalg.pinv(G @ K @ G.T, hermitian=True) @ G @ K @ J @ way
+    shift = (grasp.J @ way)[:, None]
+    forces, push = (each[:, 0] for each in of_shifts(total_compliance(grasp), grasp.G, shift))
     spots = np.array([contact.point for contact in grasp.contacts])
-    moved = float(np.linalg.norm(du[:3] + np.cross(du[3:], spots), axis=1).max())
-    return Unbalanced(
-        frozen(way), frozen(-held.hand.drives.stiffness @ way), frozen(du), moved, frozen(K @ (J @ way - G.T @ du))
-    )
+    moved = float(np.linalg.norm(push[:3] + np.cross(push[3:], spots), axis=1).max())
+    return Unbalanced(frozen(way), frozen(-held.hand.drives.stiffness @ way), frozen(push), moved, frozen(forces))
 
 
 def unbalanced_notes(grasp: Grasp) -> Iterator[str]:
