@@ -1,8 +1,7 @@
 """The pages for users: their blocks of code, run from top to bottom as a reader would run them.
 
 A block with a title is a file that the reader saves under that name; files in the folder that is named as the page are
-copied. A command or a program that is followed by a block
-``text`` prints what that block shows; one without ends well.
+copied. A command or a program that is followed by a block ``text`` prints what that block shows; one without ends well.
 """
 
 from __future__ import annotations
@@ -61,14 +60,22 @@ def blocks(page: Path) -> list[Block]:
 def judge(printed: str, shown: str, *, volatile: re.Pattern[str] | None = None) -> None:
     """Assert that words are the same, and numbers to one in the last digit that is shown.
 
-    A number without a fraction counts or names something, and is the same.
+    A number without a fraction counts or names something, and is the same; where there are none, spaces are, too.
     """
+    if not re.search(NUMBER, shown):
+        assert printed == shown
     if volatile is not None:
         printed, shown = volatile.sub("#", printed), volatile.sub("#", shown)
     assert re.sub(NUMBER, "#", printed).split() == re.sub(NUMBER, "#", shown).split()
     for number, other in zip(re.findall(NUMBER, printed), re.findall(NUMBER, shown), strict=True):
-        digits = len(other.partition("e")[0].partition(".")[2])
-        assert abs(float(number) - float(other)) <= 1.01 * (10.0**-digits if digits else 0.0), (number, other)
+        assert abs(float(number) - float(other)) <= 1.01 * last_digit(other), (number, other)
+
+
+def last_digit(number: str) -> float:
+    """Return what one more in the last digit is worth; nothing in a number without a fraction."""
+    digits, _, exponent = number.partition("e")
+    fraction = len(digits.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - fraction) if fraction else 0.0
 
 
 def commands(block: Block) -> Iterator[tuple[list[str], int | None]]:

@@ -110,9 +110,9 @@ def plain(text: str) -> str:
 
 
 def too_long(text: str, columns: int) -> list[str]:
-    """Return lines beyond the width, but for those of one word: the path of a file is never split."""
+    """Return lines beyond the width, but for the path of a file alone on its line, which is never split."""
     lines = re.split(r"[\r\n]", plain(text))
-    return [line for line in lines if len(line) > columns and len(line.split()) > 1]
+    return [line for line in lines if len(line) > columns and not re.fullmatch(r"\s*\S*/\S*", line)]
 
 
 def broken(text: str, wide: str) -> list[str]:

@@ -21,6 +21,8 @@ from synergrip.cli.app import app
 
 PAGES = {str(page.relative_to(ROOT)): page for page in user_pages()}
 RUN = [name for name, page in PAGES.items() if {"bash", "python"} & {block.kind for block in blocks(page)}]
+MADE = {"docs/in-code.md": {"ball.svg", "margins.png", *(f"out/ball/plan.{each}" for each in ("json", "npz", "csv"))}}
+"""Files that a page makes and does not show by their names."""
 KINDS = {"bash", "python", "text", "toml", "xml", "csv", "json", "console"}
 
 
@@ -31,6 +33,11 @@ def test_a_page_runs_from_top_to_bottom_and_prints_what_it_shows(
     monkeypatch.chdir(tmp_path)
     for block, printed in ran(PAGES[name]):
         judge_block(block, printed)
+    made = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
+    assert made >= MADE.get(name, set())
+    shown = " ".join(block.shown or "" for block in blocks(PAGES[name]))
+    told = set(re.findall(r"(?<!\S)out/\S+\.\w+", shown))
+    assert {path for path in made if "/export/" in path} <= told <= made
 
 
 def test_every_block_is_of_a_kind_that_is_run_or_shown() -> None:
@@ -61,6 +68,12 @@ def test_every_command_that_a_page_names_exists_with_its_options() -> None:
     assert len(named) > 30
     for command in named:
         read(shlex.split(command.partition(" > ")[0]), get_command(app))
+
+
+def test_the_commands_of_the_readme_find_their_files_in_the_checkout() -> None:
+    named = re.findall(r"\| `synergrip ([^`]+)`", PAGES["README.md"].read_text(encoding="utf-8"))
+    given = [word for command in named for word in shlex.split(command) if word.endswith((".csv", ".toml"))]
+    assert [word for word in given if not (ROOT / word).is_file()] == ["mine.toml"], "which is written"
 
 
 def anchors(text: str) -> set[str]:

@@ -35,6 +35,12 @@ def test_what_is_broken_is_named_and_not_what_nearly_is() -> None:
     assert used(value, 1.0).worst() == (2, 0)
 
 
+def test_a_contact_that_nothing_drags_at_does_not_hide_the_least_safety_factor() -> None:
+    """Its factor is that of rounding, 1e15 or more."""
+    factor = Measure("friction safety factor", "", "", np.array([[3e15, 15.0], [8.0, 2e14], [8.0, 9.0]]), NAMES, TIMES)
+    assert (factor.worst.value, factor.worst.name, factor.worst.time_s) == (8.0, "index", 0.4)
+
+
 def test_of_infinite_values_the_first_is_named() -> None:
     none = np.full((3, 2), np.inf)
     assert first_worst(-none, none) == (0, 0)

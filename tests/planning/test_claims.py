@@ -120,7 +120,8 @@ def test_altered_arrays_of_other_files_are_seen(form: str, tmp_path: Path) -> No
     write_outcome(tmp_path, outcome_document("", problem.grasp, outcome), outcome, ("json", "csv", "npz"))
     path = tmp_path / f"plan.{form}"
     if form == "npz":
-        arrays = dict(np.load(path))
+        with np.load(path) as file:
+            arrays = dict(file)
         arrays["sigma"] = arrays["sigma"] * np.where(np.arange(41)[:, None] == 7, 1.05, 1.0)
         np.savez(path, **{key: value for key, value in arrays.items() if key != "digest"})
     else:

@@ -16,7 +16,7 @@ from synergrip.referee.judge import RefereeAnswer, referee
 from synergrip.statics.analysis import analyse
 
 CHUNK = 25
-CHUNKS = 6
+CHUNKS = 8
 HARD = (1075, 1539)
 """Feasible; the forces of the first goal leave next to no room to the goal after it."""
 

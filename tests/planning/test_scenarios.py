@@ -9,12 +9,12 @@ import pytest
 from small_grasps import tripod
 
 import synergrip as sg
-from synergrip.conic.departure import EVEN
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Plan
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.statics import Response
+from synergrip.statics.shifts import EVEN
 
 WEIGHT = sg.Wrench((0, 0, -3.0, 0, 0, 0))
 SCENARIOS = sg.Scenarios(position=3e-3, normal=0.1, compliance=0.3, share=0.1, confidence=0.99, seed=4)

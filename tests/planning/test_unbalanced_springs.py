@@ -1,14 +1,17 @@
 """Springs that one motor shares and a posture bends out of balance: no tick where they push the object away."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
 
 from synergrip import Plan, Unknown, load_problem, plan
-from synergrip.grasps.unbalanced_springs import unbalanced_springs
 from synergrip.planning.check import judge_references
-from synergrip.planning.in_balance import BALANCE
+from synergrip.planning.in_balance import BALANCE, out_of_balance
 from synergrip.planning.references import References
+from synergrip.reports.text.text_broken import broken
+from synergrip.statics.unbalanced_springs import unbalanced_springs
 
 JAW = """<body name="{0}" pos="{1} 0 0.1"><inertial pos="0 0 0" mass="0.1" diaginertia="1e-4 1e-4 1e-4"/>
   <joint name="{0}" type="slide" axis="{2} 0 0" range="-0.02 {3}" stiffness="{4}" damping="20"/>{5}</body>"""
@@ -77,6 +80,13 @@ def test_such_a_grasp_has_no_tick(bent):
         assert "(-10 mm, 0 mm, 0 mm) along x, y, z of the palm" in note
     judged = judge_references(bent.grasp, answer.task, References(answer.motion.times, answer.motion.dz_r, {}))
     assert [check.name for check in judged.checks if not check.passed] == [BALANCE]
+    (told,) = broken(judged)
+    assert answer.why.startswith(told)
+
+
+def test_springs_that_press_without_pushing_are_told_by_what_they_press(bent):
+    found = replace(unbalanced_springs(bent.grasp), moved=0.0, forces=np.eye(bent.grasp.n_l)[0])
+    assert out_of_balance(found, bent.grasp).endswith("by about 0 mm and change normal forces by up to 1 N")
 
 
 def test_where_the_note_sends_the_object_they_are_in_balance(tmp_path):

@@ -47,6 +47,8 @@ def test_charts_hold_the_motion_the_limits_and_the_references_of_the_plan() -> N
     assert found["normal force"].bounds == (0.0, 20.0)
     assert found["tracking error"].label == "tracking error [mm]"
     assert found["tracking error"].bounds == (0.1,)
+    # mm, to which limits on motions are kept
+    assert found["tracking error"].values.max() == pytest.approx(0.1, abs=0.01)
     references, names = outcome.motion.dz_r, outcome.analysis.grasp.synergies
     order = [names.index(name) for name in found["synergy reference"].names]
     np.testing.assert_allclose(found["synergy reference"].values, references[:, order])
@@ -66,9 +68,10 @@ def test_torques_and_joints_are_in_percent_of_what_each_joint_may_do() -> None:
     found, usages = by_title(outcome), {usage.title: usage for usage in outcome.usages}
     torque, value = found["joint torque"], found["joint value"]
     assert (torque.label, value.label) == ("joint torque [% of limit]", "joint value [% of its range]")
-    i = usages["joint torque"].items.index(torque.names[0])
-    limits = usages["joint torque"]
-    np.testing.assert_allclose(torque.values[:, 0], 100 * limits.value[:, i] / limits.upper[i])
+    joints, limits = outcome.grasp.joints, usages["joint torque"]
+    order = [joints.index(name) for name in torque.names]
+    assert sorted(order) == list(range(len(joints)))
+    np.testing.assert_allclose(torque.values, 100 * outcome.motion.torques[:, order] / limits.upper[order])
     ranges = usages["joint value"]
     k, i = ranges.worst()
     assert value.names[0] == ranges.items[i]  # nearest to its bound

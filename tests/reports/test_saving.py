@@ -38,6 +38,13 @@ def feasible(name: str) -> Plan:
     return answer
 
 
+def without_times(value: Any) -> Any:
+    """Return a document without what differs from run to run."""
+    if isinstance(value, dict):
+        return {key: without_times(each) for key, each in value.items() if key not in ("seconds", "date")}
+    return [without_times(each) for each in value] if isinstance(value, list) else value
+
+
 @pytest.mark.parametrize("name", ["tripod", "barrett-ball-hold", "barrett-ball-lift"])
 def test_code_writes_the_files_of_the_command_line(name: str, tmp_path: Path) -> None:
     run("plan", name, "-o", str(tmp_path / "line"))
@@ -48,18 +55,13 @@ def test_code_writes_the_files_of_the_command_line(name: str, tmp_path: Path) ->
         other = tmp_path / "line" / path.name
         if path.suffix == ".json":
             found, expected = (json.loads(each.read_text(encoding="utf-8")) for each in (path, other))
-            assert set(found) == set(expected)
-            assert found["verdict"] == expected["verdict"]
-            assert found["provenance"]["problem"] == expected["provenance"]["problem"]
+            assert without_times(found) == without_times(expected)
         elif path.suffix == ".csv":
-            one, two = (each.read_text(encoding="utf-8").splitlines() for each in (path, other))
-            assert (len(one), one[0]) == (len(two), two[0])
+            assert path.read_bytes() == other.read_bytes()
         else:
-            arrays, others = np.load(path), np.load(other)
-            assert set(arrays) == set(others)
-            # another process may round otherwise in the last digits: where its arrays lie in memory decides
-            for key in (key for key in arrays if arrays[key].dtype.kind == "f"):
-                np.testing.assert_allclose(arrays[key], others[key], rtol=1e-6, atol=1e-6, err_msg=key)
+            with np.load(path) as one, np.load(other) as two:
+                assert set(one) == set(two)
+                assert all(np.array_equal(one[key], two[key]) for key in one)
 
 
 def test_an_answer_made_in_code_is_written_without_a_problem(tmp_path: Path) -> None:

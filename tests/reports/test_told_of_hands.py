@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from copy import copy
 from functools import cache
 
 import numpy as np
@@ -56,6 +57,9 @@ def test_the_softest_motion_is_what_a_wrench_along_it_makes() -> None:
     assert moved == pytest.approx(little / executed.stiffness[k] * twist, abs=2e-2 * little / executed.stiffness[k])
     assert f"N/mm at least, against {describe_kind(twist, length)}" in text
     assert "against a shift along x of the palm" in text
+    gives_way = copy(executed)
+    vars(gives_way)["_given"] = -vars(executed)["_given"]
+    assert gives_way.softest is None
 
 
 def test_motions_that_are_resisted_alike_are_counted() -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -40,7 +39,11 @@ class Assembled(Value):
 
     @property
     def far(self) -> Array:
-        """(n + 1,) bounds that no plan exceeds on |v|, and none on s: part of what the programs mean."""
+        """(n + 1,) bounds that no plan exceeds on |v|, and none on s: part of what the programs mean.
+
+        Optima are judged by these alone. What keeps the limits is within `bounds` of itself; what has less of a margin
+        than is asked for need not be, as cones that do not hold bound no force, and is the largest all the same.
+        """
         least = min(float(each.unit.min()) for each in self.cones)
         return np.array([LARGEST / least] * (self.A.shape[2] - 1) + [np.inf])
 
@@ -61,7 +64,7 @@ class Assembled(Value):
         n = self.A.shape[2]
         return ConeProblems(np.zeros((1, n, n)), -np.eye(n)[-1:], self.A, self.constant, self.sizes)
 
-    def at_margin(self, margin: float, places: Any = slice(None)) -> tuple[Array, Array]:
+    def at_margin(self, margin: float, places: Places | slice = slice(None)) -> tuple[Array, Array]:
         """Return A (..., m, n) and b (..., m) of the programs at some places, at a margin [N]."""
         A = self.A[places]
         return A[..., :-1], self.constant[places] - A[..., -1] * (margin / self.unit[places])[:, None]

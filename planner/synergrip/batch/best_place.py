@@ -57,6 +57,7 @@ FORCES = (NormalForce, JointTorque, ActuatorEffort)
 """Limits of how hard a hand may press."""
 ENOUGH = 10.0
 """Times the largest load to which normal forces are held where no limit says how hard the hand may press."""
+SEARCHING = "looking for the place of the object"
 Progress = Callable[[str, float], None]
 
 
@@ -97,9 +98,6 @@ def best_place(
     tell(SEARCHING, 1.0)
     grasp, margin = judge.written(best)
     return PlacedObject(grasp, margin, tried, touched, judge.notes(grasp, margin))
-
-
-SEARCHING = "looking for the place of the object"
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,8 +190,8 @@ class _Judge:
         held = grasp.held
         stopped = [] if held is None else np.flatnonzero(at_stops(self.asked, held.q[None])[0]).tolist()
         names = ", ".join(self.asked.hand.joint_names[joint] for joint in stopped)
-        s, what = ("s", "its stop") if len(stopped) == 1 else ("", "their stops")
-        stops = f"closed on it, {names} come{s} to {what}: no way is left there to press on"
+        come, whose = ("comes", "its stop") if len(stopped) == 1 else ("come", "their stops")
+        stops = f"closed on it, {names} {come} to {whose} within 1 % of the range: hardly any way is left to press on"
         return (*self._doubts(margin), *([stops] if stopped else []))
 
     def _doubts(self, margin: float) -> tuple[str, ...]:

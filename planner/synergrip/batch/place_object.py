@@ -36,10 +36,10 @@ def place_object(
     """Return where an object is held best by a hand that closes on it, and the grasp there.
 
     Places all over the space that the pads sweep are closed on at once. Where all contacts touch, the largest slip
-    margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts and
-    references; around the best ones it is looked again, as long as that gains, until places are 1 mm apart. A place at
-    which the skeleton of the hand stays outside the object goes before one where it does not. The same question has the
-    same answer.
+    margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts,
+    references and joint ranges (no others count); around the best ones it is looked again, as long as that gains, until
+    places are 1 mm apart. A place at which the skeleton of the hand stays outside the object goes before one where it
+    does not. The same question has the same answer.
 
     Args:
         hand: as of `make_grasp`, and so are the other arguments that it has.

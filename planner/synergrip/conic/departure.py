@@ -10,6 +10,7 @@ import numpy as np
 
 from synergrip.conic.affine import times
 from synergrip.linalg import Array, frozen
+from synergrip.statics.shifts import of_shifts
 from synergrip.values import Value
 
 if TYPE_CHECKING:
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
 Map = Callable[[Callable[["Statics"], Array]], Array]
 """Returns a map of the statics, the same at all knots or (T, ...) with one for each."""
-EVEN = 1e3
-"""[N/m] brings lengths and forces of a grasp to one size."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,8 +59,7 @@ def under_load(map_of: Map, change: Array, force: Array | None = None) -> Depart
 def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
     """Return what it adds that one contact after the other meets the object early by its gap (n_c,) [m].
 
-    The springs of the contact are shortened by g along its normal, so that with the total compliance C
-    ``C dlambda + G' du = g``, ``G dlambda = 0``: ``dlambda = (I - G+ G) K g``. Late is the opposite.
+    The springs of the contact are shortened by g along its normal. Late is the opposite.
 
     Args:
         map_of: of the formulation.
@@ -75,32 +73,12 @@ def off_place(map_of: Map, grasp: Grasp, gaps: Array) -> list[Departure]:
     ))  # fmt: skip
     of_joints = grasp.C_q + S @ grasp.C_z @ S.mT
     C = grasp.C_s + J @ of_joints @ J.mT
-    n_l = grasp.n_l
-    inverse = _of_springs(C, G)
+    own = np.flatnonzero(gaps > 0)
+    shifts = np.zeros((grasp.n_l, len(own)))
+    shifts[np.asarray(grasp.normal_rows)[own], range(len(own))] = gaps[own]
     found = []
-    for row, gap in zip(grasp.normal_rows, gaps, strict=True):
-        if gap > 0:
-            answer = inverse[..., :, row] * (gap * EVEN)
-            force = answer[..., :n_l]
-            torque = (force[..., None, :] @ J)[..., 0, :]
-            joint = -(torque[..., None, :] @ of_joints.mT)[..., 0, :]
-            parts = (force, torque, joint, answer[..., n_l:] / EVEN)
-            found.append(Departure(*(frozen(np.atleast_2d(part)) for part in parts)))
+    for force, moved in zip(*(np.moveaxis(each, -1, 0) for each in of_shifts(C, G, shifts)), strict=True):
+        torque = (force[..., None, :] @ J)[..., 0, :]
+        joint = -(torque[..., None, :] @ of_joints.mT)[..., 0, :]
+        found.append(Departure(*(frozen(np.atleast_2d(part)) for part in (force, torque, joint, moved))))
     return found
-
-
-def normal_stiffness(grasp: Grasp) -> Array:
-    """Return by how much the normal force of each contact (n_c,) [N/m] changes with its own gap: ``(I - G+ G) K``.
-
-    That is the stiffness of contact, joints and synergies, with the object free to give way to the other contacts.
-    """
-    C = grasp.C_s + grasp.J @ (grasp.C_q + grasp.S @ grasp.C_z @ grasp.S.T) @ grasp.J.T
-    rows = np.asarray(grasp.normal_rows)
-    return frozen(EVEN * np.diag(_of_springs(C, grasp.G))[rows])
-
-
-def _of_springs(C: Array, G: Array) -> Array:
-    """Return the inverse of ``C dlambda + G' du = g``, ``G dlambda = 0``, with C times `EVEN`; leading axes ... ."""
-    upper = np.concatenate([C * EVEN, G.mT], axis=-1)
-    lower = np.concatenate([G, np.zeros((*G.shape[:-1], 6))], axis=-1)
-    return np.linalg.pinv(np.concatenate([upper, lower], axis=-2))  # an object that is free to move stays

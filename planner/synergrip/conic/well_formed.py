@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.conic.arguments import is_own
 from synergrip.conic.formulation import Affine, Formulation
 from synergrip.conic.goals.goal import Goal, Objective, Squares
 from synergrip.conic.limits.limit import WATCHES, Limit, Usage
@@ -53,7 +54,7 @@ def refuse_malformed(limits: Sequence[Limit], goals: Sequence[Goal], formulation
 
 def _of_ones_own(part: Limit | Goal) -> bool:
     """Return whether somebody else wrote it: what the library has is tested."""
-    return not type(part).__module__.startswith("synergrip.")
+    return is_own(type(part))
 
 
 def _judge_words(part: Limit | Goal, name: str, value: object) -> None:

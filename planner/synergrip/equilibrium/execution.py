@@ -153,12 +153,14 @@ class Execution(Value):
         """The motions of the object against which it is held least, where it is.
 
         (m, 6) independent twists about its origin [m, rad], axes of the palm, of length 1 where turns count with the
-        length of the grasp: one, or all that are resisted alike. None where hand and object give way together.
+        length of the grasp: one, or all that are resisted alike. None where it is not held against all of them.
         """
         k = int(np.argmin(self.stiffness))
         if self._lacking[k] < 0 or not self.regular[k]:
             return None
         values, vectors = np.linalg.eigh(self._given[k])
+        if values[0] < 0:
+            return None
         twists = vectors.T[values >= (1 - ALIKE) * values[-1]][::-1]
         return frozen(twists / np.array([1.0, 1.0, 1.0, *[self.setting.length] * 3]))
 

@@ -12,19 +12,13 @@ import numpy as np
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.ball import MEETS, REACH
+from synergrip.grasps.closing_joints import MOST_STEPS, ClosingJoints
 from synergrip.grasps.first_touch import TOUCHING, Gaps, first_touch
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch
 from synergrip.grasps.stops import Flags, Stop, advice
 from synergrip.hands.hand import Hand
 from synergrip.linalg import Array, frozen
-
-STEP = {"hinge": float(np.radians(1.0)), "slide": 2e-3}
-"""The fastest joint moves this far between two looks at the distances [rad or m]."""
-MOST_STEPS = 720.0
-"""Steps without an event after which a hand is given up: two turns of the fastest joint."""
-AT_LIMIT = 1e-12
-"""A joint this close to its limit is at it [rad or m, relative to a limit larger than 1]."""
 
 
 def close(hand: Hand, q: Array, direction: Array, body: Object, touches: Sequence[Touch], key: str = "close") -> Array:
@@ -50,7 +44,8 @@ def close(hand: Hand, q: Array, direction: Array, body: Object, touches: Sequenc
     missing = list(unknown_surface(body))
     if body.shape is None or missing:
         raise InputError(missing)
-    closing = _Closing.of(hand, direction, Gaps(hand, body.shape, body.position, touches))
+    gaps = Gaps(hand, body.shape, body.position, touches)
+    closing = _Closing(hand, gaps, ClosingJoints.of(hand, direction, touches))
     state = closing.start(q)
     if not state.waiting.any():
         raise InputError.at(key, "moves none of the pads that are to touch")
@@ -96,32 +91,12 @@ class _Closing:
 
     hand: Hand
     gaps: Gaps
-    direction: Array
-    """(n_q,) joint motion of closing by 1."""
-    step: Array
-    """(n_q,) `STEP` of each joint."""
-    lower: Array  # (n_q,)
-    upper: Array  # (n_q,)
-    movers: Flags
-    """(n_c, n_q) the joint carries the pad."""
-    takes: Flags
-    """(n_q, n_q) the joint of the row stops that of the column when it comes to its limit."""
-    tied: Flags
-    """(n_q, n_q) the two joints are rigidly coupled, or are the same."""
-
-    @classmethod
-    def of(cls, hand: Hand, direction: Array, gaps: Gaps) -> _Closing:
-        """Scale the direction to steps, and read from the hand which joints move and take along what."""
-        step = np.array([STEP[joint.kind] for joint in hand.joints])
-        carriers = [set(hand.carriers(touch.pad.link)) for touch in gaps.touches]
-        movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
-        lower, upper = (np.array([getattr(joint, end) for joint in hand.joints]) for end in ("lower", "upper"))
-        return cls(hand, gaps, direction, step, lower, upper, movers, *coupled(hand))
+    joints: ClosingJoints
 
     def start(self, q: Array) -> _State:
         """Return the state at the start; a value that rounding put past its limit is put back."""
-        inside, moving = np.clip(q, self.lower, self.upper), self.direction != 0
-        return _State(inside, moving, (self.movers & moving).any(axis=1), {}, ((0.0, inside),))
+        inside = self.joints.inside(q)
+        return _State(inside, self.joints.closing, self.joints.moved, {}, ((0.0, inside),))
 
     def inside(self, state: _State) -> Iterator[Issue]:
         """Yield one issue for each pad that waits inside the object."""
@@ -137,16 +112,16 @@ class _Closing:
     def stopped(self, state: _State) -> _State:
         """Return the state with the joints stopped that are at their limits or carry a pad that touches."""
         names, stops, waiting = self.hand.joint_names, dict(state.stops), state.waiting.copy()
-        at_limit = self._at_limit(state)
+        at_limit = self.joints.at_limit(state.q)
         for joint in np.flatnonzero(at_limit).tolist():
-            for other in np.flatnonzero(self.takes[joint]).tolist():
+            for other in np.flatnonzero(self.joints.takes[joint]).tolist():
                 cause = other if at_limit[other] else joint
                 why = "at its limit" if at_limit[other] else f"stopped with {names[joint]}"
                 stops.setdefault(other, Stop(why, limit=cause))
         for pad, gap in self._waiting_gaps(state):
             if gap <= TOUCHING:
                 waiting[pad] = False
-                for joint in np.flatnonzero(self.tied[self.movers[pad]].any(axis=0)).tolist():
+                for joint in np.flatnonzero(self.joints.tied[self.joints.movers[pad]].any(axis=0)).tolist():
                     why = f"stopped when pad '{self.gaps.touches[pad].pad.name}' touched"
                     stops.setdefault(joint, Stop(why, pad=pad))
         moving = state.moving.copy()
@@ -155,26 +130,26 @@ class _Closing:
 
     def coming(self, state: _State) -> list[int]:
         """Return the pads that wait and still move."""
-        return [int(pad) for pad in np.flatnonzero(state.waiting & (self.movers & state.moving).any(axis=1))]
+        return [int(pad) for pad in np.flatnonzero(state.waiting & (self.joints.movers & state.moving).any(axis=1))]
 
     def advanced(self, state: _State, pads: Sequence[int]) -> _State:
         """Return the state at the next event: the first of the pads touches, or a joint comes to its limit."""
-        moved = np.where(state.moving, self.direction, 0.0)
-        scale = 1 / float(np.max(np.abs(moved) / self.step))
+        moved = np.where(state.moving, self.joints.direction, 0.0)
+        scale = 1 / float(np.max(np.abs(moved) / self.joints.step))
         rate = scale * moved
-        room = float(((self._limit() - state.q)[state.moving] / rate[state.moving]).min())
+        room = float(((self.joints.limit - state.q)[state.moving] / rate[state.moving]).min())
         event = first_touch(self.gaps, state.q, rate, min(room, MOST_STEPS), pads)
         steps, stops = min(room, MOST_STEPS) if event is None else event[0], dict(state.stops)
         if event is None and room > MOST_STEPS:
             stops |= dict.fromkeys(np.flatnonzero(state.moving).tolist(), Stop("moves without end"))
-        q = np.clip(state.q + steps * rate, self.lower, self.upper)
+        q = self.joints.inside(state.q + steps * rate)
         closed = state.trail[-1][0] + steps * scale
         return replace(state, q=q, stops=stops, trail=(*state.trail, (closed, q)))
 
     def missed(self, state: _State) -> Iterator[Issue]:
         """Yield one issue for each pad that still waits: how close it came, where, and what stopped it."""
         for pad, now in self._waiting_gaps(state):
-            touch, movers = self.gaps.touches[pad], self.movers[pad] & (self.direction != 0)
+            touch, movers = self.gaps.touches[pad], self.joints.movers[pad] & self.joints.closing
             stops = {j: state.stops[j] for j in np.flatnonzero(movers).tolist()}
             # tied to a pad that touches, it is as near as a contact has to be; at a limit it never presses
             if now <= (MEETS if all(stop.pad is None for stop in stops.values()) else REACH):
@@ -184,7 +159,7 @@ class _Closing:
             yield Issue(
                 f"pad '{touch.pad.name}' does not reach the {self.gaps.shape.title}: at its closest, closed by "
                 f"{closed:.4g}, it is {in_mm(gap)} away ({', '.join(why)}); "
-                f"{advice(self.hand, self.direction, self.movers, pad, stops)}",
+                f"{advice(self.hand, self.joints.direction, self.joints.movers, pad, stops)}",
                 key=touch.key,
             )
 
@@ -192,47 +167,11 @@ class _Closing:
         """Yield the distance of a pad, and how far the hand was closed, once a step and at every event."""
         yield float(self.gaps.at(state.trail[0][1], [pad])[0][0]), 0.0
         for (before, a), (after, b) in pairwise(state.trail):
-            looks = math.ceil(np.max(np.abs(b - a) / self.step))
+            looks = math.ceil(np.max(np.abs(b - a) / self.joints.step))
             for share in np.linspace(0.0, 1.0, looks + 1)[1:]:
                 gap = float(self.gaps.at(a + share * (b - a), [pad])[0][0])
                 yield gap, before + float(share) * (after - before)
 
-    def _limit(self) -> Array:
-        return np.where(self.direction > 0, self.upper, self.lower)
-
-    def _at_limit(self, state: _State) -> Flags:
-        """Return which joints (n_q,) have come to the end of their range."""
-        limit = self._limit()
-        near = AT_LIMIT * np.maximum(np.abs(np.where(np.isfinite(limit), limit, 0.0)), 1.0)
-        return np.asarray((np.abs(limit - state.q) <= near) & (self.direction != 0))
-
     def _waiting_gaps(self, state: _State) -> list[tuple[int, float]]:
         pads = [int(pad) for pad in np.flatnonzero(state.waiting)]
         return list(zip(pads, self.gaps.at(state.q, pads)[0].tolist(), strict=True))
-
-
-def coupled(hand: Hand) -> tuple[Flags, Flags]:
-    """Return two tables (n_q, n_q): the joint of the row takes that of the column along, and the two are tied."""
-    return _takes(hand), _tied(hand)
-
-
-def _takes(hand: Hand) -> Flags:
-    """Return (n_q, n_q) bool: the joint of the column follows that of the row, or the two are tied."""
-    index = {name: i for i, name in enumerate(hand.joint_names)}
-    takes = _tied(hand)
-    for _ in hand.couplings:  # followers of followers
-        for follower, coupling in hand.couplings.items():
-            for driver in coupling.ratios:
-                takes[:, index[follower]] |= takes[:, index[driver]]
-    return takes
-
-
-def _tied(hand: Hand) -> Flags:
-    """Return (n_q, n_q) bool: the two joints are rigidly coupled, directly or through others, or are the same."""
-    index = {name: i for i, name in enumerate(hand.joint_names)}
-    tied = np.eye(len(index), dtype=bool)
-    for follower, coupling in hand.couplings.items():
-        if coupling.rigid:
-            together = tied[[index[follower], *(index[driver] for driver in coupling.ratios)]].any(axis=0)
-            tied[np.ix_(together, together)] = True
-    return tied

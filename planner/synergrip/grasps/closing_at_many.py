@@ -9,13 +9,13 @@ import numpy as np
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import MEETS
-from synergrip.grasps.closing import AT_LIMIT, MOST_STEPS, STEP, coupled
+from synergrip.grasps.closing_joints import MOST_STEPS, ClosingJoints
 from synergrip.grasps.stops import Flags
 from synergrip.linalg import Array, Places
 from synergrip.values import Value
 
 STRIDE = 2.0
-"""A look at the distances takes so many times `STEP` of the fastest joint; what is thinner may be missed."""
+"""A look at the distances takes so many times the `step` of the fastest joint; what is thinner may be missed."""
 TOUCHING = 1e-6
 """A pad this close to the surface touches it [m]."""
 NARROWED = 60
@@ -57,21 +57,11 @@ class Closer:
         """
         if asked.closing is None or asked.body.shape is None:
             raise InputError.at("close", "missing; where an object is to be is found by a hand that closes on it")
-        self.asked, self.closing, self.shape = asked, asked.closing, asked.body.shape
-        hand = asked.hand
+        self.asked, self.shape = asked, asked.body.shape
+        self.joints = ClosingJoints.of(asked.hand, asked.closing, asked.touches)
         self.pads = [touch.pad for touch in asked.touches]
         self.radii = np.array([pad.radius for pad in self.pads])
-        self.step = STRIDE * np.array([STEP[joint.kind] for joint in hand.joints])
-        self.lower, self.upper = (np.array([getattr(j, end) for j in hand.joints]) for end in ("lower", "upper"))
-        carriers = [set(hand.carriers(pad.link)) for pad in self.pads]
-        self.movers = np.array([[joint.link in links for joint in hand.joints] for links in carriers])
-        self.takes, self.tied = coupled(hand)
-        self.begin = np.clip(asked.q, self.lower, self.upper)
-
-    @property
-    def moved(self) -> Flags:
-        """(n_c,) which pads closing moves."""
-        return np.asarray((self.movers & (self.closing != 0)).any(axis=1))
+        self.begin = self.joints.inside(asked.q)
 
     def seen(self, positions: Array, q: Array) -> ClosedAtMany:
         """Return what is seen of the pads at joint values (N, n_q) with the object at `positions` (N, 3)."""
@@ -83,21 +73,25 @@ class Closer:
         facing = np.where(aimed, -(pushing * outward).sum(axis=-1), 1.0)
         return ClosedAtMany(positions, q, np.asarray(gaps - self.radii), np.asarray(outward), np.asarray(facing))
 
+    def gaps(self, positions: Array, q: Array) -> Array:
+        """Return how far pads are from the surface (N, n_c) [m], of what `seen` sees."""
+        places = self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
+        return np.asarray(self.shape.surface(places - positions[:, None])[0] - self.radii)
+
     def path(self, looks: int = 24) -> Array:
         """Return where each pad comes (looks, n_c, 3) [m] as the hand closes on nothing."""
-        limit = np.where(self.closing > 0, self.upper, self.lower)
-        far = np.where(np.isfinite(limit), limit, self.begin + np.pi * np.sign(self.closing))
-        share = np.where(self.closing != 0, (far - self.begin) / np.where(self.closing != 0, self.closing, 1.0), 0.0)
-        whole = np.linspace(0.0, float(share.max()), looks)[:, None] * self.closing
-        q = np.clip(self.begin + whole, self.lower, self.upper)
+        joints, along = self.joints, self.joints.direction
+        far = np.where(np.isfinite(joints.limit), joints.limit, self.begin + np.pi * np.sign(along))
+        share = np.where(joints.closing, (far - self.begin) / np.where(joints.closing, along, 1.0), 0.0)
+        q = joints.inside(self.begin + np.linspace(0.0, float(share.max()), looks)[:, None] * along)
         return self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
 
     def closed(self, positions: Array) -> ClosedAtMany:
         """Return the hand closed on the object at each of `positions` (N, 3) where no pad begins inside it."""
         first = self.seen(positions, np.tile(self.begin, (len(positions), 1)))
-        outside = ~np.any((first.gaps < -TOUCHING) & self.moved, axis=1)
+        outside = ~np.any((first.gaps < -TOUCHING) & self.joints.moved, axis=1)
         positions = positions[outside]
-        way = _Way(self, positions)
+        way = _Way(self, positions, first.gaps[outside])
         for _ in range(int(MOST_STEPS)):
             going = way.going()
             if not len(going):
@@ -109,36 +103,39 @@ class Closer:
 class _Way:
     """Hands on their way, one for each place of the object; its arrays change as they go."""
 
-    def __init__(self, closer: Closer, positions: Array) -> None:
-        self.of, self.positions, count = closer, positions, len(positions)
-        self.q = np.tile(closer.begin, (count, 1))
-        self.moving = np.tile(closer.closing != 0, (count, 1))
-        self.waiting = np.tile(closer.moved, (count, 1))
+    def __init__(self, closer: Closer, positions: Array, gaps: Array) -> None:
+        """Begin where pads are as far from the surface as `gaps` (N, n_c) say."""
+        self.of, self.joints, self.positions, count = closer, closer.joints, positions, len(positions)
+        self.q, self.gaps = np.tile(closer.begin, (count, 1)), gaps
+        self.moving = np.tile(self.joints.closing, (count, 1))
+        self.waiting = np.tile(self.joints.moved, (count, 1))
         self._stop(np.arange(count))
 
     def going(self) -> Places:
         """Return the places whose hands have pads that wait and still move."""
-        carried = (self.moving[:, None, :] & self.of.movers).any(axis=2)
+        carried = (self.moving[:, None, :] & self.joints.movers).any(axis=2)
         return np.flatnonzero((self.waiting & carried).any(axis=1))
 
     def on(self, who: Places) -> None:
         """Let some hands go a step on, or to the first touch or limit within it."""
-        rate = np.where(self.moving[who], self.of.closing, 0.0)
-        rate /= (np.abs(rate) / self.of.step).max(axis=1, keepdims=True)
-        limit = np.where(self.of.closing > 0, self.of.upper, self.of.lower)
+        rate = np.where(self.moving[who], self.joints.direction, 0.0)
+        rate /= (np.abs(rate) / (STRIDE * self.joints.step)).max(axis=1, keepdims=True)
         with np.errstate(divide="ignore", invalid="ignore"):
-            room = np.where(rate != 0, (limit - self.q[who]) / rate, np.inf)
+            room = np.where(rate != 0, (self.joints.limit - self.q[who]) / rate, np.inf)
         far = np.minimum(room.min(axis=1), 1.0)
-        nearest = self._nearest(who, self.q[who] + far[:, None] * rate)
-        hit = np.flatnonzero(nearest < 0)
+        q = self.joints.inside(self.q[who] + far[:, None] * rate)
+        gaps = self.of.gaps(self.positions[who], q)
+        beyond = self._nearest(who, gaps)
+        hit = np.flatnonzero(beyond < 0)
         if len(hit):
-            far[hit] = self._touch(who[hit], rate[hit], far[hit], nearest[hit])
-        self.q[who] = np.clip(self.q[who] + far[:, None] * rate, self.of.lower, self.of.upper)
+            far[hit] = self._touch(who[hit], rate[hit], far[hit], beyond[hit])
+            q[hit] = self.joints.inside(self.q[who[hit]] + far[hit, None] * rate[hit])
+            gaps[hit] = self.of.gaps(self.positions[who[hit]], q[hit])
+        self.q[who], self.gaps[who] = q, gaps
         self._stop(who)
 
-    def _nearest(self, who: Places, q: Array) -> Array:
+    def _nearest(self, who: Places, gaps: Array) -> Array:
         """Return the least distance (k,) of the pads that wait."""
-        gaps = self.of.seen(self.positions[who], q).gaps
         return np.asarray(np.where(self.waiting[who], gaps, np.inf).min(axis=1))
 
     def _touch(self, who: Places, rate: Array, far: Array, beyond: Array) -> Array:
@@ -151,12 +148,12 @@ class _Way:
             beyond: (k,) how deep, below 0 [m].
         """
         low, high, inside = np.zeros(len(who)), far.copy(), beyond.copy()
-        outside = gap = self._nearest(who, self.q[who])
+        outside = gap = self._nearest(who, self.gaps[who])
         for turn in range(NARROWED):
             if np.all(gap < TOUCHING / 2):
                 break
             share = (low + high) / 2 if turn % 4 == 3 else low + (high - low) * outside / (outside - inside)
-            found = self._nearest(who, self.q[who] + share[:, None] * rate)
+            found = self._nearest(who, self.of.gaps(self.positions[who], self.q[who] + share[:, None] * rate))
             deep = found < 0
             outside = np.where(deep, outside / 2, found)  # the end that stays counts less, or it would stay for good
             inside = np.where(deep, found, inside / 2)
@@ -165,13 +162,10 @@ class _Way:
 
     def _stop(self, who: Places) -> None:
         """Stop joints at their limits, and those that carry pads that touch, with all that they take along."""
-        of, q = self.of, self.q[who]
-        limit = np.where(of.closing > 0, of.upper, of.lower)
-        near = AT_LIMIT * np.maximum(np.abs(np.where(np.isfinite(limit), limit, 0.0)), 1.0)
-        ended = (np.abs(limit - q) <= near) & (of.closing != 0)
-        stopped = (ended[:, :, None] & of.takes).any(axis=1)
-        touched = self.waiting[who] & (of.seen(self.positions[who], q).gaps <= TOUCHING)
-        carriers = (touched[:, :, None] & of.movers).any(axis=1)
-        stopped |= (carriers[:, :, None] & of.tied).any(axis=1)
+        ended = self.joints.at_limit(self.q[who])
+        stopped = (ended[:, :, None] & self.joints.takes).any(axis=1)
+        touched = self.waiting[who] & (self.gaps[who] <= TOUCHING)
+        carriers = np.asarray((touched[:, :, None] & self.joints.movers).any(axis=1))
+        stopped |= (carriers[:, :, None] & self.joints.tied).any(axis=1)
         self.moving[who] &= ~stopped
         self.waiting[who] &= ~touched

@@ -49,8 +49,7 @@ class TouchingPlaces(Value):
 
     def different(self) -> TouchingPlaces:
         """Return them without those that stand twice, in their order."""
-        _, first = np.unique(np.round(self.positions, 6), axis=0, return_index=True)
-        return self.taken(np.sort(first))
+        return self.taken(_different(self.positions, digits=6))
 
 
 def space(closer: Closer) -> tuple[Array, float]:
@@ -67,8 +66,7 @@ def around(positions: Array, apart: float) -> Array:
     """Return the places next to some (N, 3), `apart` [m], without those that stand twice."""
     steps = _box(np.full(3, -apart), apart, np.full(3, 3))
     near = (positions[:, None] + steps).reshape(-1, 3)
-    _, first = np.unique(np.round(near, 9), axis=0, return_index=True)
-    return np.asarray(near[np.sort(first)])
+    return np.asarray(near[_different(near, digits=9)])
 
 
 def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
@@ -77,7 +75,7 @@ def closed_and_centred(closer: Closer, positions: Array) -> ClosedAtMany:
     Pads that closing does not move say where the object can be: it is moved until they touch. A hand whose fingers stop
     together, as a gripper of one motor, touches with all pads only in their middle: there it is closed on again.
     """
-    held = ~closer.moved
+    held = ~closer.joints.moved
     for _ in range(CENTRED if held.any() else 0):
         seen = closer.seen(positions, np.tile(closer.begin, (len(positions), 1)))
         positions = positions + _shift(seen.outward[:, held], seen.gaps[:, held])
@@ -192,6 +190,12 @@ def _away(gap: float, facing: float) -> str:
 def _shift(outward: Array, gaps: Array) -> Array:
     """Return by how much objects are to be moved (N, 3) for their pads' gaps (N, k) to vanish, as nearly as it goes."""
     return np.asarray((np.linalg.pinv(outward, rcond=1e-6) @ gaps[..., None])[..., 0])
+
+
+def _different(positions: Array, digits: int) -> Places:
+    """Return which of positions (N, 3) [m] are no second ones, in their order, with so many digits."""
+    _, first = np.unique(np.round(positions, digits), axis=0, return_index=True)
+    return np.sort(first)
 
 
 def _box(begin: Array, apart: float, counts: Array) -> Array:

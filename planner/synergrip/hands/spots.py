@@ -34,15 +34,12 @@ def spots_of(hand: Hand, q: Array, others: Sequence[Pad] = ()) -> tuple[Spot, ..
     ends = [link for link in hand.links if link not in carrying and link not in padded]
     asked = [*((pad.link, pad.point) for pad in pads), *((link, np.zeros(3)) for link in ends)]
     motions = hand.kinematics.at(q, asked)
-    pushing = (
-        frozen(m.rotation @ pad.normal) if np.any(pad.normal) else None for pad, m in zip(pads, motions, strict=False)
+    of_pads, bare = motions[: len(pads)], motions[len(pads) :]
+    found = (
+        Spot(pad.name, pad.link, True, at.position, frozen(at.rotation @ pad.normal) if np.any(pad.normal) else None)
+        for pad, at in zip(pads, of_pads, strict=True)
     )
-    found = [
-        Spot(pad.name, pad.link, True, motion.position, normal)
-        for pad, motion, normal in zip(pads, motions, pushing, strict=False)
-    ]
-    bare = zip(ends, motions[len(pads) :], strict=True)
-    return (*found, *(Spot(link, link, False, motion.position, None) for link, motion in bare))
+    return (*found, *(Spot(link, link, False, at.position, None) for link, at in zip(ends, bare, strict=True)))
 
 
 def rest_posture(hand: Hand, synergies: SynergySet | None = None) -> Array:

@@ -52,7 +52,8 @@ class Measure(Value):
     @property
     def worst(self) -> Worst:
         """Where it is worst, and when first."""
-        k, i = first_worst(self.value if self.most_is_worst else -self.value, self.value)
+        scale = None if self.unit else 1.0  # quotients are 1 where something ends, and huge by rounding
+        k, i = first_worst(self.value if self.most_is_worst else -self.value, self.value, scale=scale)
         return Worst(float(self.value[k, i]), self.items[i], float(self.times[k]))
 
 

@@ -13,7 +13,6 @@ from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckE
 from synergrip.grasps.chosen_tangents import tangent_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import grasp_doubts
-from synergrip.grasps.unbalanced_springs import unbalanced_notes
 from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.first_goal import Planner
@@ -28,6 +27,7 @@ from synergrip.planning.solvers import SOLVERS, Answerer, answerer
 from synergrip.planning.springs import limits_with_springs
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.restraint import NO_LOAD
+from synergrip.statics.unbalanced_springs import unbalanced_notes
 from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask

@@ -33,7 +33,7 @@ Judge = Callable[[Walk, Walker], Plan | Unknown]
 
 
 def answered(walker: Walker, begin: Begin, judge: Judge) -> Plan | Unknown:
-    """Return the answer that passes come to; where none is a plan, of those that got farthest.
+    """Return the answer that passes come to; where none is a plan, that of those by the goals that got farthest.
 
     Args:
         walker: who walks.

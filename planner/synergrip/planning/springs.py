@@ -20,16 +20,16 @@ from synergrip.conic.limits.sustained import so_far
 from synergrip.conic.limits.sustained_effort import SustainedEffort
 from synergrip.conic.limits.sustained_torque import SustainedTorque
 from synergrip.conic.limits.symmetric import Symmetric
+from synergrip.conic.limits.ties import first_worst
 from synergrip.equilibrium.execution import Execution
 from synergrip.grasps.grasp import Grasp
+from synergrip.hands.undriven import HELD
 from synergrip.hands.units import joint_kinds, synergy_kinds, torque_unit
 from synergrip.linalg import Array
 from synergrip.tasks.timed_task import TimedTask
 
 LITTLE = 1e-3
 """Share of a limit that springs may take without being told of: to about that limits are kept."""
-HELD = 0.01
-"""Share of a limit that springs may take of motors at the start without being told of where there is no plan."""
 MOST_NAMED = 6
 """Joints or synergies that a note names."""
 COUNTED = (JointTorque, ActuatorEffort, SustainedTorque, SustainedEffort)
@@ -129,8 +129,9 @@ def _missed(
     """Yield a note where values (T, m) with springs are beyond a limit, beside those of contacts alone."""
     whole = alone + springs
     share, more = np.abs(whole) / most, (np.abs(whole) - np.abs(alone)) / most
-    k, i = np.unravel_index(int(np.argmax(np.where(more > LITTLE, share, 0.0))), share.shape)
-    if share[k, i] > 1 and more[k, i] > LITTLE:
+    beyond = np.where((share > 1) & (more > LITTLE), share, 0.0)
+    if beyond.any():
+        k, i = first_worst(beyond, beyond)
         item = items[i]
         yield (
             f"with the springs of the model file, which {limit.key} does not count, '{item.name}' needs "
@@ -145,8 +146,9 @@ def _missed_in_the_mean(
     """Yield a note where the root of the mean square over the time is beyond a limit with springs."""
     without, whole = (so_far(times, each, goes_on=hold).max(axis=0) for each in (alone, alone + springs))
     share, more = whole / most[0], (whole - without) / most[0]
-    i = int(np.argmax(np.where(more > LITTLE, share, 0.0)))
-    if share[i] > 1 and more[i] > LITTLE:
+    beyond = np.where((share > 1) & (more > LITTLE), share, 0.0)
+    if beyond.any():
+        _, i = first_worst(beyond[None], beyond[None])
         item = items[i]
         yield (
             f"with the springs of the model file, which {limit.key} does not count, '{item.name}' needs "

@@ -20,7 +20,6 @@ from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
-from synergrip.grasps.unbalanced_springs import unbalanced_notes
 from synergrip.linalg import frozen
 from synergrip.problems.contact_factors import with_factors
 from synergrip.problems.doubts import doubts_of, spot_notes
@@ -30,6 +29,7 @@ from synergrip.problems.loads import Keys, stated_at, task_of
 from synergrip.problems.problem_file import ProblemFile, parsed, read_problem_file
 from synergrip.problems.problem_table import problem_html
 from synergrip.problems.problem_values import document_of
+from synergrip.statics.unbalanced_springs import unbalanced_notes
 from synergrip.tasks.plausible import task_doubts
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import MAXIMISED, TimedTask

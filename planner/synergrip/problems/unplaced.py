@@ -48,4 +48,4 @@ def unplaced_problem(name: str, overrides: Sequence[str] = ()) -> UnplacedProble
 
 
 def _located(document: Document, error: InputError) -> InputError:
-    return error.located(in_file).located(lambda issue: issue if issue.file else document.locate(issue))
+    return error.located(in_file).located(document.locate)

@@ -31,13 +31,24 @@ class Inertia:
         """Return the wrench (T, 6) about B: force ``-m a``, moment ``-(I alpha + omega x I omega)`` (Euler)."""
         omega, alpha = self.palm.rotation_rates(times)
         force = -self.mass * self.palm.acceleration(self.centre, times)
-        moment = -(alpha @ self.tensor.T + np.cross(omega, omega @ self.tensor.T))
-        return np.hstack([force, moment])
+        return np.hstack([force, inertial_moment(self.tensor, omega, alpha)])
 
     @property
     def marks(self) -> Marks:
         """Those of the motion of the palm."""
         return marks_of(self.palm)
+
+
+def inertial_moment(tensor: Array, omega: Array, alpha: Array) -> Array:
+    """Return the moment (T, 3) by which a body resists its rotation: ``-(I alpha + omega x I omega)`` (Euler).
+
+    Args:
+        tensor: (3, 3) about its centre, or (T, 3, 3), in the axes of the others [kg m^2].
+        omega: (T, 3) angular velocity [rad/s].
+        alpha: (T, 3) angular acceleration [rad/s^2].
+    """
+    spin, slow = ((tensor @ each[..., None])[..., 0] for each in (omega, alpha))
+    return np.asarray(-(slow + np.cross(omega, spin)))
 
 
 def inertia(body: Object | None, palm: PalmInWorld) -> Inertia:

@@ -22,8 +22,9 @@ from synergrip.documents.quantities import plain
 from synergrip.errors import Issue
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
+from synergrip.tasks.inertia import inertial_moment
 from synergrip.tasks.marks import distinct
-from synergrip.tasks.palm_in_world import PalmInWorld
+from synergrip.tasks.palm_in_world import PalmInWorld, acceleration_of
 from synergrip.tasks.palm_motion import Palm
 from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
@@ -91,11 +92,11 @@ def _left_out(palm: PalmInWorld, mass: float, tensor: Array, course: Course, tim
     changes = np.gradient(rates, times, axis=0, edge_order=2)
     omega, alpha = palm.rotation_rates(times)
     d, v, a = moved[:, :3], rates[:, :3], changes[:, :3]
-    force = -mass * (np.cross(alpha, d) + np.cross(omega, np.cross(omega, d)) + 2 * np.cross(omega, v) + a)
+    force = -mass * acceleration_of(d, a + 2 * np.cross(omega, v), omega, alpha)
     R = Rotation.from_rotvec(np.array(moved[:, 3:])).as_matrix()
     turned = R @ tensor @ R.transpose(0, 2, 1)
-    whole = _moment(turned, omega + rates[:, 3:], alpha + np.cross(omega, rates[:, 3:]) + changes[:, 3:])
-    return np.hstack([force, whole - _moment(np.broadcast_to(tensor, R.shape), omega, alpha)])
+    whole = inertial_moment(turned, omega + rates[:, 3:], alpha + np.cross(omega, rates[:, 3:]) + changes[:, 3:])
+    return np.hstack([force, whole - inertial_moment(tensor, omega, alpha)])
 
 
 def _rounded_up(values: Array) -> list[float]:
@@ -103,9 +104,3 @@ def _rounded_up(values: Array) -> list[float]:
     kept = np.where(values > NOTHING * values.max(), values, 0.0)
     last = 10.0 ** (np.floor(np.log10(np.where(kept > 0, kept, 1.0))) - 1)
     return [float(each) for each in np.ceil(kept / last * (1 - NOTHING)) * last]
-
-
-def _moment(tensors: Array, omega: Array, alpha: Array) -> Array:
-    """Return the moment (T, 3) of the inertia of bodies with tensors (T, 3, 3) in the axes of omega and alpha."""
-    spin, slow = (np.einsum("kij,kj->ki", tensors, each) for each in (omega, alpha))
-    return np.asarray(-(slow + np.cross(omega, spin)))

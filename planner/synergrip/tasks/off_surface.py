@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from synergrip.conic.departure import normal_stiffness
 from synergrip.documents.quantities import in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.ball import WRITTEN
 from synergrip.grasps.grasp import Grasp
+from synergrip.statics.shifts import normal_stiffness
 from synergrip.tasks.timed_task import TimedTask
 
 ROUNDING = 1e-9  # [m]

@@ -33,7 +33,7 @@ def marks_of(palm: PalmInWorld) -> Marks:
 
 
 def acceleration_of(point: Array, origin: Array, omega: Array, alpha: Array) -> Array:
-    """Return the acceleration (T, 3) of a point (3,) fixed to a body: of its origin, tangential, centripetal.
+    """Return the acceleration (T, 3) of a point (3,) or (T, 3) of a body: of its origin, tangential, centripetal.
 
     ``a + alpha x p + omega x (omega x p)``, all of it in the axes of the body (T, 3).
     """

@@ -14,9 +14,11 @@ from synergrip.documents.words import listed
 from synergrip.linalg import Array
 from synergrip.planning.between import LIMIT
 from synergrip.planning.check import LINEAR, RIGID, Judgement
+from synergrip.planning.in_balance import BALANCE, out_of_balance
 from synergrip.planning.in_cases import ALL_CASES
 from synergrip.planning.outcome import BETWEEN, Check
 from synergrip.planning.verified import EQUILIBRIUM
+from synergrip.statics.unbalanced_springs import unbalanced_springs
 
 STABILITY = "stability"
 PULLED = 1e-6
@@ -104,6 +106,8 @@ def _of(judgement: Judgement, check: Check, name: str, also: Check | None) -> It
         yield from _sides(worst, allowed, None if place == f"{BETWEEN}: " else (usage, room), place)
     elif name == STABILITY:
         yield f"{check.name}: the equilibrium gives way, its least stiffness is {read_as(-check.error, 'N/m', 3)}"
+    elif name == BALANCE and (found := unbalanced_springs(judgement.analysis.grasp)) is not None:
+        yield out_of_balance(found, judgement.analysis.grasp)
     else:
         yield f"{check.name}: off by {check.error:.2g}, {check.tolerance:.0e} allowed"
 

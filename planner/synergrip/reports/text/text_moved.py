@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from synergrip.conic.limits.elastic_motion import ElasticMotion
+from synergrip.conic.limits.object_error import AXES
 from synergrip.conic.limits.ties import first_worst
 from synergrip.documents.quantities import in_mm
 from synergrip.linalg import Array
@@ -33,7 +34,8 @@ def moved_lines(plan: Plan, *, details: bool = False) -> Iterator[str]:
     parts = [("the squeeze", squeeze), ("change of load (sag)", sag)]
     sizes = {what: _sizes(plan, motion).max(initial=0.0) for what, motion in parts}
     moving = [(what, motion) for what, motion in parts if sizes[what] >= rounding]
-    hold = plan.task.target.kind == "hold"
+    task = plan.task
+    hold = task.target.kind == "hold" and task.tracking == "rigid" and len(task.axes) == len(AXES)  # no rigid motion
     if not moving:
         yield from wrapped("moved    ", "neither the squeeze nor a change of load moves the object")
         return
@@ -49,7 +51,7 @@ def moved_lines(plan: Plan, *, details: bool = False) -> Iterator[str]:
         told += f", all of it by {moving[0][0]}"
     elif details or not cancel:
         # of a limit on what the squeeze does the table above has a row
-        limited = any(isinstance(limit, ElasticMotion) for limit in plan.task.limits)
+        limited = any(isinstance(limit, ElasticMotion) for limit in task.limits)
         alone = moving[1:] if limited else moving
         told += "; " + ", ".join(f"{what} alone {_largest(plan, motion)}" for what, motion in alone)
     yield from wrapped("moved    ", told)

@@ -1,9 +1,7 @@
 """What it does to a grasp that springs which no motor holds are bent away from their balance where it begins.
 
 Contact forces of a plan begin where nothing presses; springs out of balance press there already. By the linear model of
-the grasp, with ``K_c = (C_s + J C_q J' + J S C_z S' J')^-1`` and the way dq that the joints would go without contact,
-
-    du = (G K_c G')^-1 G K_c J dq,    d lambda = K_c (J dq - G' du)
+the grasp, the way dq that the joints would go without contact shifts the springs of the contacts by J dq (`shifts`).
 """
 
 from __future__ import annotations
@@ -18,6 +16,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.hands.unbalanced import way_to_rest
 from synergrip.hands.units import SI_UNITS, torque_unit
 from synergrip.linalg import Array, frozen
+from synergrip.statics.shifts import of_shifts, total_compliance
 
 MOST_NAMED = 6
 """Joints that a note names."""
@@ -40,6 +39,10 @@ class Unbalanced:
     forces: Array
     """(n_l,) what is added to the contact forces."""
 
+    def pressed(self, grasp: Grasp) -> float:
+        """Return what is added to a normal force of the grasp at most [N], or taken from it."""
+        return round(float(np.abs(self.forces[grasp.normal_rows]).max()), FINEST)
+
 
 def unbalanced_springs(grasp: Grasp) -> Unbalanced | None:
     """Return the springs of a grasp that are out of balance; None where there are none."""
@@ -49,16 +52,11 @@ def unbalanced_springs(grasp: Grasp) -> Unbalanced | None:
     way = way_to_rest(held.hand, held.synergies, held.q, grasp.C_q)
     if not way.any():
         return None
-    G, J = grasp.G, grasp.J
-    through = J @ grasp.S
-    C = grasp.C_s + J @ grasp.C_q @ J.T + through @ grasp.C_z @ through.T
-    K = np.linalg.pinv(C, hermitian=True)
-    du = np.linalg.pinv(G @ K @ G.T, hermitian=True) @ G @ K @ J @ way
+    shift = (grasp.J @ way)[:, None]
+    forces, push = (each[:, 0] for each in of_shifts(total_compliance(grasp), grasp.G, shift))
     spots = np.array([contact.point for contact in grasp.contacts])
-    moved = float(np.linalg.norm(du[:3] + np.cross(du[3:], spots), axis=1).max())
-    return Unbalanced(
-        frozen(way), frozen(-held.hand.drives.stiffness @ way), frozen(du), moved, frozen(K @ (J @ way - G.T @ du))
-    )
+    moved = float(np.linalg.norm(push[:3] + np.cross(push[3:], spots), axis=1).max())
+    return Unbalanced(frozen(way), frozen(-held.hand.drives.stiffness @ way), frozen(push), moved, frozen(forces))
 
 
 def unbalanced_notes(grasp: Grasp) -> Iterator[str]:
@@ -75,10 +73,10 @@ def unbalanced_notes(grasp: Grasp) -> Iterator[str]:
                 f"without contact, and is kept from it by {torque:.3g} {torque_unit([joint.kind])}"
             )
     more = f"; and {len(told) - MOST_NAMED} more joints" if len(told) > MOST_NAMED else ""
-    pressed = round(float(np.abs(found.forces[grasp.normal_rows]).max()), FINEST)
     yield (
         "springs of the model file that no motor holds are out of balance where the grasp begins, and no plan counts "
         f"it: {'; '.join(told[:MOST_NAMED])}{more}. They would push the object by about {in_mm(found.moved)}, "
         f"({', '.join(in_mm(float(each)) for each in found.push[:3])}) along x, y, z of the palm, and change normal "
-        f"forces by up to {plain(pressed)} N (linear). Place it where they settle, or give a posture in which they do"
+        f"forces by up to {plain(found.pressed(grasp))} N (linear). Place it where they settle, or give a "
+        "posture in which they do"
     )
