@@ -17,6 +17,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.postures import Postures
 from synergrip.grasps.scale import Metric, metric_of
+from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.grasps.varied_arrays import judged_array
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -106,7 +107,9 @@ class GraspStack(Value, Sequence[Grasp]):
         names = [field.name for field in fields(Matrices)]
         stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in (*names, "w_0")]
         points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given), given[0].n_c)
-        return cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
+        stack = cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
+        stack.__dict__["kinds"] = StackedKinds.of(given)
+        return stack
 
     @classmethod
     @naming_arguments
@@ -180,6 +183,8 @@ class GraspStack(Value, Sequence[Grasp]):
             if name in self.__dict__:
                 own = self.__dict__[name]
                 stack.__dict__[name] = own.taken(places) if isinstance(own, Metric) else own[places]
+        if "kinds" in self.__dict__:
+            stack.__dict__["kinds"] = self.kinds.taken(places) if self.given else self.kinds
         return stack
 
     @cached_property
@@ -200,6 +205,11 @@ class GraspStack(Value, Sequence[Grasp]):
             hand = self.like.held and self.like.held.hand
             alike = [same and (each and each.hand) is hand for same, each in zip(alike, held, strict=True)]
         return None if all(alike) else alike.index(False)
+
+    @cached_property
+    def kinds(self) -> StackedKinds:
+        """The kinds of contacts of the N grasps, or of the one that all are like."""
+        return StackedKinds.of(self.given or (self.like,))
 
     @cached_property
     def of_object(self) -> Array:
