@@ -83,7 +83,7 @@ def test_a_kind_whose_cone_takes_two_components_in_one_row_has_them_both() -> No
         slanted, np.column_stack([0.5 * factors * forces[:, 0], forces[:, 1] + forces[:, 2], forces[:, 2]])
     )
     value = Affine(np.eye(9), np.zeros((4, 9)))
-    assert np.allclose(cones.after(value).matrix, cones.W)
+    assert np.allclose(cones.after(value)[0].matrix, cones.W)
 
 
 def test_one_contact_with_two_cones_and_many_frictions() -> None:

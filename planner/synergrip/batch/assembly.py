@@ -120,8 +120,9 @@ class _Part(NamedTuple):
     """`LOWER`, `UPPER`, or 1 and more for others: the size of their cones."""
     size: int
     matrix: Array
+    times: Array
+    """(N or 1, rows) by what rows of the matrix are multiplied."""
     constant: Array
-    divisor: Array
     takes: Array | float
     """What a margin of one unit takes."""
 
@@ -138,11 +139,11 @@ def assembled(stated: Stated) -> Assembled:
     for part in parts:
         rows = slice(at, at + part.matrix.shape[-2])
         at = rows.stop
-        np.divide(part.constant, part.divisor, out=constant[:, rows])
+        constant[:, rows] = part.constant
         if part.order == UPPER:
             continue
-        np.multiply(part.matrix[..., :alpha], (unit[:, None] / -part.divisor)[..., None], out=A[:, rows, :alpha])
-        np.divide(part.matrix[..., alpha:], -part.divisor[..., None], out=A[:, rows, alpha:-1])
+        np.multiply(part.matrix[..., :alpha], (unit[:, None] * -part.times)[..., None], out=A[:, rows, :alpha])
+        np.multiply(part.matrix[..., alpha:], -part.times[..., None], out=A[:, rows, alpha:-1])
         A[:, rows, -1] = part.takes
     np.negative(A[:, :pairs], out=A[:, pairs : 2 * pairs])
     return Assembled(stated, cones, unit, A, constant, sizes, pairs)
@@ -152,15 +153,15 @@ def _parts(stated: Stated, cones: tuple[Cones, ...], unit: Array) -> Iterator[_P
     """Yield the rows of cones and limits."""
     force = stated.formulation.force
     for each in cones:
-        value = each.after(force)
-        own = np.repeat(each.unit, each.size, axis=-1)
-        first = np.tile(np.eye(each.size)[0], len(each.contacts)) / own
-        yield _Part(each.size, each.size, value.matrix, value.constant, own * unit[:, None], first)
+        (value, times), own = each.after(force), np.repeat(each.unit, each.size, axis=-1)
+        first, divisor = np.tile(np.eye(each.size)[0], len(each.contacts)) / own, own * unit[:, None]
+        yield _Part(each.size, each.size, value.matrix, times / divisor, value.constant / divisor, first)
     for limit in stated.task.limits:
         every = _rows(stated, limit)
         orders = (LOWER, UPPER) if _opposite(limit, every) else (1,) * len(every)
         for rows, order in zip(every, orders, strict=True):
-            yield _Part(order, rows.dim, rows.matrix, rows.constant, _divisor(limit, rows, unit), 0.0)
+            divisor = _divisor(limit, rows, unit)
+            yield _Part(order, rows.dim, rows.matrix, 1 / divisor, rows.constant / divisor, 0.0)
 
 
 def _opposite(limit: Limit, every: list[Rows]) -> bool:

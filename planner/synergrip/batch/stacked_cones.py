@@ -51,12 +51,17 @@ class Cones(Value):
         one_for_all = self.entries.ndim == (1 if self.columns is not None else 2)
         return self if one_for_all else replace(self, entries=self.entries[places])
 
-    def after(self, force: Affine) -> Affine:
-        """Return ``W lambda`` of contact forces that are affine in something."""
+    def after(self, force: Affine) -> tuple[Affine, Array]:
+        """Return ``W lambda`` of contact forces that are affine in something, and what its matrix is to be multiplied by.
+
+        That is (..., rows), a number for each row, so that nobody multiplies twice.
+        """
         if self.columns is None:
-            return force.after(self.W)
-        taken = force.matrix[..., self.columns, :]
-        return Affine(self.entries[..., None] * taken, self.entries * force.constant[:, self.columns])
+            whole = force.after(self.W)
+            return whole, np.ones(whole.matrix.shape[-2])
+        every = np.array_equal(self.columns, np.arange(force.matrix.shape[-2]))
+        taken = force.matrix if every else force.matrix[..., self.columns, :]
+        return Affine(taken, self.entries * force.constant[:, self.columns]), self.entries
 
     def images(self, forces: Array) -> Array:
         """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
