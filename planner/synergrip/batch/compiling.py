@@ -61,7 +61,7 @@ class Compiled:
 
 
 def as_rows(values: Array) -> Array:
-    """Return (N or 1, entries) numbers one after the other, read-only, as one form of a compiled function takes them."""
+    """Return (N or 1, entries) numbers one after the other, read-only: one form for a compiled function."""
     whole = values[:1] if values.strides[0] == 0 or len(values) == 1 else values
     flat = np.ascontiguousarray(whole).reshape(len(whole), -1).view()
     flat.setflags(write=False)

@@ -42,8 +42,8 @@ class ConeProblems(Value):
     sizes: tuple[int, ...]
     """Rows of each cone, in the order of the rows; a cone of 1 row is a half-line."""
     pairs: int = 0
-    """How many half-lines come first whose rows of A are, in their order, minus those of as many that come next: lower and
-    upper bounds. A solver may make use of it; nothing is said by it."""
+    """How many half-lines come first whose rows of A are, in their order, minus those of as many that come next: lower
+    and upper bounds of the same. A solver may make use of it."""
 
     def __post_init__(self) -> None:
         """Judge the shapes."""

@@ -110,8 +110,9 @@ class Spans(NamedTuple):
         within = J @ (C_q | S @ C_z @ S.T) @ J.T | C_s
         first = np.minimum(within.argmax(axis=1), np.arange(len(J)))
         last = np.array([np.flatnonzero(first <= i)[-1] for i in range(len(J))])
-        starts = first, len(J) - 1 - last[::-1], np.zeros(6, dtype=np.int64)
-        return cls(*(_spans(each) for each in (J, J.T, S, S.T, C_s, C_q, C_z)), *starts)
+        spans = {"J": J, "J_T": J.T, "S": S, "S_T": S.T, "C_s": C_s, "C_q": C_q, "C_z": C_z}
+        starts = {"L": first, "L_T": len(J) - 1 - last[::-1], "R": np.zeros(6, dtype=np.int64)}
+        return cls(**{name: _spans(each) for name, each in spans.items()}, **starts)
 
 
 def _spans(there: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -144,7 +145,8 @@ def _made(stamp: int) -> Any:
 
 def _prepare(function: Any) -> None:
     """Work out the statics of no grasp at all."""
-    spans = Spans(*(np.zeros((1, 2), dtype=np.int64),) * 7, *(np.zeros(1, dtype=np.int64),) * 3)
+    none, starts = np.zeros((1, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
+    spans = Spans(none, none, none, none, none, none, none, starts, starts, starts)
     layout, numbers = Layout.of(7, 1, 1), np.zeros(1)
     function((as_rows(np.zeros((1, 1))),) * 8, layout, spans, numbers, numbers, np.zeros((0, 1)), False)
 

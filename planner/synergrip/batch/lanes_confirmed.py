@@ -63,7 +63,7 @@ def confirmed(w: Any, at: Any, chances: Any) -> Any:
 
 @compiled
 def _balanced(w: Any, at: Any, chances: Any) -> Any:
-    """Return 1 where contact forces hold the load, and contacts, joints and synergies yield by them, else 0. (7)-(16)."""
+    """Return 1 where forces hold the load and contacts, joints and synergies yield by them, else 0. (7)-(16)."""
     kept_apart()
     l, q, z, k = at.l, at.q, at.z, at.k  # noqa: E741 - the usual letter
     both, answer = at.turned, at.turned + k
@@ -100,21 +100,28 @@ def _balanced(w: Any, at: Any, chances: Any) -> Any:
         part = load(w, tau + i) - load(w, joints + i)
         rest = rest + part * part
     fits = fits * _nothing(rest, larger(squares_of(w, moved, q), squares_of(w, yielding, q)))
-    _applied(w, tau, Matrix(at.G, l, 1), answer, 6, l)
+    return fits * _held(w, at, answer, both + z, tau)
+
+
+@compiled
+def _held(w: Any, at: Any, forces: int, wrench: int, left: int) -> Any:
+    """Return 1 where contact forces hold a load (6), else 0; what is left of it is written down."""
+    l = at.l  # noqa: E741 - the usual letter
+    _applied(w, left, Matrix(at.G, l, 1), forces, 6, l)
     for i in range(6):
-        store(w, tau + i, load(w, tau + i) + load(w, both + z + i))
-    rest = squares_of(w, tau, 3)
-    for i in range(3):
-        about = load(w, tau + 3 + i)
+        store(w, left + i, load(w, left + i) + load(w, wrench + i))
+    rest = squares_of(w, left, 3)
+    for i in range(3):  # the moment about the centroid, over the length
+        about = load(w, left + 3 + i)
         for j in range(3):
-            about = about - load(w, at.motion + 6 * j + 3 + i) * load(w, tau + j)
+            about = about - load(w, at.motion + 6 * j + 3 + i) * load(w, left + j)
         about = about / load(w, at.motion + 21)
         rest = rest + about * about
-    forces = all_of(0.0)
+    whole = all_of(0.0)
     for i in range(l):
-        part = load(w, answer + i) * load(w, at.force + i)
-        forces = forces + part * part
-    return fits * _nothing(rest, forces)
+        part = load(w, forces + i) * load(w, at.force + i)
+        whole = whole + part * part
+    return _nothing(rest, whole)
 
 
 @compiled

@@ -37,38 +37,39 @@ def product_within(w: Any, out: int, A: Any, spans: Any, B: Any, m: int, n: int,
 
 @compiled
 def _two_rows(w: Any, out: int, A: Any, B: Any, i: int, below: int, first: int, end: int, n: int, add: float) -> None:
-    """Write two rows of A B (..., n), or one where they are the same, by columns `first` to `end` of A; by four columns.
+    """Write two rows of A B (..., n), by columns `first` to `end` of A; one where both are the same.
 
-    Where there are fewer the last one is made several times, and put down as often: nothing is added twice.
+    Three columns are made at once. Where there are fewer the last one is made several times, and put down as often:
+    nothing is added twice.
     """
     kept_apart()
     a, b = A.first + i * A.down, A.first + below * A.down
-    for j in range(0, n, 4):
-        k, l, m = min(j + 1, n - 1), min(j + 2, n - 1), min(j + 3, n - 1)  # noqa: E741
-        c, d, e, f = B.first + j * B.right, B.first + k * B.right, B.first + l * B.right, B.first + m * B.right
-        p0, p1, p2, p3 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
-        q0, q1, q2, q3 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
+    for j in range(0, n, 3):
+        k, l = min(j + 1, n - 1), min(j + 2, n - 1)  # noqa: E741
+        c, d, e = B.first + j * B.right, B.first + k * B.right, B.first + l * B.right
+        p0, p1, p2, q0, q1, q2 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
         for inner in range(first, end):
-            x, y = load(w, a + inner * A.right), load(w, b + inner * A.right)
-            u, v = load(w, c + inner * B.down), load(w, d + inner * B.down)
-            p0, p1, q0, q1 = p0 + x * u, p1 + x * v, q0 + y * u, q1 + y * v
-            u, v = load(w, e + inner * B.down), load(w, f + inner * B.down)
-            p2, p3, q2, q3 = p2 + x * u, p3 + x * v, q2 + y * u, q3 + y * v
+            x, y, u = load(w, a + inner * A.right), load(w, b + inner * A.right), load(w, c + inner * B.down)
+            p0, q0 = p0 + x * u, q0 + y * u
+            u = load(w, d + inner * B.down)
+            p1, q1 = p1 + x * u, q1 + y * u
+            u = load(w, e + inner * B.down)
+            p2, q2 = p2 + x * u, q2 + y * u
         row, other = out + i * n, out + below * n
         if add != 0.0:
             times = all_of(add)
-            p0, p1 = load(w, row + j) + times * p0, load(w, row + k) + times * p1
-            p2, p3 = load(w, row + l) + times * p2, load(w, row + m) + times * p3
-            q0, q1 = load(w, other + j) + times * q0, load(w, other + k) + times * q1
-            q2, q3 = load(w, other + l) + times * q2, load(w, other + m) + times * q3
+            p0, p1, p2 = load(w, row + j) + times * p0, load(w, row + k) + times * p1, load(w, row + l) + times * p2
+            q0, q1, q2 = (
+                load(w, other + j) + times * q0,
+                load(w, other + k) + times * q1,
+                load(w, other + l) + times * q2,
+            )
         store(w, row + j, p0)
         store(w, row + k, p1)
         store(w, row + l, p2)
-        store(w, row + m, p3)
         store(w, other + j, q0)
         store(w, other + k, q1)
         store(w, other + l, q2)
-        store(w, other + m, q3)
 
 
 @compiled

@@ -216,10 +216,9 @@ def made(stamp: int) -> Any:
     def solved(given: Any, spans: Any, found: Any, at: Any, cones: Any, residual: float, most_gap: float) -> None:
         w = workspace(at.end + stamp * 0)
         for group in range((len(found) + LANES - 1) // LANES):
-            entry, part, here = 0, 0, min(LANES, len(found) - group * LANES)
-            for rows in given:
+            entry, here = 0, min(LANES, len(found) - group * LANES)
+            for part, rows in enumerate(given):
                 entry = rows_into_lanes(w, entry, rows, spans[part, 0], spans[part, 1], group, here)
-                part += 1
             _eight(w, at, cones, residual, most_gap)
             lanes_into_rows(w, at.x, found, group, here)
 

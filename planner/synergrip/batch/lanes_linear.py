@@ -46,24 +46,10 @@ def rows_of_step(w: Any, at: Any, cones: Any) -> None:
 
 @compiled
 def factor(w: Any, at: Any) -> None:
-    """Write the Cholesky factor of ``P + R'R``; two columns by two at a time."""
+    """Write the Cholesky factor of ``P + R'R``."""
     kept_apart()
-    P, R, H, n, wide, rows = at.P, at.R, at.H, at.n, at.wide, at.rows
-    for i in range(0, wide, 2):
-        for j in range(0, i + 2, 2):
-            h00, h01, h10, h11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
-            for r in range(rows):
-                a, b = load(w, R + r * wide + i), load(w, R + r * wide + i + 1)
-                c, d = load(w, R + r * wide + j), load(w, R + r * wide + j + 1)
-                h00, h01, h10, h11 = h00 + a * c, h01 + a * d, h10 + b * c, h11 + b * d
-            store(w, H + i * wide + j, h00)
-            store(w, H + i * wide + j + 1, h01)
-            store(w, H + (i + 1) * wide + j, h10)
-            store(w, H + (i + 1) * wide + j + 1, h11)
-    if at.quadratic:
-        for i in range(n):
-            for j in range(i + 1):
-                store(w, H + i * wide + j, load(w, H + i * wide + j) + load(w, P + i * n + j))
+    H, n, wide = at.H, at.n, at.wide
+    _squares(w, at)
     for j in range(n):
         diagonal = load(w, H + j * wide + j)
         pivot = diagonal
@@ -82,10 +68,47 @@ def factor(w: Any, at: Any) -> None:
 
 
 @compiled
+def _squares(w: Any, at: Any) -> None:
+    """Write the lower half of ``P + R'R``; two columns by two at a time."""
+    P, R, H, n, wide, rows = at.P, at.R, at.H, at.n, at.wide, at.rows
+    for i in range(0, wide, 2):
+        for j in range(0, i + 2, 2):
+            h00, h01, h10, h11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
+            for r in range(rows):
+                a, b = load(w, R + r * wide + i), load(w, R + r * wide + i + 1)
+                c, d = load(w, R + r * wide + j), load(w, R + r * wide + j + 1)
+                h00, h01, h10, h11 = h00 + a * c, h01 + a * d, h10 + b * c, h11 + b * d
+            store(w, H + i * wide + j, h00)
+            store(w, H + i * wide + j + 1, h01)
+            store(w, H + (i + 1) * wide + j, h10)
+            store(w, H + (i + 1) * wide + j + 1, h11)
+    if at.quadratic:
+        for i in range(n):
+            for j in range(i + 1):
+                store(w, H + i * wide + j, load(w, H + i * wide + j) + load(w, P + i * n + j))
+
+
+@compiled
 def solution(w: Any, at: Any, rx: int, rs: int, dx: int, dz: int) -> None:
     """Write dx and dz with ``P dx + R'dz = -rx`` and ``R dx - dz = rs``, for W^-1 A in place of R."""
     kept_apart()
-    H, R, n, wide, pairs, one = at.H, at.R, at.n, at.wide, at.pairs, at.one
+    R, n, wide, pairs = at.R, at.n, at.wide, at.pairs
+    _right_side(w, at, rx, rs, dx)
+    _substituted(w, at, dx)
+    for r in range(at.rows):
+        total = all_of(0.0)
+        for j in range(n):
+            total = total + load(w, R + r * wide + j) * load(w, dx + j)
+        if r < pairs:
+            store(w, dz + r, load(w, at.turn + 2 * r) * total - load(w, rs + r))
+            total = all_of(0.0) - load(w, at.turn + 2 * r + 1) * total
+        store(w, dz + pairs + r, total - load(w, rs + pairs + r))
+
+
+@compiled
+def _right_side(w: Any, at: Any, rx: int, rs: int, dx: int) -> None:
+    """Write ``R'rs - rx``, with what of rs is along the one row of each pair; two entries at a time."""
+    R, n, wide, pairs, one = at.R, at.n, at.wide, at.pairs, at.one
     for d in range(pairs):
         turned = load(w, at.turn + 2 * d) * load(w, rs + d) - load(w, at.turn + 2 * d + 1) * load(w, rs + pairs + d)
         store(w, one + d, turned)
@@ -99,6 +122,12 @@ def solution(w: Any, at: Any, rx: int, rs: int, dx: int, dz: int) -> None:
         store(w, dx + j, total - load(w, rx + j))
         if j + 1 < n:
             store(w, dx + j + 1, beside - load(w, rx + j + 1))
+
+
+@compiled
+def _substituted(w: Any, at: Any, dx: int) -> None:
+    """Write ``(P + R'R)^-1 dx`` over dx, by the factor."""
+    H, n, wide = at.H, at.n, at.wide
     for i in range(n):
         total = load(w, dx + i)
         for k in range(i):
@@ -110,11 +139,3 @@ def solution(w: Any, at: Any, rx: int, rs: int, dx: int, dz: int) -> None:
         for k in range(i + 1, n):
             total = total - load(w, H + k * wide + i) * load(w, dx + k)
         store(w, dx + i, total * load(w, H + i * wide + i))
-    for r in range(at.rows):
-        total = all_of(0.0)
-        for j in range(n):
-            total = total + load(w, R + r * wide + j) * load(w, dx + j)
-        if r < pairs:
-            store(w, dz + r, load(w, at.turn + 2 * r) * total - load(w, rs + r))
-            total = all_of(0.0) - load(w, at.turn + 2 * r + 1) * total
-        store(w, dz + pairs + r, total - load(w, rs + pairs + r))

@@ -52,9 +52,9 @@ class Cones(Value):
         return self if one_for_all else replace(self, entries=self.entries[places])
 
     def after(self, force: Affine) -> tuple[Affine, Array]:
-        """Return ``W lambda`` of contact forces that are affine in something, and what its matrix is to be multiplied by.
+        """Return ``W lambda`` of contact forces that are affine in something, but for a factor of each row.
 
-        That is (..., rows), a number for each row, so that nobody multiplies twice.
+        The factors (..., rows) are those of its matrix, and come with it, so that nobody multiplies twice.
         """
         if self.columns is None:
             whole = force.after(self.W)
@@ -96,7 +96,7 @@ def stacked_cones(first: Grasp, kinds: StackedKinds, friction: Array | None) -> 
 
 
 def _columns(first: Grasp, chosen: Sequence[tuple[int, Array]]) -> NDArray[np.intp] | None:
-    """Return (cones * size,) the one force component that rows of cones take; None where there is one that takes more."""
+    """Return (cones * size,) the one force component that rows of cones take; None where one takes more."""
     found = []
     for contact, W in chosen:
         there = (W != 0).reshape(-1, *W.shape[-2:]).any(axis=0)

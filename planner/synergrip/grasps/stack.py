@@ -179,12 +179,11 @@ class GraspStack(Value, Sequence[Grasp]):
         stack = GraspStack(
             self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
         )  # fmt: skip
-        for name in ("metric", "of_object"):  # as cached properties would work them out again
+        names = ("metric", "of_object", "kinds") if self.given else ("metric", "of_object")
+        for name in names:  # as cached properties would work them out again
             if name in self.__dict__:
                 own = self.__dict__[name]
-                stack.__dict__[name] = own.taken(places) if isinstance(own, Metric) else own[places]
-        if "kinds" in self.__dict__:
-            stack.__dict__["kinds"] = self.kinds.taken(places) if self.given else self.kinds
+                stack.__dict__[name] = own[places] if isinstance(own, np.ndarray) else own.taken(places)
         return stack
 
     @cached_property

@@ -68,9 +68,8 @@ class KindsOfContact(Value):
         values = dict(self.values[i])
         if len(self.which) == 1:
             values = {name: value[0] for name, value in values.items()}
-        for name in self.classes[i].frictions if friction is not None else ():
-            if name in values:
-                values[name] = values[name] * friction
+        if friction is not None:
+            values |= {name: values[name] * friction for name in self.classes[i].frictions if name in values}
         return values
 
 
