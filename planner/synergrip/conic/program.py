@@ -95,6 +95,16 @@ class Program(Value):
             yield block, slice(start, start + block.rows)
             start += block.rows
 
+    @cached_property
+    def stretches(self) -> tuple[tuple[Kind, int, slice], ...]:
+        """Kind and size of cones with their rows, those of neighbours that are alike together."""
+        found: list[tuple[Kind, int, slice]] = []
+        for block, rows in self.slices():
+            if found and found[-1][:2] == (block.kind, block.dim):
+                rows = slice(found.pop()[2].start, rows.stop)
+            found.append((block.kind, block.dim, rows))
+        return tuple(found)
+
     def unknowns(self, x: Array) -> Array:
         """Return v (T, n_v) of a solution x (n,)."""
         stacked = x[: self.knots * self.n_v] if self.basis is None else self.basis @ x[: self.basis.shape[1]]

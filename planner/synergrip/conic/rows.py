@@ -94,6 +94,8 @@ class Rows(Value):
         Raises:
             InputError: a key, kind, items or arrays that are none, or that do not fit each other.
         """
+        if self._fits():
+            return
         judge = Arguments("Rows")
         judge.text("limit", self.limit, empty=False)
         judge.one("kind", self.kind, Kind, "Kind.NONNEGATIVE")
@@ -110,6 +112,19 @@ class Rows(Value):
                 object.__setattr__(self, name, frozen(found))
         judge.finish()
         object.__setattr__(self, "items", items)
+
+    def _fits(self) -> bool:
+        """Return whether all is as it is to be, as that of the library is: then nothing is looked at more closely."""
+        if not (type(self.items) is tuple and type(self.dim) is int and type(self.kind) is Kind):
+            return False
+        height, arrays = len(self.items) * self.dim, (self.matrix, self.constant, self.epigraph)
+        return (
+            type(self.limit) is str
+            and bool(self.limit)
+            and all(type(each) is np.ndarray and each.dtype == np.float64 and each.ndim for each in arrays)
+            and all(type(item) is Item for item in self.items)
+            and self.matrix.shape[-2:-1] == self.constant.shape[-1:] == self.epigraph.shape[-1:] == (height,)
+        )
 
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:

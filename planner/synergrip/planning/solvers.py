@@ -135,6 +135,8 @@ class Answered(Value):
         residuals = found.primal_residual + (found.dual_residual + found.gap if of_value else 0.0)
         share = residuals if found.verified else TIGHT
         error = share * formulation.force_unit
+        if error <= FINE * formulation.load_size:
+            return False
         largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
         return bool(error > FINE * max(formulation.load_size, largest))
 

@@ -67,6 +67,8 @@ class Usage(Value):
 
     def __post_init__(self) -> None:
         """Judge the shapes, which a limit of one's own may get wrong."""
+        if self._fits():
+            return
         judge = Arguments("Usage")
         judge.text("title", self.title)
         judge.text("unit", self.unit)
@@ -90,6 +92,23 @@ class Usage(Value):
         judge.finish()
         object.__setattr__(self, "items", items)
         object.__setattr__(self, "times", times)
+
+    def _fits(self) -> bool:
+        """Return whether all is as it is to be, as that of the library is: then nothing is looked at more closely."""
+        arrays = [self.value, self.lower, self.upper, self.scale, self.times]
+        if self.allowance is not None:
+            arrays.append(self.allowance)
+        if not all(type(each) is np.ndarray and each.dtype == np.float64 for each in arrays):
+            return False
+        shape = (len(self.times), len(self.items)) if self.times.ndim == 1 else ()
+        return (
+            type(self.title) is type(self.unit) is str
+            and type(self.items) is tuple
+            and all(type(each) is str for each in self.items)
+            and self.value.shape == shape
+            and (self.allowance is None or self.allowance.shape == shape)
+            and self.lower.shape == self.upper.shape == self.scale.shape == shape[1:]
+        )
 
     @property
     def excess(self) -> Array:
