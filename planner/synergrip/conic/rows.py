@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from synergrip.conic.affine import Affine
-from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.judging import Arguments, are_floats, as_numbers, described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
@@ -114,17 +114,13 @@ class Rows(Value):
         object.__setattr__(self, "items", items)
 
     def _fits(self) -> bool:
-        """Return whether all is as it is to be, as that of the library is: then nothing is looked at more closely."""
-        if not (type(self.items) is tuple and type(self.dim) is int and type(self.kind) is Kind):
+        """Return whether all is as that of the library is; then nothing is looked at more closely."""
+        known = type(self.kind) is Kind and type(self.dim) is int and type(self.limit) is str and self.limit
+        arrays = self.matrix, self.constant, self.epigraph
+        if not known or type(self.items) is not tuple or not are_floats(arrays) or self.matrix.ndim < 2:
             return False
-        height, arrays = len(self.items) * self.dim, (self.matrix, self.constant, self.epigraph)
-        return (
-            type(self.limit) is str
-            and bool(self.limit)
-            and all(type(each) is np.ndarray and each.dtype == np.float64 and each.ndim for each in arrays)
-            and all(type(item) is Item for item in self.items)
-            and self.matrix.shape[-2:-1] == self.constant.shape[-1:] == self.epigraph.shape[-1:] == (height,)
-        )
+        heights = {self.matrix.shape[-2], *self.constant.shape[-1:], *self.epigraph.shape[-1:]}
+        return heights == {len(self.items) * self.dim} and all(type(item) is Item for item in self.items)
 
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:

@@ -51,7 +51,7 @@ def largest_term(response: Response, dz_r: Array) -> float:
 
     Where these cancel to almost nothing, what is left is their rounding.
     """
-    return float((np.abs(dz_r) @ response.terms).max(initial=0.0))
+    return response.scale.largest_force(np.abs(dz_r) @ np.abs(response.dlambda_dzr).T)
 
 
 def forward(response: Response, times: Array, dz_r: Array, wrench: Array, begun: Array | None = None) -> Motion:

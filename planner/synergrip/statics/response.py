@@ -127,11 +127,6 @@ class Response(Maps):
         return self.restraint.rank == 6
 
     @cached_property
-    def terms(self) -> Array:
-        """(n_z, n_l) the sizes [N] of what each reference adds to each force, for a reference of 1."""
-        return np.asarray((self.scale.force[:, None] * np.abs(self.dlambda_dzr)).T)
-
-    @cached_property
     def doubt(self) -> float:
         """The largest doubt of any map."""
         return max(each.doubt for each in self.accuracy.values())

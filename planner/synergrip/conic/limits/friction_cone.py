@@ -77,12 +77,13 @@ def friction_rows(formulation: Formulation, margin: float | Array, epigraph: flo
         key: what asks for it.
     """
     grasp, unit = formulation.response.grasp, formulation.force_unit
-    margins = np.broadcast_to(np.asarray(margin) / unit, (len(formulation.force.constant), grasp.n_c))
+    asked = np.asarray(margin) / unit
     result = []
     for cones in grasp.friction_cones:
         kind = Kind.NONNEGATIVE if cones.size == 1 else Kind.SECOND_ORDER
         value = formulation.force.after(cones.in_units / unit)
-        constant = value.constant - cones.heads * np.repeat(margins[:, cones.contacts], cones.size, axis=1)
+        each = asked if not asked.ndim else np.repeat(asked[:, cones.contacts], cones.size, axis=1)
+        constant = value.constant - cones.heads * each
         items = tuple(Item(*name) for name in cones.names)
         scalar = frozen(epigraph * cones.heads)
         result.append(Rows(key, kind, cones.size, items, value.matrix, sealed(constant), scalar, friction=True))

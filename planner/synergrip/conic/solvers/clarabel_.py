@@ -84,11 +84,10 @@ def cones_of(program: Program) -> list[Any]:
     import clarabel
 
     cones: list[Any] = []
-    for block in program.blocks:
-        if block.kind is Kind.SECOND_ORDER:
-            cones += [clarabel.SecondOrderConeT(block.dim)] * block.cones
-        elif block.rows:
-            cones.append(
-                {Kind.ZERO: clarabel.ZeroConeT, Kind.NONNEGATIVE: clarabel.NonnegativeConeT}[block.kind](block.rows)
-            )
+    for kind, dim, rows in program.stretches:
+        count = rows.stop - rows.start
+        if kind is Kind.SECOND_ORDER:
+            cones += [clarabel.SecondOrderConeT(dim)] * (count // dim)
+        elif count:
+            cones.append((clarabel.ZeroConeT if kind is Kind.ZERO else clarabel.NonnegativeConeT)(count))
     return cones
