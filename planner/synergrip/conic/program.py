@@ -38,12 +38,12 @@ class Block:
     friction: bool = False
     """Whether its cones are friction cones."""
 
-    @cached_property
+    @property
     def cones(self) -> int:
         """Number of cones."""
         return self.knots * len(self.items)
 
-    @cached_property
+    @property
     def rows(self) -> int:
         """Number of rows."""
         return self.cones * self.dim

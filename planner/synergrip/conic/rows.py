@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -48,6 +49,11 @@ LOWER_SIDES = frozenset({"lowest", "falling"})
 
 def items_of(names: Iterable[str], side: str = "") -> tuple[Item, ...]:
     """Return the items of cones on one side of each name."""
+    return _items(tuple(names), side)
+
+
+@lru_cache(maxsize=256)
+def _items(names: tuple[str, ...], side: str) -> tuple[Item, ...]:
     return tuple(Item(name, side) for name in names)
 
 

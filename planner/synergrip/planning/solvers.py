@@ -119,8 +119,10 @@ class Answered(Value):
     @cached_property
     def small(self) -> bool:
         """True when the value is small beside 1: a margin never is, it is measured against the load."""
+        if isinstance(self.question.goal, LargestMargin):
+            return False
         value = self.value
-        if isinstance(self.question.goal, LargestMargin) or value >= SMALL:
+        if value >= SMALL:
             return False
         scalar = self.question.goal.objective(self.question.formulation).epigraph is not None
         return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
