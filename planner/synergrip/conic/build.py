@@ -34,7 +34,7 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
     worth = worth if extra else worth * formulation.divisor
     P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
-    if P.nnz:
+    if P.data.size:
         P.data, linear = P.data / worth, linear / worth
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
     bounds = variable_bounds(formulation, limits)

@@ -149,6 +149,8 @@ class Answered(Value):
 
     def with_all(self, *others: Decision) -> Answered:
         """Return it with what other attempts at the same cost, too, told in its decision."""
+        if not others:
+            return self
         decision = self.decision
         attempts = decision.attempts + sum(each.attempts for each in others)
         seconds = decision.seconds + sum(each.seconds for each in others)
