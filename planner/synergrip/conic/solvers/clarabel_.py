@@ -22,7 +22,7 @@ CLAIMS = {
     "AlmostDualInfeasible": Claim.UNBOUNDED,
 }
 """Clarabel's status -> claim; every other status claims nothing. "Almost" is for the certificate to decide."""
-FEW_ENTRIES = 2000
+FEW_ENTRIES = 5000
 """Entries of A up to which a program is solved before anybody could press a key: nothing is asked meanwhile."""
 TOWARDS_A_RAY = 1e3
 """kappa over tau of the homogeneous embedding from which on an iterate may be looked at as a ray."""
