@@ -16,7 +16,7 @@ def outside(block: Block, values: Array) -> Array:
 
 def _beyond(kind: Kind, dim: int, values: Array) -> Array:
     if kind is Kind.NONNEGATIVE and dim == 1:
-        return -values
+        return -values.ravel()
     parts = values.reshape(-1, dim)
     if kind is Kind.ZERO:
         return np.asarray(np.abs(parts).max(axis=1, initial=0.0))
