@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from synergrip.batch.cone_problems import ConeProblems
-from synergrip.batch.stacked_cones import Cones, most, stacked_cones
+from synergrip.batch.stacked_cones import StackedCones, most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
 from synergrip.conic.bounds import within
 from synergrip.conic.goals.least_effort import Effort
@@ -36,7 +36,7 @@ class Assembled(Value):
     """N programs as arrays: ``constant - A (v, s)`` lies in the cones, s the margin over the unit."""
 
     stated: Stated
-    cones: tuple[Cones, ...]
+    cones: tuple[StackedCones, ...]
     unit: Array  # (N,) [N]
     A: Array  # (N, m, n + 1)
     constant: Array  # (N, m)
@@ -149,7 +149,7 @@ def assembled(stated: Stated) -> Assembled:
     return Assembled(stated, cones, unit, A, constant, sizes, pairs)
 
 
-def _parts(stated: Stated, cones: tuple[Cones, ...], unit: Array) -> Iterator[_Part]:
+def _parts(stated: Stated, cones: tuple[StackedCones, ...], unit: Array) -> Iterator[_Part]:
     """Yield the rows of cones and limits."""
     force = stated.formulation.force
     for each in cones:

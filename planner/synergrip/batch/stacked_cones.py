@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.conic.affine import Affine, times
-from synergrip.conic.limits.friction_cone import SLIPPERY
+from synergrip.grasps.friction_cones import SLIPPERY
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.linalg import Array, Places
@@ -18,8 +18,8 @@ from synergrip.values import Value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Cones(Value):
-    """The cones of one size of all contacts: ``W lambda``, cones below one another."""
+class StackedCones(Value):
+    """The cones of one size of all contacts, as `Cones` has them, in as few numbers as they take."""
 
     size: int
     contacts: NDArray[np.intp]
@@ -46,7 +46,7 @@ class Cones(Value):
         largest = largest if self.columns is not None else largest.max(axis=-1)
         return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
 
-    def taken(self, places: Places) -> Cones:
+    def taken(self, places: Places) -> StackedCones:
         """Return those of the problems at some places."""
         one_for_all = self.entries.ndim == (1 if self.columns is not None else 2)
         return self if one_for_all else replace(self, entries=self.entries[places])
@@ -69,7 +69,7 @@ class Cones(Value):
         return every.reshape(len(forces), len(self.contacts), self.size)
 
 
-def stacked_cones(first: Grasp, kinds: StackedKinds, friction: Array | None) -> tuple[Cones, ...]:
+def stacked_cones(first: Grasp, kinds: StackedKinds, friction: Array | None) -> tuple[StackedCones, ...]:
     """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first.
 
     Args:
@@ -91,7 +91,7 @@ def stacked_cones(first: Grasp, kinds: StackedKinds, friction: Array | None) -> 
                 entries[..., rows, own] = W
             else:
                 entries[..., rows] = W[..., range(size), columns[rows] - own.start]
-        found.append(Cones(size, contacts, first.n_l, columns, entries))
+        found.append(StackedCones(size, contacts, first.n_l, columns, entries))
     return tuple(found)
 
 
@@ -106,7 +106,7 @@ def _columns(first: Grasp, chosen: Sequence[tuple[int, Array]]) -> NDArray[np.in
     return np.concatenate(found)
 
 
-def most(cones: Sequence[Cones], grasp: Grasp) -> Array:
+def most(cones: Sequence[StackedCones], grasp: Grasp) -> Array:
     """Return (n_l,) or (N, n_l) the largest size of each force component for a newton of normal force, by the cones."""
     leading = cones[0].W.shape[:-2]
     result = np.ones((*leading, grasp.n_l))
@@ -128,17 +128,3 @@ def _reached(tail: Array, head: Array) -> Array:
     if tail.shape[-2] == tail.shape[-1] and np.count_nonzero(tail) == np.count_nonzero(diagonal) == diagonal.size:
         return np.asarray(head / np.abs(diagonal))
     return np.asarray((np.abs(np.linalg.pinv(tail)) @ head[..., None])[..., 0]) if size else head[..., :0]
-
-
-def slip_margins(cones: Sequence[Cones], normal: Array, forces: Array) -> Array:
-    """Return slip margins (N, n_c) [N] of contact forces (N, n_l) by the contacts' own formula, from their cones.
-
-    ``(W lambda)_0 - ||(W lambda)_1..||``, the smallest of the cones of a contact, and no more than a pull.
-    """
-    margins = np.full((len(forces), normal.shape[1]), np.inf)
-    for each in cones:
-        image = each.images(forces)
-        inside = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
-        for k, contact in enumerate(each.contacts):
-            margins[:, contact] = np.minimum(margins[:, contact], inside[:, k])
-    return np.where(normal < 0, np.minimum(margins, normal), margins)

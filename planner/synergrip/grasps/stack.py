@@ -104,11 +104,11 @@ class GraspStack(Value, Sequence[Grasp]):
         if not given:
             raise InputError.at("grasps", "expected at least one grasp, got none")
         _judge_forms(given)
-        names = [field.name for field in fields(Matrices)]
-        stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in (*names, "w_0")]
+        names = (*(field.name for field in fields(Matrices)), "w_0")
+        stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in names]
         points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given), given[0].n_c)
         stack = cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
-        stack.__dict__["kinds"] = StackedKinds.of(given)
+        stack.__dict__["kinds"] = StackedKinds.of(given)  # with the other arrays
         return stack
 
     @classmethod
@@ -179,8 +179,7 @@ class GraspStack(Value, Sequence[Grasp]):
         stack = GraspStack(
             self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
         )  # fmt: skip
-        names = ("metric", "of_object", "kinds") if self.given else ("metric", "of_object")
-        for name in names:  # as cached properties would work them out again
+        for name in ("metric", "of_object", *["kinds"] * bool(self.given)):  # else they would be worked out again
             if name in self.__dict__:
                 own = self.__dict__[name]
                 stack.__dict__[name] = own[places] if isinstance(own, np.ndarray) else own.taken(places)
