@@ -43,11 +43,14 @@ def test_a_squeeze_beyond_the_limit_that_stopped_it_does_not_hold(name: str) -> 
     assert not judged(programs, np.nan * v, margin, wrench).holds.any()
 
 
+BOTH_SIDES = {"normal force": sg.NormalForce(lower=0.1, upper=4.0)}
+
+
 @pytest.mark.parametrize("name", LIMITS)
 def test_rows_that_are_said_to_be_opposite_are(name: str) -> None:
-    """Lower and upper bounds; a limit of one side, or with bounds of different joints, has none."""
+    """Lower and upper bounds; those of normal forces may be in different units, and are none."""
     wrench = random_wrenches(np.random.default_rng(2), 4)
-    limits = [LIMITS[name], sg.JointTorque(np.append(np.inf, np.full(8, 0.3)))]
+    limits = [BOTH_SIDES.get(name, LIMITS[name]), sg.JointTorque(np.append(np.inf, np.full(8, 0.3)))]
     task = sg.Task(knots=1, limits=limits[: 1 + (name != "joint torque")], goals=[sg.LargestMargin()])
     programs = assembled(stated_on(sg.analyse(GRASP), asked(GRASP, task, wrench, None, None).task, wrench, None))
     expected = {"normal force": 8, "joint torque": 9, "actuator effort": 5 + 8, "synergy reference": 5 + 8}
