@@ -10,7 +10,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import aside
-from synergrip.cli.loading import load_placed
+from synergrip.cli.loading import load_planned
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from synergrip.planning.solvers import Answerer
     from synergrip.problems.problem import Problem
 
+SOLVER = "clarabel"
+
 
 def plan(
     problem: ProblemArgument,
@@ -47,7 +49,7 @@ def plan(
     ] = None,
     solver: Annotated[
         str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation at the start posture.")
-    ] = "clarabel",
+    ] = SOLVER,
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
     ] = None,
@@ -71,7 +73,7 @@ def plan(
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
-        loaded = load_placed(problem, overrides)  # what is wrong with it is told before the slow imports
+        loaded, known = load_planned(problem, overrides)  # what is wrong with it is told before the slow imports
 
         from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
@@ -102,7 +104,7 @@ def plan(
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
-                outcome = found_by(make, loaded, answers)
+                outcome = known if known and solver == SOLVER else found_by(make, loaded, answers)
                 _explained(outcome)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
