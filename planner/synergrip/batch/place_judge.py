@@ -90,7 +90,7 @@ class PlaceJudge:
     ) -> tuple[TouchingPlaces, float, JudgedPlaces]:
         """Return the best few of some places and of others, how good they are, and all that were judged.
 
-        Those of which there is least doubt go first.
+        Those at which a load is held go first, and of these those of which there is least doubt.
         Of margins that are nearly the largest, those with the fewest joints at their stops go first; of those that are
         alike then, that whose contacts stand around the middle of the object. The one with the largest margin always
         stays, so that what is given up for these does not add up over the rounds.
@@ -99,13 +99,14 @@ class PlaceJudge:
         together = (few if others is None else others.joined(few)).different()
         margins = self.margins(together)
         stopped = at_stops(self.asked, together.q).sum(axis=1)
-        first = together.doubts == together.doubts.min()
+        unheld = np.isneginf(margins)
+        first = unheld if unheld.all() else ~unheld & (together.doubts == together.doubts[~unheld].min())
         near = self._near(margins, first, NEARLY)
         fewest = near & (stopped == stopped[near & first].min())
         alike = fewest & self._near(margins, first & fewest, ALIKE)
         middle = np.round(off_centre(self.asked, together), 7)  # of two places that mirror each other, the first
-        order = np.lexsort((middle, -np.where(alike, np.inf, margins), together.doubts))
-        most = int(np.lexsort((-margins, together.doubts))[0])
+        order = np.lexsort((middle, -np.where(alike, np.inf, margins), together.doubts, unheld))
+        most = int(np.lexsort((-margins, together.doubts, unheld))[0])
         kept = order[:BEST] if most in order[:BEST] else np.append(order[: BEST - 1], most)
         return together.taken(kept), float(margins[most]), JudgedPlaces(together, margins)
 
@@ -156,10 +157,11 @@ class PlaceJudge:
 
 
 def _some(doubts: Places) -> Places:
-    """Return which of places to judge, evenly chosen: of those with the fewest `doubts` (N,) first."""
+    """Return which of places to judge, evenly chosen: two thirds or more with the fewest `doubts` (N,)."""
     least = doubts == (doubts.min() if len(doubts) else 0)
-    first = _evenly(np.flatnonzero(least), JUDGED)
-    return np.sort(np.append(first, _evenly(np.flatnonzero(~least), JUDGED - len(first))))
+    others = np.flatnonzero(~least)
+    first = _evenly(np.flatnonzero(least), JUDGED - min(len(others), JUDGED // 3))
+    return np.sort(np.append(first, _evenly(others, JUDGED - len(first))))
 
 
 def _evenly(among: Places, most: int) -> Places:
