@@ -150,6 +150,12 @@ def test_without_a_bound_it_is_judged_with_one_that_is_told() -> None:
 def test_a_ball_that_no_finger_reaches_is_refused_with_the_nearest_place() -> None:
     with pytest.raises(sg.InputError, match=r"nowhere do all contacts touch.*nearest at .* mm: .* stays .* mm away"):
         placed(ball=replace(BALL, shape=sg.Sphere(radius=0.002)))
+    backwards = {"spread": 0.01, "close": -1.0}  # from where the fingers are closed half
+    with pytest.raises(sg.InputError, match=r"stays .* mm away \(closing takes it away from the others\)"):
+        sg.place_object("barrett", BALL, posture="ball", close=backwards, contacts=CONTACTS, task=TASK,
+                        synergies="close")  # fmt: skip
+    with pytest.raises(sg.InputError, match=r"finger2/tip stays .* mm away \(closing does not move it\)"):
+        sg.place_object("barrett", BALL, posture="open", close="finger1", contacts=CONTACTS, task=TASK)
     with pytest.raises(sg.InputError, match=r"task: expected"):
         placed(task=3)  # type: ignore[arg-type]
 

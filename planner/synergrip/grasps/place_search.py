@@ -162,11 +162,12 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         message = f"wherever all contacts touch, two of them are on the same spot of the {closer.shape.title}; {ask}"
         return found.positions[best], Issue(message, key="object.position")
     names = [touch.name for touch in closer.asked.touches]
+    ways = _ways(closer)
     touch = [name for name, yes in zip(names, found.touching[best], strict=True) if yes]
     others = [
-        f"{name} {_away(float(gap), float(facing))}"
-        for name, yes, gap, facing in zip(
-            names, found.touching[best], found.gaps[best], found.facing[best], strict=True
+        f"{name} {_away(float(gap), float(facing))}{way}"
+        for name, yes, gap, facing, way in zip(
+            names, found.touching[best], found.gaps[best], found.facing[best], ways, strict=True
         )
         if not yes
     ]
@@ -193,6 +194,17 @@ def _overlapping(closer: Closer, found: ClosedAtMany, ask: str) -> tuple[Array, 
         f"{in_mm(float(most[least]))}; {ask}"
     )
     return position, Issue(message, key="object.position")
+
+
+def _ways(closer: Closer) -> list[str]:
+    """Return of each pad what keeps it from meeting the others as the hand closes; nothing where it may."""
+    path = closer.path()
+    off = np.linalg.norm(path - path[0].mean(axis=0), axis=-1)  # from the middle of the pads where closing begins
+    leaves = off[1:].min(axis=0) > off[0]
+    return [
+        (" (closing takes it away from the others)" if away else "") if moved else " (closing does not move it)"
+        for moved, away in zip(closer.joints.moved, leaves, strict=True)
+    ]
 
 
 def _in_mm(position: Array) -> str:
