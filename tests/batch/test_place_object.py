@@ -127,6 +127,9 @@ def test_where_joints_stand_at_their_stops_is_taken_only_for_more_margin(monkeyp
         assert np.argmax(judge.best(places)[0].positions[0]) == best, margins
         held = [place for place in (0, 2, 1) if margins[place] > unholdable]  # with less doubt first
         assert np.argmax(judge.best(doubted)[0].positions[0]) == held[0], margins
+    monkeypatch.setattr(PlaceJudge, "margins", lambda self, among: np.array([1.0, 0.96, 2.0]))
+    large = TouchingPlaces(places.positions, places.q, np.array([0, 0, 1]))  # beside it no margin is nearly the largest
+    assert np.argmax(judge.best(large)[0].positions[0]) == 1
 
 
 @pytest.mark.usefixtures("coarse")

@@ -20,8 +20,10 @@ from synergrip.errors import InputError, OutputError
 from synergrip.planning.outcome import Plan
 from synergrip.reports.figures import figure as door
 from synergrip.reports.figures.figure import FIGURES, figure
+from synergrip.reports.pictures.sheet import Panel
 
 SVG = "{http://www.w3.org/2000/svg}"
+
 ROOT = Path(__file__).parent.parent.parent
 OVERVIEW = ROOT / "docs" / "images" / "overview.svg"
 POINTS = 72 / 25.4
@@ -108,8 +110,15 @@ def test_a_png_has_as_many_dots_as_asked_for(matrices: Path, tmp_path: Path) -> 
         figure("margin", matrices, tmp_path / "large.png", width_mm=2000, height_mm=2000, dpi=1200)
 
 
-def test_at_one_instant_a_cone_has_a_force_and_no_ends(tmp_path: Path) -> None:
+def test_forces_in_their_cones_begin_at_rings_and_end_at_squares(
+    saved: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = list[bool]()
+    monkeypatch.setattr(Panel, "outlined", lambda *given, square, **named: drawn.append(square))
+    figure("cones", saved, tmp_path / "cones.svg")
+    assert sorted(drawn) == [False] * 6 + [True] * 6  # of five contacts and the key
     figure("cones", "pinch-soft", tmp_path / "one.svg", overrides=["task.knots=1"])
+    assert len(drawn) == 12
     assert {"the force"} <= set(texts(tmp_path / "one.svg"))
     assert not [text for text in texts(tmp_path / "one.svg") if text.startswith(("start", "end"))]
 
