@@ -206,7 +206,7 @@ def candidates() -> dict[str, Candidate]:
     [
         (["yes", "no"], "feasible", 1, ""),
         (["no", "yes"], "feasible", 2, "1 place was set aside that would be better by the start posture, because no "
-                                       "plan holds there: infeasible, limits are too tight"),
+                                       "plan holds there: infeasible, limits are too tight. At the best one: "),
         (["no", "none", "no", "yes"], "feasible", 4, "3 places were .* too tight .at 2.; the task is refused"),
         (["no", "none"], "infeasible", 2, "no plan holds at any of the 2 best .* one by the start posture"),
         (["none"], None, 1, "no plan holds there: the task is refused; no other place"),

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from synergrip.errors import SelfCheckError, SynergripError
+from synergrip.errors import SelfCheckError, SynergripError, shortened
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.planning import plan
@@ -15,6 +15,8 @@ from synergrip.tasks.task import Task
 
 LONG = 60.0
 """[s] after which it is planned at no further place."""
+LONG_WHY = 200
+"""Letters of a reason that are shown."""
 PLANNING = "planning at the best places of the object"
 MEANT = {
     "restraint": "the object is not held", "count": "too many motions for the synergies",
@@ -97,7 +99,10 @@ def _set_aside(nos: list[Outcome | None]) -> str:
     if not nos:
         return ""
     were = "1 place was" if len(nos) == 1 else f"{len(nos)} places were"
-    return f"{were} set aside that would be better by the start posture, because no plan holds there: {_why(nos)}"
+    return (
+        f"{were} set aside that would be better by the start posture, because no plan holds there: {_why(nos)}"
+        f"{_of_the_best(nos)}"
+    )
 
 
 def _nowhere(nos: list[Outcome | None], *, late: bool) -> str:
@@ -109,13 +114,19 @@ def _nowhere(nos: list[Outcome | None], *, late: bool) -> str:
     else:
         ends = "; this is the best one by the start posture"
     where = "there" if len(nos) == 1 else f"at any of the {len(nos)} best places that are far from each other"
-    return f"no plan holds {where}: {_why(nos)}{ends}"
+    return f"no plan holds {where}: {_why(nos)}{ends}{_of_the_best(nos)}"
 
 
 def _why(nos: list[Outcome | None]) -> str:
     """Return what came of planning at some places, in words, the most frequent first."""
     counted = Counter(_words(no) for no in nos).most_common()
     return "; ".join(f"{words} (at {count})" if len(nos) > 1 else words for words, count in counted)
+
+
+def _of_the_best(nos: list[Outcome | None]) -> str:
+    """Return what `plan` says at the first of some places."""
+    no = nos[0]
+    return f". At the best one: {shortened(no.why, LONG_WHY)}" if isinstance(no, Infeasible | Unknown) else ""
 
 
 def _words(no: Outcome | None) -> str:
