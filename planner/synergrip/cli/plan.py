@@ -33,6 +33,7 @@ from synergrip.cli.running import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from synergrip.margin.found import Margins
     from synergrip.planning.outcome import Outcome
     from synergrip.planning.solvers import Answerer
     from synergrip.problems.problem import Problem
@@ -60,6 +61,14 @@ def plan(
     report: Annotated[
         bool, typer.Option("--report", help="Also write report.html: playback, charts, tables; it opens offline.")
     ] = False,
+    margins: Annotated[
+        bool,
+        typer.Option(
+            "--margins",
+            help="Also write margins.json, and into the report how far the task may go and what would help: takes as "
+            "long as 10 to 30 plans.",
+        ),
+    ] = False,
     pyramids: Annotated[
         int | None,
         typer.Option(metavar="FACETS", help="Also say what inscribed friction pyramids cost; never for the verdict."),
@@ -75,6 +84,7 @@ def plan(
 
         from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
+        from synergrip.cli.with_margins import margins_beside, margins_files
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
         from synergrip.planning.planning import plan as make
@@ -107,9 +117,11 @@ def plan(
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
                 told, proof = proven(outcome, document) if exact else ("", None)
+                found = margins_beside(outcome, loaded) if margins else None
                 with writing("--output", folder):
-                    seen = _page(document, outcome, folder) if report else None
-                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof, seen)
+                    seen = _page(document, outcome, folder, found) if report else None
+                    formats, more = loaded.file.output.write or FORMATS, margins_files(loaded, found)
+                    written = write_outcome(folder, document, outcome, formats, proof, seen, more)
                 ending.keep(*(folder / name for name in written))
             if save_program:
                 with writing("--save-program", save_program):
@@ -135,11 +147,13 @@ def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) 
         return make(problem.grasp, problem.task, answers)
 
 
-def _page(document: dict[str, Any], outcome: Outcome, folder: Path) -> str:
+def _page(document: dict[str, Any], outcome: Outcome, folder: Path, found: Margins | None) -> str:
     from synergrip.reports.data.plan_files import csv_of
+    from synergrip.reports.data.saved_margins import KnownMargins
     from synergrip.reports.html.page import report_text
 
-    return report_text(document, csv_of(outcome), folder, folder)
+    known = None if found is None else KnownMargins.of(found)
+    return report_text(document, csv_of(outcome), folder, folder, known)
 
 
 def _save(outcome: Outcome, path: Path) -> None:

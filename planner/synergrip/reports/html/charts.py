@@ -13,7 +13,7 @@ from synergrip.reports.view.planned import thinned
 
 WIDE, HIGH = 5.6, 1.15
 """Of a chart with its labels, and of its axes [inch]."""
-LEFT, RIGHT, ABOVE, BELOW = 0.62, 0.12, 0.04, 0.36
+LEFT, RIGHT, ABOVE, BELOW = 0.62, 0.2, 0.04, 0.36
 """Room around its axes, and above its title [inch]."""
 
 

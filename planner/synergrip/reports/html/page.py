@@ -1,8 +1,8 @@
 """The report of an answer: one file (HTML) that opens in a browser without a network.
 
-It is made from the document of the answer (plan.json), the hand file that this names, and what a simulation of this
-very plan has written beside it, so that the report of a saved answer is that of a new one. What comes from the user is
-escaped by the template.
+It is made from the document of the answer (plan.json), the hand file that this names, and what a simulation and the
+margins of this very plan have written beside it, so that the report of a saved answer is that of a new one. What comes
+from the user is escaped by the template.
 """
 
 from __future__ import annotations
@@ -20,9 +20,12 @@ from synergrip.documents.quantities import read_as
 from synergrip.files import atomic_path
 from synergrip.linalg import Array
 from synergrip.reports.data.plan_files import to_json
+from synergrip.reports.data.saved_margins import KnownMargins
 from synergrip.reports.html.charts import charts_of
+from synergrip.reports.html.margins import margins_of
 from synergrip.reports.html.physics import physics_of
-from synergrip.reports.html.tables import missing_of, tables_of, usage_told, why_of
+from synergrip.reports.html.synergies import synergies_of
+from synergrip.reports.html.tables import in_order, missing_of, tables_of, usage_told, why_of
 from synergrip.reports.libraries import refuse_without
 from synergrip.reports.pictures.lines import lines_of
 from synergrip.reports.text.text_usages import worst_of
@@ -32,8 +35,9 @@ LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 
 
 def write_report(
-    path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None
-) -> None:
+    path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None,
+    margins: KnownMargins | None = None,
+) -> None:  # fmt: skip
     """Write the report of an answer, whole or not at all.
 
     Args:
@@ -41,13 +45,14 @@ def write_report(
         document: of the answer, as in plan.json.
         csv: of the plan, as in plan.csv, to be downloaded.
         folder: where the hand file is looked for when it is not a bundled one.
-        beside: folder in which a simulation of the plan is looked for, if any.
+        beside: folder in which a simulation and the margins of the plan are looked for, if any.
+        margins: of this very plan, where they are at hand.
 
     Raises:
         InputError: Jinja or viser is not installed, or the hand file has changed.
         OSError: it cannot be written.
     """
-    text = report_text(document, csv, folder, beside)
+    text = report_text(document, csv, folder, beside, margins)
     with atomic_path(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -57,12 +62,19 @@ def refuse_without_libraries() -> None:
     refuse_without(LIBRARIES, "report")
 
 
-def report_text(document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None) -> str:
+def report_text(
+    document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None,
+    margins: KnownMargins | None = None,
+) -> str:  # fmt: skip
     """Return the report of an answer as `write_report` writes it."""
     refuse_without_libraries()
     scene, note = _scene(document, folder)
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document))
-    tables, no = (*tables_of(document), *physics_of(document, beside)), why_of(document)
+    tables = in_order([
+        *tables_of(document), *synergies_of(document), *margins_of(document, beside, margins),
+        *physics_of(document, beside),
+    ])  # fmt: skip
+    no = why_of(document)
     proven = document.get("provenance") or {}
     problem, overrides = proven.get("problem") or {}, proven.get("overrides") or ()
     contents = [("why", "Why not")] * (no is not None) + [("playback", "Playback")] * bool(charts or scene)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from shlex import quote
 from typing import Any
@@ -17,6 +17,9 @@ from synergrip.reports.text.text_usages import worst_of
 
 Document = Mapping[str, Any]
 
+ORDER = ("limits", "margins", "contacts", "synergies", "model", "physics", "check", "notes")
+"""Anchors of tables, as they follow each other on the page."""
+
 
 @dataclass(frozen=True)
 class Cell:
@@ -25,11 +28,13 @@ class Cell:
     text: str
     number: bool = False
     color: str = ""
+    code: bool = False
+    """Whether it is to be typed as it stands."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table under a title, with sentences before and after it, and charts (SVG) below."""
+    """A table under a title, with sentences before and after it, charts (SVG) below, and smaller tables of its own."""
 
     anchor: str
     title: str
@@ -38,12 +43,18 @@ class Table:
     before: tuple[str, ...] = field(default=())
     after: tuple[str, ...] = field(default=())
     drawn: tuple[str, ...] = field(default=())
+    parts: tuple[Table, ...] = field(default=())
 
 
 def tables_of(document: Document) -> tuple[Table, ...]:
-    """Return limits, contacts, what the synergies control, promise against truth, and the independent check."""
-    return tuple([*_limits(document), *_contacts(document), *_synergies(document), *_truth(document),
-                  *_checks(document), *_notes(document)])  # fmt: skip
+    """Return limits, contacts, promise against truth, and the independent check."""
+    parts = (_limits, _contacts, _truth, _checks, _notes)
+    return tuple(table for part in parts for table in part(document))
+
+
+def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:
+    """Return tables as they follow each other on the page."""
+    return tuple(sorted(tables, key=lambda table: ORDER.index(table.anchor)))
 
 
 def _limits(document: Document) -> Iterator[Table]:
@@ -107,22 +118,6 @@ def _contacts(document: Document) -> Iterator[Table]:
     head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", "least margin",
             "when", "force")  # fmt: skip
     yield Table("contacts", "Contacts", head, tuple(rows))
-
-
-def _synergies(document: Document) -> Iterator[Table]:
-    """Yield what the synergies control (Theorem 1)."""
-    counts = document.get("structure") or {}
-    if counts.get("dim_E_s") is None:
-        return
-    names = (
-        ("dim_E_s", "contact forces that they control (E_s)"),
-        ("dim_Gamma_ucs", "rigid motions of the object that they can produce (Γ_ucs)"),
-        ("dim_Gamma_zr", "what is left over: hand motions without effect on object and forces (Γ_zr)"),
-    )
-    rows = tuple((Cell(text), _number(str(counts[key]))) for key, text in names)
-    total = " + ".join(str(counts[key]) for key, _ in names)
-    after = f"Theorem 1 of the paper: {total} = {counts['n_z']} synergies; the hand has {counts['n_q']} joints."
-    yield Table("synergies", "What the synergies control", ("", "dimensions"), rows, after=(after,))
 
 
 def _truth(document: Document) -> Iterator[Table]:
