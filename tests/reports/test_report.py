@@ -27,7 +27,8 @@ from synergrip.reports.html import page
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
-from synergrip.reports.html.tables import tables_of, usage_told, why_of
+from synergrip.reports.html.tables import tables_of, usage_told
+from synergrip.reports.html.why import why_of
 from synergrip.reports.pictures.lines import Lines, lines_of
 from synergrip.reports.text.text_usages import worst_of
 from synergrip.reports.view.planned import scene_of
@@ -105,9 +106,11 @@ def test_what_is_a_little_beyond_its_bound_is_told_as_the_text_tells_it(name: st
 def test_a_change_that_no_plan_was_found_with_has_no_command() -> None:
     document = document_of("robonaut-handle", *ASKED["robonaut-handle"])
     first = document["repairs"][0]
-    told = [why_of(document | {"repairs": [first | {"verified": known}]}) for known in (True, False)]
-    rows = [None if each is None else (each["repairs"][0]["again"], each["repairs"][0]["set"]) for each in told]
-    assert rows == [("a plan", f"--set {quote(first['set'])}"), ("no plan found", "")]
+    for known, again, command in ((True, "a plan", f"--set {quote(first['set'])}"), (False, "no plan found", "")):
+        why = why_of(document | {"repairs": [first | {"verified": known}]})
+        assert why is not None
+        (row,) = next(part.rows for part in why.parts if part.title == "What would help")
+        assert [cell.text for cell in row[3:]] == [again, command]
 
 
 def test_hostile_titles_and_names_stay_text() -> None:

@@ -33,10 +33,10 @@ from synergrip.cli.running import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from synergrip.margin.found import Margins
     from synergrip.planning.outcome import Outcome
     from synergrip.planning.solvers import Answerer
     from synergrip.problems.problem import Problem
+    from synergrip.reports.data.saved_margins import KnownMargins
 
 
 def plan(
@@ -84,7 +84,7 @@ def plan(
 
         from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
-        from synergrip.cli.with_margins import margins_beside, margins_files
+        from synergrip.cli.with_margins import margins_beside, margins_told
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
         from synergrip.planning.planning import plan as make
@@ -119,8 +119,9 @@ def plan(
                 told, proof = proven(outcome, document) if exact else ("", None)
                 found = margins_beside(outcome, loaded) if margins else None
                 with writing("--output", folder):
-                    seen = _page(document, outcome, folder, found) if report else None
-                    formats, more = loaded.file.output.write or FORMATS, margins_files(loaded, found)
+                    known, more = margins_told(loaded, found)
+                    seen = _page(document, outcome, folder, known) if report else None
+                    formats = loaded.file.output.write or FORMATS
                     written = write_outcome(folder, document, outcome, formats, proof, seen, more)
                 ending.keep(*(folder / name for name in written))
             if save_program:
@@ -147,12 +148,10 @@ def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) 
         return make(problem.grasp, problem.task, answers)
 
 
-def _page(document: dict[str, Any], outcome: Outcome, folder: Path, found: Margins | None) -> str:
+def _page(document: dict[str, Any], outcome: Outcome, folder: Path, known: KnownMargins | None) -> str:
     from synergrip.reports.data.plan_files import csv_of
-    from synergrip.reports.data.saved_margins import KnownMargins
     from synergrip.reports.html.page import report_text
 
-    known = None if found is None else KnownMargins.of(found)
     return report_text(document, csv_of(outcome), folder, folder, known)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from synergrip.cli.beside import aside
 from synergrip.cli.running import heard, placed
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from synergrip.margin.found import Margins
     from synergrip.planning.outcome import Outcome
     from synergrip.problems.problem import Problem
+    from synergrip.reports.data.saved_margins import KnownMargins
 
 
 def margins_beside(outcome: Outcome, problem: Problem) -> Margins | None:
@@ -29,12 +30,14 @@ def margins_beside(outcome: Outcome, problem: Problem) -> Margins | None:
     return found
 
 
-def margins_files(problem: Problem, found: Margins | None) -> dict[str, str]:
-    """Return margins.json by its name, to be written with the plan; nothing without margins."""
+def margins_told(problem: Problem, found: Margins | None) -> tuple[KnownMargins | None, dict[str, str]]:
+    """Return margins as a report has them, and margins.json by its name, to be written with the plan."""
     if found is None:
-        return {}
+        return None, {}
     from synergrip.reports.data.json_margins import margins_document
     from synergrip.reports.data.margins_files import FILE
     from synergrip.reports.data.plan_files import to_json
+    from synergrip.reports.data.saved_margins import KnownMargins
 
-    return {FILE: to_json(margins_document(problem.title, found, problem.notes, problem.source)) + "\n"}
+    document: dict[str, Any] = margins_document(problem.title, found, problem.notes, problem.source)
+    return KnownMargins.of(found, document), {FILE: to_json(document) + "\n"}

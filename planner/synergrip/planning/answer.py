@@ -69,8 +69,8 @@ class Answer(Value):
     def report(self, path: str | Path, *, problem: Asked | None = None, margins: Margins | None = None) -> Path:
         """Write the report, the page of ``synergrip plan --report``, and return the file: it opens offline.
 
-        A simulation and margins of this very answer that stand in the folder of the file (``synergrip simulate FOLDER
-        -o FOLDER``, ``synergrip margins FOLDER -o FOLDER``) are a part of it.
+        A simulation and margins of this very answer in the folder of the file (``synergrip simulate FOLDER -o FOLDER``,
+        ``synergrip margins FOLDER -o FOLDER``) are a part of it.
 
         Args:
             path: the file, replaced whole or not at all.

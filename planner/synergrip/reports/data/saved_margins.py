@@ -44,14 +44,16 @@ class KnownMargins:
     sensitivities: Sensitivities | None = None
     timing: FastestTiming | None = None
     interrupted: bool = False
+    document: Mapping[str, Any] = field(default_factory=dict)
+    """As in margins.json."""
 
     @classmethod
-    def of(cls, found: Margins) -> KnownMargins:
-        """Return what is known of margins at hand."""
+    def of(cls, found: Margins, document: Mapping[str, Any]) -> KnownMargins:
+        """Return what is known of margins at hand, with their document."""
         linear = None if found.linear is None else {name: each.worst for name, each in found.linear.items()}
         return cls(
             found.measures, linear, found.direct, found.on_request, found.disturbance, found.quality,
-            found.sensitivities, found.timing, found.interrupted,
+            found.sensitivities, found.timing, found.interrupted, document,
         )  # fmt: skip
 
 
@@ -97,6 +99,7 @@ def margins_of(document: Mapping[str, Any]) -> KnownMargins:
         sensitivities=None if told.get("sensitivities") is None else _sensitivities(told),
         timing=_timing(told.inside(TIMING)) if TIMING in there else None,
         interrupted=told.get("interrupted") is True,
+        document=document,
     )
 
 

@@ -20,7 +20,6 @@ from synergrip.reports.data.plan_files import csv_of, write_outcome
 
 if TYPE_CHECKING:
     from synergrip.margin.found import Margins
-    from synergrip.reports.data.saved_margins import KnownMargins
     from synergrip.reports.data.viewer import Viewer
 
 T = TypeVar("T")
@@ -37,10 +36,13 @@ def save(outcome: Outcome, folder: str | Path, formats: Sequence[str], problem: 
 
 def report(outcome: Outcome, path: str | Path, problem: Asked | None, margins: Margins | None = None) -> Path:
     """Write the report of an answer; see `Answer.report`."""
+    from synergrip.reports.data.json_margins import margins_document
+    from synergrip.reports.data.saved_margins import KnownMargins
     from synergrip.reports.html.page import write_report
 
-    place, known = path_of(path, "path"), _known(outcome, margins)
+    place, same = path_of(path, "path"), None if margins is None else _of_this(outcome, margins)
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
+    known = None if same is None else KnownMargins.of(same, margins_document(title, same, notes, source))
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
     written_at(
         "path", place, lambda: write_report(place, document, csv_of(outcome), beside=place.parent, margins=known)
@@ -48,18 +50,15 @@ def report(outcome: Outcome, path: str | Path, problem: Asked | None, margins: M
     return place
 
 
-def _known(outcome: Outcome, margins: object) -> KnownMargins | None:
-    """Return what is known of the margins of an answer, or refuse those of another one."""
+def _of_this(outcome: Outcome, margins: object) -> Margins:
+    """Return margins, or refuse those of another answer."""
     from synergrip.margin.found import Margins
-    from synergrip.reports.data.saved_margins import KnownMargins
 
-    if margins is None:
-        return None
     if not isinstance(margins, Margins):
         raise InputError.at("margins", f"expected what margins(grasp, task) returns, got {kind_of(margins)}")
     if not (isinstance(outcome, Plan) and _alike(outcome, margins.plan)):
         raise InputError.at("margins", "are of another plan; give those of the grasp and the task of this answer")
-    return KnownMargins.of(margins)
+    return margins
 
 
 def _alike(one: Plan, other: Plan) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from synergrip.documents.quantities import plain
 from synergrip.margin.measures import Measure
 from synergrip.margin.sensitivity.sensitivity import HAND, START, Sensitivities, Sensitivity
 from synergrip.reports.data.margins_files import FILE
-from synergrip.reports.data.saved_margins import KnownMargins, saved_margins
+from synergrip.reports.data.saved_margins import KnownMargins
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.tables import Cell, Table
 from synergrip.reports.pictures.cone_sections import when_worst
@@ -54,27 +53,21 @@ MOST_ROWS = 12
 """Changes that are told of each margin; margins.json has all of them."""
 
 
-def margins_of(
-    document: Mapping[str, Any], beside: Path | None = None, found: KnownMargins | None = None
-) -> Iterator[Table]:
-    """Yield what is known of the margins of an answer, or why nothing is, and how it is added.
+def margins_of(document: Mapping[str, Any], found: KnownMargins | str | None = None) -> Table:
+    """Return what is known of the margins of an answer, or why nothing is, and how it is added.
 
     Args:
         document: of the answer, as in plan.json.
-        beside: folder in which margins of the plan are looked for, if any.
-        found: margins of this very plan, where they are at hand.
+        found: margins of this very plan, or why those that stand beside it are none; None without any.
     """
     if document["verdict"] != "feasible":
         known = UNTIL_THEN if document.get("true") else THERE_ARE_NONE
-        yield Table(ANCHOR, TITLE, before=(f"{known}.",))
-        return
-    there = found if found is not None or beside is None else saved_margins(beside, document)
-    if isinstance(there, KnownMargins):
-        yield _told(there, document)
-        return
-    left_out = (f"{FILE} beside it {there}; it is left out.",) if there else ()
+        return Table(ANCHOR, TITLE, before=(f"{known}.",))
+    if isinstance(found, KnownMargins):
+        return _told(found, document)
+    left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
     by = ADDED_BY if (document.get("provenance") or {}).get("problem") else ADDED_IN_CODE
-    yield Table(ANCHOR, TITLE, before=(*left_out, f"{by}."))
+    return Table(ANCHOR, TITLE, before=(*left_out, f"{by}."))
 
 
 def _told(found: KnownMargins, document: Mapping[str, Any]) -> Table:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -107,16 +106,15 @@ def _contacts(document: Document) -> Iterator[Table]:
     for i, each in enumerate(told):
         k = 0 if margins is None else when_worst(margins[:, i])
         friction = each["parameters"].get("friction")
+        least = () if margins is None else (_number(f"{margins[k, i]:.4g} N"), _number(f"{times[k]:.3g} s"))
+        force = () if forces is None else (_number(f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),)
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
             _number("–" if friction is None else f"{friction:.3g}"), _number(read_as(each["pad_radius_m"], "m")),
-            _number(", ".join(f"{round(1e3 * x, 1) + 0.0:.1f}" for x in each["point_m"])),
-            _number("–" if margins is None else f"{margins[k, i]:.4g} N"),
-            _number("–" if margins is None else f"{times[k]:.3g} s"),
-            _number("–" if forces is None else f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),
+            _number(", ".join(f"{round(1e3 * x, 1) + 0.0:.1f}" for x in each["point_m"])), *least, *force,
         ))  # fmt: skip
-    head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", "least margin",
-            "when", "force")  # fmt: skip
+    known = ("least margin", "when") * (margins is not None) + ("force",) * (forces is not None)
+    head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", *known)
     yield Table("contacts", "Contacts", head, tuple(rows))
 
 
@@ -151,6 +149,8 @@ def _checks(document: Document) -> Iterator[Table]:
     proof = document.get("certificate") or {}
     after = f"certificate: {proof.get('kind')}, {'verified' if proof.get('verified') else 'not verified'}" + (
         f", by {proof['solver']}" if proof.get("solver") else "")  # fmt: skip
+    if proof.get("kind") == "none":
+        after = "There is no certificate: neither that there is a plan nor that there is none is proven."
     yield Table("check", "Independent check", ("what", "error", "allowed", ""), rows, after=(after,))
 
 
@@ -166,35 +166,3 @@ def _margins(document: Document) -> Any:
 
 def _number(text: str) -> Cell:
     return Cell(text, number=True)
-
-
-def why_of(document: Document) -> dict[str, Any] | None:
-    """Return why there is no plan, and the changes that were tried, as the text tells them; None for a plan."""
-    if document["verdict"] == "feasible":
-        return None
-    when, repairs = document.get("when") or {}, document.get("repairs") or ()
-    told = [f"first at t = {when['first_s']:.3g} s"] if when.get("first_s") is not None else []
-    if document.get("cannot_help"):
-        told.append(f"proven not to help: {_words(', '.join(document['cannot_help']))}")
-    rows = [
-        {"cause": _words(each["cause"]), "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
-         "again": "a plan" if each["verified"] else "no plan found" if each.get("tried", True) else "not tried",
-         "set": f"--set {quote(each['set'])}" if each["verified"] else ""}
-        for each in repairs
-    ]  # fmt: skip
-    return {"text": (document.get("why") or {}).get("text", ""), "told": told, "repairs": rows}
-
-
-def missing_of(document: Document) -> Sequence[tuple[float, float]]:
-    """Return the stretches of time without a plan [s]."""
-    spans = (document.get("when") or {}).get("intervals_s") or ()
-    return tuple((float(begin), float(end)) for begin, end in spans)
-
-
-def _words(causes: str) -> str:
-    return causes.replace("_", " ")
-
-
-def _of(value: Any, unit: Any) -> str:
-    text = f"{value:.4g}" if isinstance(value, int | float) else "–" if value is None else str(value)
-    return f"{text} {unit or ''}".rstrip()
