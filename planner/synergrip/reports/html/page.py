@@ -149,6 +149,9 @@ def _headline(document: Mapping[str, Any]) -> list[str]:
     told.append(
         f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s{wanted}"
     )
+    if document.get("allowances"):
+        least = read_as(document["allowances"]["worst_N"], "N")
+        told.append(f"{least} in the worst case of all that is allowed for")
     rows = (row for each in document["limits"] for row in worst_of(usage_told(each, document)))
     named = [row for row in rows if row[0] in ("largest normal force", "joint torque")]
     return told + [f"{title} {shown.lstrip('-')} at {item}" for title, shown, item, *_ in named]

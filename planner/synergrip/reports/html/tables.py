@@ -9,15 +9,17 @@ from typing import Any
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import read_as
+from synergrip.documents.quantities import plain, read_as
 from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.text.text_usages import worst_of
 
 Document = Mapping[str, Any]
 
-ORDER = ("limits", "margins", "contacts", "synergies", "model", "physics", "check", "notes")
+ORDER = ("limits", "allowed", "margins", "contacts", "synergies", "model", "physics", "check", "notes")
 """Anchors of tables, as they follow each other on the page."""
+MOST_CASES = 6
+"""Cases of what is allowed for that are told."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Table:
 
 def tables_of(document: Document) -> tuple[Table, ...]:
     """Return limits, contacts, promise against truth, and the independent check."""
-    parts = (_limits, _contacts, _truth, _checks, _notes)
+    parts = (_limits, _allowed, _contacts, _truth, _checks, _notes)
     return tuple(table for part in parts for table in part(document))
 
 
@@ -73,6 +75,21 @@ def _limits(document: Document) -> Iterator[Table]:
     if rows:
         head = ("limit", "worst", "where", "when", "bound", "between the knots")
         yield Table("limits", "Limits", head, tuple(rows))
+
+
+def _allowed(document: Document) -> Iterator[Table]:
+    """Yield in which cases of what the task allows for the slip margin is smallest."""
+    told = document.get("allowances")
+    if not told:
+        return
+    every, drawn = sorted(told["cases"], key=lambda each: float(each["worst_N"])), told.get("scenarios")
+    rows = tuple((Cell(each["case"]), _number(f"{plain(each['worst_N'])} N")) for each in every[:MOST_CASES])
+    after = [f"of {len(every)} cases; smallest at {told['contact']}, t = {told['time_s']:.3g} s"]
+    if drawn and "missing" in drawn:
+        after.append(f"{drawn['missing']} of {drawn['count']} fresh scenarios (seed {drawn['seed']}) miss a limit")
+    elif drawn:
+        after.append(f"of {drawn['count']} scenarios (seed {drawn['seed']}) all hold")
+    yield Table("allowed", "What is allowed for", ("case", "smallest slip margin"), rows, after=tuple(after))
 
 
 def _side(told: Mapping[str, Any]) -> str:
