@@ -9,7 +9,7 @@ import numpy as np
 
 from synergrip.documents.quantities import plain
 from synergrip.margin.measures import Measure
-from synergrip.margin.sensitivity.sensitivity import HAND, START, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.sensitivity import HAND, NOTHING, START, Sensitivities, Sensitivity
 from synergrip.reports.data.margins_files import FILE
 from synergrip.reports.data.saved_margins import KnownMargins
 from synergrip.reports.html.charts import charts_of
@@ -141,7 +141,7 @@ def _worth(found: Sensitivities, document: Mapping[str, Any]) -> Table:
             continue
         under = f"what adds to the {head.format(f'{plain(margin)} N').removeprefix('of the ')}"
         every = sorted(found.of(kind), key=lambda each: (-float(f"{each.gain:.6g}"), -each.size))
-        shown = [each for each in every if each.size][:MOST_ROWS]
+        shown = [each for each in every if each.size > NOTHING * max(1.0, abs(margin))][:MOST_ROWS]
         named += shown
         tables.append(_changes(f"{under[0].upper()}{under[1:]}", shown, len(every) - len(shown)))
         drawn += [worth_svg(under, bars)] if (bars := worth_bars(found, kind)) else []

@@ -58,9 +58,9 @@ def _each(document: Mapping[str, Any]) -> Table:
     for each in document[KEY]["each"]:
         step = f"{1 if each['unit'] else each['step']:g} {each['unit']}".strip()
         share = each["squeezing_share"]
-        squeezes = "moves no contact" if share is None else f"{100 * share:.2g} %" if share else "none"
+        squeezes = "moves no contact" if share is None else f"{plain(100 * share, 2)} %" if share else "none"
         forces = [Cell(f"{plain(force, 3)} N" if force else "0", number=True) for force in each["internal_N"]]
-        moved = describe_displacement(np.array(each["motion"]), length)
+        moved = describe_displacement(np.array(each["motion"]), length) if any(each["motion"]) else "none"
         rows.append((Cell(each["name"]), Cell(step, number=True), Cell(moved), Cell(squeezes), *forces))
     head = ("synergy", "step", "moves the object by", "of it squeezes", *(f"force at {name}" for name in colors))
     after = (
