@@ -26,7 +26,7 @@ from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.margins_files import write_margins
 from synergrip.reports.data.saved_margins import KnownMargins, saved_margins
 from synergrip.reports.data.saved_margins import margins_of as read_back
-from synergrip.reports.data.saved_problem import refuse_another
+from synergrip.reports.data.saved_problem import problem_of, refuse_another
 from synergrip.reports.html.margins import ADDED_BY, ADDED_IN_CODE, THERE_ARE_NONE, UNTIL_THEN
 from synergrip.reports.html.margins import margins_of as section_of
 from synergrip.reports.html.page import report_text
@@ -143,6 +143,25 @@ def test_a_plan_that_its_problem_no_longer_has_is_refused(made: sg.Plan, plan: d
     for other in (plan | {"dz_r": altered.tolist()}, plan | {"time_s": [0.0]}, {"verdict": "infeasible"}):
         with pytest.raises(sg.InputError, match="planned again, has another plan"):
             refuse_another(made, other, "PLAN")
+
+
+@pytest.mark.parametrize(
+    ("provenance", "said"),
+    [
+        (None, "made in code"),
+        ({"problem": None}, "made in code"),
+        (3, "made in code"),
+        ({"problem": {"text": "[hand]\nmodel = 3"}, "overrides": 3}, "cannot be read again"),
+        (
+            {"problem": {"name": "p", "text": "[grasp]\nfile = 'gone.json'", "sha256": 3}},
+            "give the problem file itself",
+        ),
+        ({"problem": {"name": 3, "text": [3]}, "overrides": [3]}, "cannot be read again"),
+    ],
+)
+def test_a_plan_that_does_not_tell_its_problem_is_refused(provenance: object, said: str) -> None:
+    with pytest.raises(sg.InputError, match=said):
+        problem_of({"provenance": provenance}, "PLAN")
 
 
 def test_the_report_has_the_words_of_the_command(

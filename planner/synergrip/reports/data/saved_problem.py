@@ -33,17 +33,17 @@ def problem_of(document: Mapping[str, Any], key: str) -> Problem:
     Raises:
         InputError: an answer that was made in code, or whose problem cannot be read again.
     """
-    told = document.get("provenance") or {}
-    problem, overrides = told.get("problem"), tuple(told.get("overrides") or ())
+    told = document.get("provenance")
+    problem, overrides = (told.get(each) if isinstance(told, dict) else None for each in ("problem", "overrides"))
     if not isinstance(problem, dict):
         raise InputError.at(key, "this plan was made in code and does not tell its problem; give the problem itself")
-    name, content = problem["name"], problem.get("text") or problem.get("dict") or {}
+    name, content = str(problem.get("name")), problem.get("text") or problem.get("dict") or {}
     shipped = bundled("problems") / f"{name}.toml"
     try:
-        if isfile(shipped) and sha256(shipped.read_bytes()).hexdigest() == problem["sha256"]:
-            return load_problem(name, overrides)
-        return load_problem(_read(content) if isinstance(content, str) else content, overrides)
-    except (InputError, ValueError) as error:  # of a text that is no TOML or JSON, too
+        if isfile(shipped) and sha256(shipped.read_bytes()).hexdigest() == problem.get("sha256"):
+            return load_problem(name, overrides or ())
+        return load_problem(_read(content) if isinstance(content, str) else content, overrides or ())
+    except (InputError, ValueError, TypeError) as error:  # of a text that is no TOML or JSON, too
         message = f"the problem '{name}' of this plan cannot be read again ({error}); give the problem file itself"
         raise InputError.at(key, message) from None
 
