@@ -179,7 +179,7 @@ def test_the_report_has_the_words_of_the_command(
     assert [each for each in said if each not in part] == []
     bars = [each for each in part.split("<svg")[1:] if "adds to the slip margin" in each]
     assert len(bars) == 2  # of the largest margin, and with these references
-    assert ADDED_BY not in part
+    assert "margins FOLDER" not in part
 
 
 def test_changes_are_told_with_the_most_on_top(problem: sg.Problem, found: Margins, plan: dict[str, Any]) -> None:

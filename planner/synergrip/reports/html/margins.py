@@ -27,13 +27,13 @@ from synergrip.reports.text.text_timing import how_fast
 
 ANCHOR, TITLE = "margins", "Margins and sensitivities"
 ADDED_BY = (
-    "Not worked out yet: `synergrip margins FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how heavy, slippery, "
-    "hard and far the task may get, what is withstood, and which changes are worth most; FOLDER is that of plan.json. "
-    "It takes as long as some 10 to 30 plans"
+    "Not worked out yet: `synergrip margins FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how heavy, "
+    "slippery, hard and far the task may get, what is withstood, and which changes are worth most; FOLDER is that of "
+    "plan.json. It takes as long as some 10 to 30 plans"
 )
 ADDED_IN_CODE = (
-    "Not worked out yet: in code `answer.report(path, margins=margins(grasp, task))` adds how heavy, slippery, hard and "
-    "far the task may get, what is withstood, and which changes are worth most"
+    "Not worked out yet: in code `answer.report(path, margins=margins(grasp, task))` adds how heavy, slippery, hard "
+    "and far the task may get, what is withstood, and which changes are worth most"
 )
 THERE_ARE_NONE = (
     "There are none: they are those of a plan, and there is none of this problem. `synergrip margins` says the same; "
