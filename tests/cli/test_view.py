@@ -57,11 +57,14 @@ def listened_at(process: subprocess.Popen[str]) -> list[str]:
     return found
 
 
-def test_a_view_is_for_this_machine_alone_and_ends_with_an_interrupt(served: subprocess.Popen[str]) -> None:
+@pytest.mark.parametrize("ended_by", [signal.SIGINT, signal.SIGTERM])
+def test_a_view_is_for_this_machine_alone_and_ends_with_a_word(
+    served: subprocess.Popen[str], ended_by: signal.Signals
+) -> None:
     port = int(address_of(served).rpartition(":")[2])
     if Path("/proc/net/tcp").exists():
         assert listened_at(served) == [f"0100007F:{port:04X}"]
-    served.send_signal(signal.SIGINT)
+    served.send_signal(ended_by)
     out, told = served.communicate(timeout=20)
     assert (served.returncode, out.split()) == (0, ["closed"])
     assert "Traceback" not in told
