@@ -33,6 +33,8 @@ from synergrip.planning.told import (
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
+from synergrip.reports.data.json_control import KEY as CONTROL
+from synergrip.reports.data.json_control import control_document
 from synergrip.reports.data.json_no import no_document
 from synergrip.tasks.scaling import units_of
 
@@ -61,6 +63,8 @@ def outcome_document(
         "programs": [_program(decision) for decision in outcome.decisions],
         "notes": notes_together(outcome.notes, notes),
     }
+    if outcome.analysis is not None:
+        document[CONTROL] = control_document(outcome.analysis)
     if (execution := execution_document(outcome)) is not None:
         document[EXECUTION] = execution
     if isinstance(outcome, Plan):
