@@ -171,10 +171,9 @@ class GraspStack(Value, Sequence[Grasp]):
             UnknownPlaceError: there are no such places.
         """
         places = places_of("places", places, len(self))
-        given: tuple[Grasp, ...] = ()
-        if self.given:
-            chosen = isinstance(places, slice)
-            given = self.given[places] if chosen else tuple(self.given[i] for i in np.arange(len(self))[places])
+        given = self.given
+        if given:
+            given = given[places] if isinstance(places, slice) else tuple(given[i] for i in np.arange(len(self))[places])
         postures = None if self.postures is None else self.postures.taken(places)
         stack = GraspStack(
             self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
