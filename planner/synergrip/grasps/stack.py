@@ -171,9 +171,9 @@ class GraspStack(Value, Sequence[Grasp]):
             UnknownPlaceError: there are no such places.
         """
         places = places_of("places", places, len(self))
-        given = self.given
-        if given:
-            given = given[places] if isinstance(places, slice) else tuple(given[i] for i in np.arange(len(self))[places])
+        if given := self.given:
+            each = range(len(self))[places] if isinstance(places, slice) else np.arange(len(self))[places]
+            given = tuple(given[i] for i in each)
         postures = None if self.postures is None else self.postures.taken(places)
         stack = GraspStack(
             self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
