@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from synergrip.explain.explanation import Explanation
-from synergrip.explain.repairs import Repair
 from synergrip.linalg import Array
 from synergrip.planning.told import finite
 from synergrip.reports.data.json_missing import missing_document
+
+if TYPE_CHECKING:
+    from synergrip.explain.explanation import Explanation
+    from synergrip.explain.repairs import Repair
 
 
 def no_document(found: Explanation, times: Array) -> dict[str, Any]:

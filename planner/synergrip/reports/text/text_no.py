@@ -15,11 +15,6 @@ from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.tasks.tracking import undone, wish_size
 
-HEADS = {
-    "restraint": "the object is not held", "count": "too many motions for the synergies",
-    "direction": "out of reach of these synergies", "magnitude": "limits too tight",
-}  # fmt: skip
-"""Stage -> what it means."""
 FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 """How far a number was turned of which no value helps, where it is not as far as it goes."""
 AT_START = "in the linear model of the start posture"
