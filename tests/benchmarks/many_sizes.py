@@ -74,16 +74,20 @@ def draw(curves: dict[str, Curve], alone: dict[str, float], path: Path) -> None:
     from matplotlib import pyplot as plt
 
     figure, axes = plt.subplots(figsize=(6.0, 3.4), layout="constrained")
-    sizes = np.array([0.0])
+    sizes, ends = np.array([0.0]), dict[str, float]()
     for name, points in curves.items():
         sizes, costs = np.array(points).T
         color, each = COLORS[name.split(",")[0]], "each" in name
         axes.loglog(sizes, costs, "o--" if each else "o-", color=color, mfc="white" if each else color)
-        axes.annotate(name, (sizes[-1], costs[-1]), (6, 0), textcoords="offset points", va="center", fontsize="small")
+        ends[name] = costs[-1]
     for form, cost in alone.items():
         axes.plot(sizes[[0, -1]], [cost, cost], ":", color=COLORS[form])
-        axes.annotate(f"{form}, Clarabel", (sizes[-1], cost), (6, 0), textcoords="offset points", va="center",
-                      fontsize="small")  # fmt: skip
+        ends[f"{form}, Clarabel"] = cost
+    height = 0.0
+    for name, cost in sorted(ends.items(), key=lambda each: each[1]):
+        height = max(cost, 1.35 * height)  # one above the other
+        axes.annotate(name, (sizes[-1], height), (8, 0), textcoords="offset points", va="center",
+                      color=COLORS[name.split(",")[0]], fontsize="small")  # fmt: skip
     axes.set(xlabel="tasks", ylabel="µs of processor time a task", ylim=(2, 1000))
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(visible=True, axis="y", alpha=0.3)

@@ -98,8 +98,13 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
-    rounding = 0.0 if verified else float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
+    rounding = 0.0 if verified else rounding_of(program, x) / terms
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding=rounding)
+
+
+def rounding_of(program: Program, x: Array) -> float:
+    """Return about how much of the objective at x (n,) is rounding of the sums that it is worked out from."""
+    return float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON
 
 
 @np.errstate(over="ignore", invalid="ignore")

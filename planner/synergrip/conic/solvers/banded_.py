@@ -39,7 +39,7 @@ LATE = 1e-4
 """s'z of a cone from which on W is so uneven that solutions are refined."""
 STUCK = 1e-5
 """A step shorter than this leads nowhere any more."""
-BETTER = 0.9
+BETTER = 0.98
 """Share of what the best state so far leaves; one that leaves less is better."""
 NO_BETTER, PATIENCE = 4, 12
 """Iterations none of which is better than one that is good, or that is modest, after which none is waited for."""
