@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,12 @@ class Kept:
     """What values share: they stay as they are, and a comparison with an array is no array."""
 
     __array_ufunc__ = None
+
+    def with_judged(self, **values: object) -> Self:
+        """Return the same value with others in some fields, which nobody needs to judge."""
+        made, own = object.__new__(type(self)), self.__dict__
+        made.__dict__.update({name: own[name] for name in self.__dataclass_fields__ if name in own}, **values)  # type: ignore[attr-defined]
+        return made
 
     def __setstate__(self, state: Mapping[str, object]) -> None:
         """Come out of a pickle or a copy, which forgets that arrays are read-only."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from synergrip.batch.cone_problems import ConeProblems
-from synergrip.batch.stacked_cones import Cones, most, stacked_cones
+from synergrip.batch.stacked_cones import most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
 from synergrip.conic.bounds import within
 from synergrip.conic.goals.least_effort import Effort
@@ -22,6 +22,7 @@ from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import LARGEST, variable_bounds
+from synergrip.grasps.friction_cones import Cones
 from synergrip.linalg import Array, Places, frozen
 from synergrip.values import Value
 

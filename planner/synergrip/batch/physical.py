@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.batch.assembly import Assembled, columns
-from synergrip.batch.stacked_cones import slip_margins
 from synergrip.batch.stated import Stated
 from synergrip.conic.affine import times
 from synergrip.conic.limits.actuator_effort import ActuatorEffort
@@ -17,6 +16,7 @@ from synergrip.conic.limits.joint_torque import JointTorque
 from synergrip.conic.limits.limit import Limit
 from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.synergy_reference import SynergyReference
+from synergrip.grasps.friction_cones import slip_margins
 from synergrip.linalg import Array
 from synergrip.planning.between import LIMIT
 from synergrip.planning.verified import EXACT

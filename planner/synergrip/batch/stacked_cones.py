@@ -3,45 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain
 from operator import attrgetter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from synergrip.conic.affine import times
-from synergrip.conic.limits.friction_cone import SLIPPERY
 from synergrip.grasps.contacts.kind import ContactKind
+from synergrip.grasps.friction_cones import Cones
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array, Places
-from synergrip.values import Value
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Cones(Value):
-    """The cones of one size of all contacts: ``W lambda``, cones below one another."""
-
-    size: int
-    contacts: NDArray[np.intp]
-    """(cones,) which contact each belongs to."""
-    W: Array
-    """(cones * size, n_l), or (N, ...) with one for each problem."""
-
-    @cached_property
-    def unit(self) -> Array:
-        """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
-        largest = np.abs(self.W[..., :: self.size, :]).max(axis=-1)
-        return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
-
-    def taken(self, places: Places) -> Cones:
-        """Return those of the problems at some places."""
-        return Cones(self.size, self.contacts, self.W[places]) if self.W.ndim > 2 else self
-
-    def images(self, forces: Array) -> Array:
-        """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
-        return times(self.W, forces).reshape(len(forces), len(self.contacts), self.size)
+from synergrip.linalg import Array
 
 
 def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
@@ -113,17 +83,3 @@ def _reached(tail: Array, head: Array) -> Array:
     if tail.shape[-2] == tail.shape[-1] and np.count_nonzero(tail) == np.count_nonzero(diagonal) == diagonal.size:
         return np.asarray(head / np.abs(diagonal))
     return np.asarray((np.abs(np.linalg.pinv(tail)) @ head[..., None])[..., 0]) if size else head[..., :0]
-
-
-def slip_margins(cones: Sequence[Cones], normal: Array, forces: Array) -> Array:
-    """Return slip margins (N, n_c) [N] of contact forces (N, n_l) by the contacts' own formula, from their cones.
-
-    ``(W lambda)_0 - ||(W lambda)_1..||``, the smallest of the cones of a contact, and no more than a pull.
-    """
-    margins = np.full((len(forces), normal.shape[1]), np.inf)
-    for each in cones:
-        image = each.images(forces)
-        inside = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
-        for k, contact in enumerate(each.contacts):
-            margins[:, contact] = np.minimum(margins[:, contact], inside[:, k])
-    return np.where(normal < 0, np.minimum(margins, normal), margins)

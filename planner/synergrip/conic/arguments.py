@@ -65,11 +65,11 @@ def sizes(key: str, value: Any, of: str) -> Array:
         InputError: no numbers, or numbers that are no sizes.
     """
     found = numbers(key, value, of)
+    if (found > 0).all():
+        return found
     if np.any(np.isnan(found)):
         raise InputError.at(key, "expected numbers, got nan; infinity stands for no bound")
-    if np.any(found <= 0):
-        raise InputError.at(key, f"expected sizes greater than 0, got {float(np.min(found)):g}")
-    return found
+    raise InputError.at(key, f"expected sizes greater than 0, got {float(np.min(found)):g}")
 
 
 def numbers(key: str, value: Any, of: str) -> Array:
@@ -84,7 +84,7 @@ def numbers(key: str, value: Any, of: str) -> Array:
         raise InputError.at(key, f"expected {wanted}, got {described(value)}")
     if found.ndim > 1 or not found.size:
         raise InputError.at(key, f"expected {wanted}, got an array of shape {found.shape}")
-    if np.any((np.abs(found) > LARGEST_NUMBER) & ~np.isinf(found)):
+    if not np.abs(found).max() <= LARGEST_NUMBER and np.any((np.abs(found) > LARGEST_NUMBER) & ~np.isinf(found)):
         raise InputError.at(key, f"{np.abs(found)[np.isfinite(found)].max():g} is too large")
     own = found is value and not found.flags.writeable and found.flags.owndata
     return found if own else frozen(np.array(found))

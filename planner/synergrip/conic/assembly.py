@@ -28,7 +28,7 @@ class Band:
     count: int
     """How often it repeats; the last copy belongs to the last knot."""
     exact: bool = False
-    """Whether small entries are no rounding, and stay."""
+    """Whether small entries are no rounding, and stay; of bands below one another all or none."""
 
 
 @dataclass(frozen=True)
@@ -88,14 +88,12 @@ def stacked(bands: Sequence[Band], knots: int, n_v: int, extra: int) -> sparse.c
 
 def _of_one_knot(bands: Sequence[Band], n_v: int, extra: int) -> sparse.csc_matrix:
     """Return the bands below one another where there is nothing to repeat."""
-    whole = np.zeros((sum(len(band.scalar) for band in bands), n_v + extra))
-    top = 0
-    for band in bands:
-        here = slice(top, top + len(band.scalar))
-        whole[here, :n_v] = band.matrix if band.exact else without_rounding(band.matrix)
-        if extra:
-            whole[here, -1] = band.scalar
-        top = here.stop
+    matrices = [band.matrix if band.matrix.ndim == 2 else band.matrix[0] for band in bands]
+    whole = np.concatenate([np.zeros((0, n_v)), *matrices])
+    if not any(band.exact for band in bands):
+        whole = without_rounding(whole)
+    if extra:
+        whole = np.hstack([whole, np.concatenate([np.zeros(0), *(band.scalar for band in bands)])[:, None]])
     column, row = np.nonzero(whole.T)
     ends = np.searchsorted(column, np.arange(n_v + extra + 1)).astype(np.int32)
     return sparse.csc_matrix((whole[row, column], row.astype(np.int32), ends), shape=whole.shape)

@@ -11,6 +11,8 @@ from synergrip.linalg import Array
 if TYPE_CHECKING:
     from scipy import sparse
 
+SMALL = 4000
+"""Entries of a matrix up to which it is written out, zeros and all, for a product."""
 ROUNDING = 1e-12
 """An entry this small beside its row's largest, after a change of unknowns, is 0."""
 
@@ -39,6 +41,8 @@ def inverse(basis: sparse.csc_matrix) -> sparse.csr_matrix:
 
 def transposed_product(A: sparse.csc_matrix, y: Array) -> Array:
     """Return ``A'y`` (n,) for y (m,); of a small A it takes longer to make A' than to multiply by it."""
+    if A.shape[0] * A.shape[1] <= SMALL:
+        return np.asarray(y @ A.toarray())
     columns = np.repeat(np.arange(A.shape[1]), np.diff(A.indptr))
     return np.asarray(np.bincount(columns, A.data * y[A.indices], A.shape[1]), dtype=np.float64)
 

@@ -34,9 +34,11 @@ def build(formulation: Formulation, limits: Sequence[Limit], goal: Goal, worth: 
     T, n_v, basis = formulation.knots, formulation.n_v, formulation.free_basis
     worth = worth if extra else worth * formulation.divisor
     P, linear = _quadratic(cost.squares, T, n_v, extra, basis)
-    P.data, linear = P.data / worth, linear / worth
+    if P.data.size:
+        P.data, linear = P.data / worth, linear / worth
     q = linear if cost.epigraph is None else np.append(linear[:-1], cost.epigraph)
-    bounds = np.broadcast_to(variable_bounds(formulation, limits), (T, n_v)).ravel()
+    bounds = variable_bounds(formulation, limits)
+    bounds = bounds.ravel() if bounds.size == T * n_v else np.tile(bounds, T)
     if basis is not None:
         bounds = np.asarray(abs(inverse(basis)) @ bounds)
     if extra:

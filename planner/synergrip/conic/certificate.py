@@ -79,7 +79,7 @@ class Certificate(Value):
 @np.errstate(over="ignore", invalid="ignore")
 def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     """Judge the claim that x (n,) is optimal, with multipliers z (m,) of the rows."""
-    if not (np.all(np.isfinite(x)) and np.all(np.isfinite(z))):
+    if not (np.isfinite(x).all() and np.isfinite(z).all()):
         return Certificate("optimal", False)
     primal = max(
         distance_to_cones(program, program.b - program.A @ x),
@@ -88,13 +88,13 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     moved = project_on_dual(program, z)
     Px = program.P @ x
     stationarity = Px + program.q + transposed_product(program.A, moved)
-    size = max(1.0, float(np.abs(program.q).max(initial=0.0)), float(np.abs(Px).max(initial=0.0)))
-    dual = float(np.abs(stationarity).max(initial=0.0)) / size
+    size = max(1.0, _largest(program.q), _largest(Px))
+    dual = _largest(stationarity) / size
     half, constant = float(x @ Px) / 2, program.constant
     value, bound = half + float(program.q @ x), -half - float(program.b @ moved)
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
-    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0))
+    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0)) if _largest(x) > FAR else 0.0
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
@@ -105,6 +105,10 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
 def rounding_of(program: Program, x: Array) -> float:
     """Return about how much of the objective at x (n,) is rounding of the sums that it is worked out from."""
     return float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON
+
+
+def _largest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -11,7 +11,7 @@ from synergrip.conic.affine import times as product
 from synergrip.conic.each_knot import judge_each
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.units import Units
-from synergrip.linalg import Array, block_diagonal, frozen
+from synergrip.linalg import Array, frozen, sealed
 from synergrip.statics import Coordinates, Response, Subspaces
 from synergrip.statics.analysis import Analysis
 from synergrip.statics.each import Each
@@ -45,17 +45,19 @@ def formulate(
     judge_each(each, response, spaces, len(times))
     n_alpha, n_beta, n_gamma = spaces.dimensions
     basis = np.zeros((n_beta, 0)) if beta_basis is None else beta_basis
-    blocks = (np.eye(n_alpha) * units.force, np.eye(n_gamma)[:, : n_gamma * redundancy] * units.reference,
-              basis * units.motion)  # fmt: skip
-    whole = block_diagonal(blocks)
-    alpha, gamma, motion = np.split(whole, np.cumsum([n_alpha, n_gamma]))
+    before = n_alpha + n_gamma * redundancy
+    n_v = before + basis.shape[1]
+    alpha = np.eye(n_alpha, n_v) * units.force
+    gamma, motion = np.zeros((n_gamma, n_v)), np.zeros((n_beta, n_v))
+    gamma[:, n_alpha:before] = np.eye(n_gamma, n_gamma * redundancy) * units.reference
+    motion[:, before:] = basis * units.motion
     zeros = np.zeros((len(times), n_alpha + n_gamma))
     every = None if each is None else Each.of(each)
     Gamma_ucs = (spaces if every is None else every.spaces).Gamma_ucs
     return Formulation(
         response, spaces, coords, frozen(times), frozen(wrench),
-        Affine(frozen(alpha), frozen(zeros[:, :n_alpha])), Affine(frozen(motion), frozen(beta)),
-        Affine(frozen(gamma), frozen(zeros[:, n_alpha:])),
+        Affine(sealed(alpha), sealed(zeros[:, :n_alpha])), Affine(sealed(motion), frozen(beta)),
+        Affine(sealed(gamma), sealed(zeros[:, n_alpha:])),
         frozen(product(Gamma_ucs, beta) if target is None else target), units, stated or units, units.force,
         each=every,
     )  # fmt: skip

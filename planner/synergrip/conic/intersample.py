@@ -53,6 +53,12 @@ class Intersample(Value):
     """Evenly spaced instants looked at in each of these."""
     curved: Looks  # (P * samples,) there
 
+    @classmethod
+    def of_knots(cls, knots: Looks) -> Intersample:
+        """Return that there is nothing but the knots, with straight lines between them."""
+        nothing = np.zeros(0, dtype=np.intp)
+        return cls(knots, np.zeros(len(knots.times), dtype=bool), nothing, samples_for(0), knots.of(nothing))
+
     @property
     def exact(self) -> bool:
         """True when all is straight from one instant of the grid to the next, so that they say everything."""
@@ -120,6 +126,8 @@ class Intersample(Value):
     def departures(self, times: Array, wrench: Array, target: Array) -> tuple[Array, Array]:
         """Return what `all` wrenches and wishes depart by from straight lines between their values at knots `times`."""
         looks = self.all
+        if self.only_knots:
+            return np.zeros_like(wrench), np.zeros_like(target)
         return (
             looks.wrench - interpolated(looks.times, times, wrench),
             looks.target - interpolated(looks.times, times, target),

@@ -38,12 +38,12 @@ class Block:
     friction: bool = False
     """Whether its cones are friction cones."""
 
-    @cached_property
+    @property
     def cones(self) -> int:
         """Number of cones."""
         return self.knots * len(self.items)
 
-    @cached_property
+    @property
     def rows(self) -> int:
         """Number of rows."""
         return self.cones * self.dim
@@ -94,6 +94,16 @@ class Program(Value):
         for block in self.blocks:
             yield block, slice(start, start + block.rows)
             start += block.rows
+
+    @cached_property
+    def stretches(self) -> tuple[tuple[Kind, int, slice], ...]:
+        """Kind and size of cones with their rows, those of neighbours that are alike together."""
+        found: list[tuple[Kind, int, slice]] = []
+        for block, rows in self.slices():
+            if found and found[-1][:2] == (block.kind, block.dim):
+                rows = slice(found.pop()[2].start, rows.stop)
+            found.append((block.kind, block.dim, rows))
+        return tuple(found)
 
     def unknowns(self, x: Array) -> Array:
         """Return v (T, n_v) of a solution x (n,)."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from synergrip.conic.affine import Affine
-from synergrip.documents.judging import Arguments, as_numbers, described, is_number
+from synergrip.documents.judging import Arguments, are_floats, as_numbers, described, is_number
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
@@ -48,6 +49,11 @@ LOWER_SIDES = frozenset({"lowest", "falling"})
 
 def items_of(names: Iterable[str], side: str = "") -> tuple[Item, ...]:
     """Return the items of cones on one side of each name."""
+    return _items(tuple(names), side)
+
+
+@lru_cache(maxsize=256)
+def _items(names: tuple[str, ...], side: str) -> tuple[Item, ...]:
     return tuple(Item(name, side) for name in names)
 
 
@@ -94,6 +100,8 @@ class Rows(Value):
         Raises:
             InputError: a key, kind, items or arrays that are none, or that do not fit each other.
         """
+        if self._fits():
+            return
         judge = Arguments("Rows")
         judge.text("limit", self.limit, empty=False)
         judge.one("kind", self.kind, Kind, "Kind.NONNEGATIVE")
@@ -110,6 +118,15 @@ class Rows(Value):
                 object.__setattr__(self, name, frozen(found))
         judge.finish()
         object.__setattr__(self, "items", items)
+
+    def _fits(self) -> bool:
+        """Return whether all is as that of the library is; then nothing is looked at more closely."""
+        known = type(self.kind) is Kind and type(self.dim) is int and type(self.limit) is str and self.limit
+        arrays = self.matrix, self.constant, self.epigraph
+        if not known or type(self.items) is not tuple or not are_floats(arrays) or self.matrix.ndim < 2:
+            return False
+        heights = {self.matrix.shape[-2], *self.constant.shape[-1:], *self.epigraph.shape[-1:]}
+        return heights == {len(self.items) * self.dim} and all(type(item) is Item for item in self.items)
 
 
 def nonnegative(limit: str, items: tuple[Item, ...], value: Affine, earlier: tuple[Earlier, ...] = ()) -> Rows:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from numbers import Real
 from typing import Any, TypeGuard
@@ -214,6 +214,16 @@ def is_number(value: object) -> bool:
     except (TypeError, ValueError, OverflowError):
         return False
     return True
+
+
+def are_floats(values: Iterable[object]) -> bool:
+    """Return whether all are arrays of floats, as those that the library makes are."""
+    return all(type(each) is np.ndarray and each.dtype == np.float64 for each in values)
+
+
+def are_texts(values: Iterable[object]) -> bool:
+    """Return whether all are texts."""
+    return all(type(each) is str for each in values)
 
 
 def as_numbers(value: object) -> Array | None:

@@ -68,8 +68,7 @@ class Setting(Value):
 
     def slip_margins(self, forces: Array) -> Array:
         """Return the slip margins (T, n_c) of contact forces (T, n_l) [N]."""
-        parts = zip(self.grasp.contacts, self.grasp.rows, strict=True)
-        return np.column_stack([contact.slip_margin(forces[:, rows]) for contact, rows in parts])
+        return self.grasp.slip_margins(forces)
 
     @cached_property
     def compliance(self) -> Array:

@@ -13,6 +13,7 @@ from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.factors import Factors
+from synergrip.grasps.friction_cones import Cones, cones_of, slip_margins
 from synergrip.grasps.grasp_judging import Judge
 from synergrip.grasps.matrix_reading import unbalanced
 from synergrip.linalg import Array, block_diagonal, frozen
@@ -160,10 +161,19 @@ class Grasp(ByContent):
         ends = np.cumsum([contact.n_rows for contact in self.contacts])
         return tuple(slice(int(end) - c.n_rows, int(end)) for end, c in zip(ends, self.contacts, strict=True))
 
-    @property
+    @cached_property
     def normal_rows(self) -> list[int]:
         """The row of lambda that is the normal force of each contact."""
         return [rows.start for rows in self.rows]
+
+    @cached_property
+    def friction_cones(self) -> tuple[Cones, ...]:
+        """The friction cones of all contacts, those of one size together."""
+        return cones_of(self.contacts, self.rows)
+
+    def slip_margins(self, forces: Array) -> Array:
+        """Return the slip margins (T, n_c) [N] of contact forces (T, n_l), as `Contact.slip_margin` says of each."""
+        return slip_margins(self.friction_cones, forces[:, self.normal_rows], forces)
 
     @property
     def components(self) -> tuple[tuple[str, str], ...]:

@@ -76,7 +76,7 @@ def measures(grasp: Grasp, times: Array, forces: Array, least: Sequence[float] |
         least: the normal force below which a contact counts as lifted off [N].
     """
     pairs = [(contact, forces[:, rows]) for contact, rows in zip(grasp.contacts, grasp.rows, strict=True)]
-    slip = np.column_stack([contact.slip_margin(own) for contact, own in pairs])
+    slip = grasp.slip_margins(forces)
     nearest = (contact.nearest_cone(own) for contact, own in pairs)
     head, tail, mu = (np.stack(parts, axis=1) for parts in zip(*nearest, strict=True))
     names, normal, shears = tuple(contact.name for contact in grasp.contacts), forces[:, grasp.normal_rows], tail > 0

@@ -22,6 +22,9 @@ def intersample_of(task: TimedTask, analysis: Analysis) -> Intersample | None:
         return None
     marks = task.course.marks
     knots = Looks(task.times, task.wrench, target_displacement(analysis, task, task.target.values))
+    inside = (marks.corners > task.times[0]) & (marks.corners < task.times[-1])
+    if not marks.jumps and not marks.curved and not inside.any():
+        return Intersample.of_knots(knots)
     corners, sides = _corners(task, task.course, marks, analysis)
     new = _off_the_knots(corners, sides, knots)
     grid, corner = _grid(knots, corners.of(new), sides[new])

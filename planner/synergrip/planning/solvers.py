@@ -121,8 +121,10 @@ class Answered(Value):
     @cached_property
     def small(self) -> bool:
         """True when the value is small beside 1: a margin never is, it is measured against the load."""
+        if isinstance(self.question.goal, LargestMargin):
+            return False
         value = self.value
-        if isinstance(self.question.goal, LargestMargin) or value >= SMALL:
+        if value >= SMALL:
             return False
         scalar = self.question.goal.objective(self.question.formulation).epigraph is not None
         return value > (NOTHING**0.5 if scalar else NOTHING)  # a force, or a sum of squares
@@ -137,6 +139,8 @@ class Answered(Value):
         residuals = found.primal_residual + (found.dual_residual + found.gap if of_value else 0.0)
         share = residuals if found.verified else TIGHT
         error = share * formulation.force_unit
+        if error <= FINE * formulation.load_size:
+            return False
         largest = formulation.response.scale.largest_force(formulation.force.at(self.v))
         return bool(error > FINE * max(formulation.load_size, largest))
 
@@ -153,6 +157,8 @@ class Answered(Value):
 
     def with_all(self, *others: Decision) -> Answered:
         """Return it with what other attempts at the same cost, too, told in its decision."""
+        if not others:
+            return self
         decision = self.decision
         attempts = decision.attempts + sum(each.attempts for each in others)
         seconds = decision.seconds + sum(each.seconds for each in others)

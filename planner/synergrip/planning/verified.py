@@ -143,7 +143,7 @@ def limit_usages(task: TimedTask, formulation: Formulation, motion: Motion) -> t
 
 def limit_checks(usages: tuple[Usage, ...]) -> tuple[Check, ...]:
     """Return one check per limit: the largest excess, relative to the limit's size, or to the load it carries."""
-    return tuple(Check(u.title, max(u.violation, 0.0), LIMIT) for u in usages)
+    return tuple([Check(u.title, max(u.violation, 0.0), LIMIT) for u in usages])
 
 
 def between_checks(task: TimedTask, between: Between | None) -> tuple[Check, ...]:

@@ -82,6 +82,9 @@ class GoalTable(Table):
         min_length=1,
         description="several goals, the first one first: each chooses among the plans that are best by those before",
     )
+    tie_break: bool = Field(
+        default=True, description="whether what the goals leave open is settled by least effort and reconfiguration"
+    )
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -128,7 +128,9 @@ def _problem(name: str, path: Path, file: ProblemFile, document: Document) -> Pr
     task, keys = asked
     try:
         allow = None if file.allow is None else file.allow.value()
-        task = task.replace(limits=limits_of(file, touching.grasp), goals=file.goal.goals, allow=allow)
+        task = task.replace(
+            limits=limits_of(file, touching.grasp), goals=file.goal.goals, allow=allow, tie_break=file.goal.tie_break
+        )
         timed = task.timed(touching.grasp)
     except InputError as error:
         raise stated_at(error, keys).located(document.locate) from None

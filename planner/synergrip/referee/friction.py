@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.conic.limits.friction_cone import cone_unit
 from synergrip.conic.rows import Item
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contacts.contact import Contact
+from synergrip.grasps.friction_cones import cone_unit
 from synergrip.referee.model import Cone, Expression
 
 Parts = Iterator[tuple[str, float, Expression]]

@@ -57,6 +57,8 @@ class Task(ByContent):
             is refused where the synergies do not.
         load_factor: by which the whole load is multiplied.
         motion_factor: by which the wanted motion is multiplied.
+        tie_break: whether what the goals leave open is settled by least effort, then least reconfiguration; False: any
+            of the best plans will do, which saves a program where the largest margin or a peak is the goal.
         allow: what the plan is to hold for beside what is stated: less friction, other masses and loads, contacts that
             are off; None for nothing.
         time_factor: by which the time of the whole task is multiplied: its duration, and the times of waypoints, of
@@ -91,6 +93,7 @@ class Task(ByContent):
     time_factor: float = 1.0
     linearise: Literal["once", "along"] = "along"
     allow: Allowances | None = None
+    tie_break: bool = True
 
     def __post_init__(self) -> None:
         """Judge the arguments, alone and together."""
@@ -113,7 +116,7 @@ class Task(ByContent):
             *limit_issues(limits), *(goal_issues(goals) if is_list(self.goals) else ()),
             *(_axis_issues(axes, self.drift) if is_list(self.axes) else ()),
             *size_issues(0.0, self.tolerance, self.drift, compliant=compliant),
-            *word_issues(self.tracking, self.linearise, self.between),
+            *word_issues(self.tracking, self.linearise, self.between, self.tie_break),
         ]  # fmt: skip
         if self.control is not None:
             judge.one("control", self.control, Control, 'Control(forces=1, motions=("z",))')

@@ -24,6 +24,9 @@ LIMITS = "write for example limits=(SlipMargin(0.5), NormalForce(upper=20.0))"
 
 def times_of(judge: Judge, times: Any) -> Array:
     """Return the knots (T,), after noting that they are none, or do not increase."""
+    known = type(times) is np.ndarray and times.dtype == np.float64 and times.ndim == 1 and times.size
+    if known and abs(times[0]) <= LARGEST_NUMBER and times[-1] <= LARGEST_NUMBER and (times[1:] > times[:-1]).all():
+        return times if not times.flags.writeable and times.flags.owndata else frozen(times)
     count = np.size(np.asarray(times, dtype=object)) if not isinstance(times, str) else 0
     found = judge.array("times", times, (count,), ": one or more instants in seconds")
     if not count:
@@ -85,8 +88,10 @@ def limit_issues(limits: Any) -> Iterator[Issue]:
             yield Issue(lacking, f"Task.limits[{index}]")
 
 
-def word_issues(tracking: object, linearise: object, between: object) -> Iterator[Issue]:
+def word_issues(tracking: object, linearise: object, between: object, tie_break: object) -> Iterator[Issue]:
     """Yield an issue for each argument that is none of its words; `between` may be None."""
+    if not isinstance(tie_break, bool):
+        yield Issue(f"expected True or False, got {described(tie_break)}", "Task.tie_break")
     words = {"tracking": (tracking, ("rigid", "compliant")), "linearise": (linearise, ("once", "along"))}
     if between is not None:
         words["between"] = between, ("report", "hold")

@@ -104,6 +104,8 @@ class TimedTask(Value):
     """Whether the statics are those of the start posture, or those of the true equilibria along the motion."""
     allowed: Allowed | None = None
     """What the plan is to hold for beside what is stated, on the grasp that the task is for."""
+    tie_break: bool = True
+    """Whether what the goals leave open is settled by goals that nobody asks for."""
 
     def __post_init__(self) -> None:
         """Judge the values as those of a problem file; a wrench of 6 numbers is the same at all knots.
@@ -125,7 +127,7 @@ class TimedTask(Value):
             *judge.issues,
             *size_issues(self.margin, self.tolerance, self.drift, compliant=is_word(self.tracking, ("compliant",))),
             *goal_issues(self.goals),
-            *word_issues(self.tracking, self.linearise, self.between),
+            *word_issues(self.tracking, self.linearise, self.between, self.tie_break),
             *([Issue(one_of(axes[0], AXES), "Task.axes")] if axes else []),
             *limit_issues(self.limits),
         ])  # fmt: skip

@@ -52,6 +52,7 @@ def timed(task: Task, grasp: Grasp) -> TimedTask:
         margin=0.0, limits=limits, goals=goals, tolerance=task.tolerance,
         tracking=task.tracking, axes=task.axes, drift=task.drift, course=profiles, between=task.between,
         linearise=task.linearise, control=task.control, allowed=allowed_on(task, grasp, _weight(profiles)),
+        tie_break=task.tie_break,
     )  # fmt: skip
 
 

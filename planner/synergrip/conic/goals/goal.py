@@ -64,6 +64,9 @@ class Objective(Value):
 
     def __post_init__(self) -> None:
         """Judge the values."""
+        plain = self.epigraph is None or (type(self.epigraph) is float and abs(self.epigraph) == 1.0)
+        if plain and type(self.squares) is tuple and all(type(each) is Squares for each in self.squares):
+            return
         judge = Arguments("Objective")
         squares = judge.several("squares", self.squares, Squares, "squares_of(...)")
         if self.epigraph is not None:
@@ -176,6 +179,8 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
         >>> squares_of(formulation.force, 1 / formulation.force_unit).matrix.shape[0]
         9
     """
+    if type(value) is Affine and type(weights) is float and 0 <= weights < np.inf:  # as most are
+        return Squares(sealed(weights * value.matrix), sealed(value.constant * weights))
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")
     each = judge.numbers("weights", weights, "a number, or one for each quantity")

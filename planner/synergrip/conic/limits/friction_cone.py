@@ -12,15 +12,14 @@ from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.limit import Limit, Usage
 from synergrip.conic.rows import Item, Kind, Rows
 from synergrip.grasps.contacts.contact import Contact
-from synergrip.linalg import Array, frozen
+from synergrip.grasps.friction_cones import cone_unit
+from synergrip.linalg import Array, frozen, sealed
 from synergrip.statics.motion import Motion, largest_term
 
 CANCELLED = 1e-9
 """Share of the terms of a sum below which a force is not told from their rounding to all digits that count."""
 FRICTION = "friction cone"
 """What a cone is called that no margin is asked of: physics, and no key of a file."""
-SLIPPERY = 0.1
-"""Friction below which a cone as it stands, to a tolerance e, allows a pull of more than ten times e."""
 
 
 @dataclass(frozen=True)
@@ -48,20 +47,12 @@ class FrictionCone(Limit):
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the slip margins, by the contacts' own formula."""
         grasp = formulation.response.grasp
-        margins = slip_margins(formulation, motion)
-        count = grasp.n_c
+        margins, count = grasp.slip_margins(motion.forces), grasp.n_c
         return Usage(
             "slip margin", "N", tuple(c.name for c in grasp.contacts), margins,
             np.full(count, self.margin), np.full(count, np.inf), np.full(count, formulation.load_size), motion.times,
             carried(formulation, motion),
         )  # fmt: skip
-
-
-def slip_margins(formulation: Formulation, motion: Motion) -> Array:
-    """Return the slip margin (T, n_c) [N] of every contact."""
-    grasp = formulation.response.grasp
-    pairs = zip(grasp.contacts, grasp.rows, strict=True)
-    return np.column_stack([contact.slip_margin(motion.forces[:, rows]) for contact, rows in pairs])
 
 
 def carried(formulation: Formulation, motion: Motion) -> Array:
@@ -86,34 +77,17 @@ def friction_rows(formulation: Formulation, margin: float | Array, epigraph: flo
         key: what asks for it.
     """
     grasp, unit = formulation.response.grasp, formulation.force_unit
-    every = [
-        (Item(contact.name, side), cone, i)
-        for i, contact in enumerate(grasp.contacts)
-        for side, cone in zip(contact.kind.sides, contact.cones, strict=True)
-    ]
-    margins = margin if isinstance(margin, np.ndarray) and margin.ndim == 2 else np.full(grasp.n_c, margin)
+    asked = np.asarray(margin) / unit
     result = []
-    for size in sorted({len(cone) for _, cone, _ in every}):
-        chosen = [each for each in every if len(each[1]) == size]
-        W = np.zeros((len(chosen) * size, grasp.n_l))
-        for i, (_, cone, contact) in enumerate(chosen):
-            W[i * size : (i + 1) * size, grasp.rows[contact]] = cone / cone_unit(cone[0, 0])
-        first = np.concatenate([np.eye(size)[0] / cone_unit(cone[0, 0]) for _, cone, _ in chosen])
-        asked = np.repeat(margins[..., [contact for *_, contact in chosen]], size, axis=-1)
-        value = formulation.force.after(W / unit)
-        kind = Kind.NONNEGATIVE if size == 1 else Kind.SECOND_ORDER
-        items = tuple(item for item, _, _ in chosen)
-        constant = frozen(value.constant - first * asked / unit)
-        result.append(Rows(key, kind, size, items, value.matrix, constant, frozen(epigraph * first), friction=True))
+    for cones in grasp.friction_cones:
+        kind = Kind.NONNEGATIVE if cones.size == 1 else Kind.SECOND_ORDER
+        value = formulation.force.after(cones.in_units / unit)
+        each = asked if not asked.ndim else np.repeat(asked[:, cones.contacts], cones.size, axis=1)
+        constant = value.constant - cones.heads * each
+        items = tuple(Item(*name) for name in cones.names)
+        scalar = frozen(epigraph * cones.heads)
+        result.append(Rows(key, kind, cones.size, items, value.matrix, sealed(constant), scalar, friction=True))
     return result
-
-
-def cone_unit(friction: float) -> float:
-    """Return what a cone of friction (its factor of the normal force) is divided by: this, where there is little.
-
-    The first row is then the normal force itself, so that the contact pushes to the same tolerance as others.
-    """
-    return float(friction) if 0 < friction < SLIPPERY else 1.0
 
 
 def least_cone_unit(contacts: Sequence[Contact]) -> float:

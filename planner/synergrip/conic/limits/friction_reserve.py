@@ -12,7 +12,7 @@ from synergrip.conic.arguments import OneOrEach, one_each, size, sizes
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.limits.dial import Dial, quantity
 from synergrip.conic.limits.file_key import FileKey
-from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows, slip_margins
+from synergrip.conic.limits.friction_cone import FrictionCone, friction_rows
 from synergrip.conic.limits.limit import Limit, Usage, Watches
 from synergrip.conic.rows import Rows
 from synergrip.documents.fields import Written, unit_schema, with_unit
@@ -145,7 +145,7 @@ class FrictionReserve(Limit):
 
     def usage(self, formulation: Formulation, motion: Motion) -> Usage:
         """Return the slip margins that contacts with less friction would have; no less than 0 is asked of them."""
-        margins = slip_margins(self._narrowed(formulation), motion)
+        margins = self._narrowed(formulation).response.grasp.slip_margins(motion.forces)
         return replace(FrictionCone(0.0).usage(formulation, motion), title=self.title, value=margins)
 
     def _narrowed(self, formulation: Formulation) -> Formulation:

@@ -78,7 +78,7 @@ class Symmetric(Limit):
             if not np.any(np.isfinite(limit)):
                 raise InputError.at(key, NOT_STATED)
         each = one_each(key, limit, self.names(grasp), self.of)
-        return self if each is self.limit else replace(self, limit=each)
+        return self if each is self.limit else self.with_judged(limit=each)
 
     def for_synergies(self, origins: Sequence[int | None]) -> Self:
         """Return it with a number for each of other synergies; a new one has what all have, or else none."""

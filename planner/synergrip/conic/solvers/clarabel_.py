@@ -22,6 +22,8 @@ CLAIMS = {
     "AlmostDualInfeasible": Claim.UNBOUNDED,
 }
 """Clarabel's status -> claim; every other status claims nothing. "Almost" is for the certificate to decide."""
+FEW_ENTRIES = 5000
+"""Entries of A up to which a program is solved before anybody could press a key: nothing is asked meanwhile."""
 TOWARDS_A_RAY = 1e3
 """kappa over tau of the homogeneous embedding from which on an iterate may be looked at as a ray."""
 
@@ -45,23 +47,29 @@ def solve(program: Program, settings: Settings) -> Solution:
     options.equilibrate_enable = settings.equilibrate
     options.static_regularization_constant = settings.regularisation
     options.max_step_fraction = settings.step
+    # of P, which is whole, it takes the upper triangle
+    solver = clarabel.DefaultSolver(program.P, program.q, program.A, program.b, cones_of(program), options)
+    found, closest = (solver.solve(), 0.0) if program.A.nnz <= FEW_ENTRIES else _looked_at(solver)
+    del solver  # its memory, many times that of the program
+    status = str(found.status)
+    return Solution(
+        CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,
+        int(found.iterations), float(found.solve_time), closest=closest,
+    )  # fmt: skip
+
+
+def _looked_at(solver: Any) -> tuple[Any, float]:
+    """Return what a solver finds, which may be interrupted, and the least tolerance that any iterate kept."""
     kept: list[float] = []
 
-    def looked_at(iterate: Any) -> bool:
+    def look(iterate: Any) -> bool:
         kept.append(_kept(iterate))
         return stop(iterate)
 
     with interruptible() as stop:
-        # of P, which is whole, it takes the upper triangle
-        solver = clarabel.DefaultSolver(program.P, program.q, program.A, program.b, cones_of(program), options)
-        solver.set_termination_callback(looked_at)
+        solver.set_termination_callback(look)
         found = solver.solve()
-        del solver  # its memory, many times that of the program
-    status = str(found.status)
-    return Solution(
-        CLAIMS.get(status, Claim.NOTHING), frozen(found.x), frozen(found.z), f"Clarabel {clarabel.__version__}", status,
-        int(found.iterations), float(found.solve_time), closest=min(kept, default=0.0),
-    )  # fmt: skip
+    return found, min(kept, default=0.0)
 
 
 def _kept(iterate: Any) -> float:
@@ -76,11 +84,10 @@ def cones_of(program: Program) -> list[Any]:
     import clarabel
 
     cones: list[Any] = []
-    for block in program.blocks:
-        if block.kind is Kind.SECOND_ORDER:
-            cones += [clarabel.SecondOrderConeT(block.dim)] * block.cones
-        elif block.rows:
-            cones.append(
-                {Kind.ZERO: clarabel.ZeroConeT, Kind.NONNEGATIVE: clarabel.NonnegativeConeT}[block.kind](block.rows)
-            )
+    for kind, dim, rows in program.stretches:
+        count = rows.stop - rows.start
+        if kind is Kind.SECOND_ORDER:
+            cones += [clarabel.SecondOrderConeT(dim)] * (count // dim)
+        elif count:
+            cones.append((clarabel.ZeroConeT if kind is Kind.ZERO else clarabel.NonnegativeConeT)(count))
     return cones

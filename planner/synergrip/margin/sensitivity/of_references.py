@@ -76,8 +76,7 @@ class References(Value):
     @cached_property
     def worst(self) -> NDArray[np.bool_]:
         """(T, n_c) where slip margins are the least, or close to it."""
-        parts = zip(self.plan.grasp.contacts, self.plan.grasp.rows, strict=True)
-        margins = np.column_stack([contact.slip_margin(self.forces[:, rows]) for contact, rows in parts])
+        margins = self.plan.grasp.slip_margins(self.forces)
         return np.asarray(margins <= margins.min() + self.close)
 
     def after(self, parameter: Parameter, change: float) -> _After | None:

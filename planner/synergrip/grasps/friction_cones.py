@@ -1,0 +1,102 @@
+"""Friction cones of all contacts, those of one size together: ``W lambda`` of a whole grasp, or of each of many."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synergrip.grasps.contacts.contact import Contact
+from synergrip.linalg import Array, Places, sealed
+from synergrip.values import Value
+
+SLIPPERY = 0.1
+"""Friction below which a cone as it stands, to a tolerance e, allows a pull of more than ten times e."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Cones(Value):
+    """The cones of one size of all contacts: ``W lambda``, cones below one another."""
+
+    size: int
+    contacts: NDArray[np.intp]
+    """(cones,) which contact each belongs to."""
+    W: Array
+    """(cones * size, n_l), or (N, ...) with one for each grasp."""
+    names: tuple[tuple[str, str], ...] = ()
+    """Contact and side of each, where they are those of one grasp."""
+
+    @cached_property
+    def unit(self) -> Array:
+        """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
+        largest = np.abs(self.W[..., :: self.size, :]).max(axis=-1)
+        return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
+
+    @cached_property
+    def heads(self) -> Array:
+        """(cones * size,) 1 over its unit at the first row of each cone of one grasp, 0 elsewhere."""
+        found = np.zeros((len(self.contacts), self.size))
+        found[:, 0] = 1.0 / self.unit
+        return sealed(found.ravel())
+
+    @cached_property
+    def in_units(self) -> Array:
+        """(cones * size, n_l) the rows W of each cone of one grasp over its unit."""
+        return sealed(self.W / np.repeat(self.unit, self.size)[:, None])
+
+    def taken(self, places: Places) -> Cones:
+        """Return those of the grasps at some places."""
+        return Cones(self.size, self.contacts, self.W[places]) if self.W.ndim > 2 else self
+
+    def images(self, forces: Array) -> Array:
+        """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
+        image = forces @ self.W.T if self.W.ndim == 2 else (self.W @ forces[:, :, None])[:, :, 0]
+        return image.reshape(len(forces), len(self.contacts), self.size)
+
+
+def cone_unit(friction: float) -> float:
+    """Return what a cone of friction (its factor of the normal force) is divided by: this, where there is little.
+
+    The first row is then the normal force itself, so that the contact pushes to the same tolerance as others.
+    """
+    return float(friction) if 0 < friction < SLIPPERY else 1.0
+
+
+def cones_of(contacts: Sequence[Contact], rows: Sequence[slice]) -> tuple[Cones, ...]:
+    """Return the cones of contacts whose forces are at `rows` of lambda, the smallest cones first."""
+    every = [
+        ((contact.name, side), W, i)
+        for i, contact in enumerate(contacts)
+        for side, W in zip(contact.kind.sides, contact.cones, strict=True)
+    ]
+    found = []
+    for size in sorted({len(W) for _, W, _ in every}):
+        chosen = [each for each in every if len(each[1]) == size]
+        whole = np.zeros((len(chosen), size, rows[-1].stop))
+        for own, (_, W, contact) in zip(whole, chosen, strict=True):
+            own[:, rows[contact]] = W
+        places, names = np.array([contact for *_, contact in chosen]), tuple(name for name, *_ in chosen)
+        found.append(Cones(size, places, sealed(whole.reshape(len(chosen) * size, -1)), names))
+    return tuple(found)
+
+
+def slip_margins(cones: Sequence[Cones], normal: Array, forces: Array) -> Array:
+    """Return slip margins (N, n_c) [N] of contact forces (N, n_l) by the contacts' own formula, from their cones.
+
+    ``(W lambda)_0 - ||(W lambda)_1..||``, the smallest of the cones of a contact, and no more than a pull.
+
+    Args:
+        cones: of all contacts.
+        normal: (N, n_c) normal forces [N].
+        forces: (N, n_l) contact forces [N, N m].
+    """
+    margins = np.full(normal.shape, np.inf)
+    for each in cones:
+        image = each.images(forces)
+        inside = image[..., 0] - np.sqrt((image[..., 1:] ** 2).sum(axis=-1))
+        for k, contact in enumerate(each.contacts.tolist()):
+            margins[:, contact] = np.minimum(margins[:, contact], inside[:, k])
+    return np.where(normal < 0, np.minimum(margins, normal), margins)
