@@ -37,7 +37,7 @@ COMMANDS: dict[str, tuple[str, str | None]] = {
     "orders": ("1001 5001", "201"),
     "trajectory": ("1000 10000", "100"),
     "along": ("", "barrett-ball-hold"),
-    "explain": ("", "tripod limits.normal_force=1"),
+    "explain": ("", "pinch-soft limits.joint_torque=0.05"),
     "margins": ("", "tripod"),
     "pyramids": ("300", "5"),
 }

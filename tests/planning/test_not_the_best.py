@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from synergrip.conic import certificate
 from synergrip.conic.certificate import ACCEPTABLE
 from synergrip.conic.decide import ATTEMPTS
 from synergrip.conic.goals.least_motion import RESCALED, STIFFEST, LeastMotion
@@ -132,7 +133,7 @@ def test_what_rounding_hides_is_not_asked_for_in_other_units(monkeypatch: pytest
     monkeypatch.setattr(solvers, "SMALL", 1e12)  # any value is small beside it
     counts = []
     for share in (np.inf, 0.0):
-        monkeypatch.setattr(solvers, "HIDDEN", share)
+        monkeypatch.setattr(certificate, "HIDDEN", share)
         asked: list[Question] = []
 
         def keep(question: Question, best: Solution, asked: list[Question] = asked) -> Solution:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT, rounding_of
+from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT, rounding_hides
 from synergrip.conic.decide import ALONG, ATTEMPTS, Decision, decide, rank
 from synergrip.conic.formulation import Units
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -86,8 +86,6 @@ FINE = 1e-6
 """How closely forces are known when they are: to this share of the load, or of the largest of them."""
 AGAIN = 3
 """How often a question is asked in other units, at most."""
-HIDDEN = 1e-5
-"""Share of a small value that is rounding from which on no units show to the tolerance whether it is the least."""
 APART = 3.0
 """Factor between two units that makes a difference."""
 
@@ -149,12 +147,6 @@ class Answered(Value):
         """True for a verified answer; when it is an optimum, for one that is neither small beside 1 nor coarse."""
         return self.decision.certificate.verified and not (self.decision.optimal and (self.small or self.coarse))
 
-    @property
-    def hidden(self) -> bool:
-        """True for an optimum whose small value is rounding to such a share that no other units help."""
-        known = self.decision.optimal and self.small
-        return known and rounding_of(self.decision.program, self.decision.solution.x) > HIDDEN * self.value
-
     def with_all(self, *others: Decision) -> Answered:
         """Return it with what other attempts at the same cost, too, told in its decision."""
         if not others:
@@ -186,7 +178,9 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
         rounded = best.decision.certificate.rounded and best.question.goal.rescaled is not None
-        if best.settled or best.hidden or rounded:
+        known = best.decision.optimal and best.small  # verified, but not beside its own value
+        hidden = known and rounding_hides(best.decision.program, best.decision.solution.x, best.value)
+        if best.settled or rounded or hidden:
             break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:
