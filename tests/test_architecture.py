@@ -19,7 +19,7 @@ LINE = (
 """From left to right; those beside each other do not know each other. The ground the house stands on is not a folder:
 errors, linear algebra, files."""
 PLACES = {room: place for place, rooms in enumerate(LINE.split()) for room in rooms.split("|")}
-LOOK_RIGHT = {"planning/answer.py": ("synergrip.reports.data.", "synergrip.explain.")}
+LOOK_RIGHT = {"planning/answer.py": ("synergrip.reports.data.", "synergrip.explain.", "synergrip.margin.found.")}
 """The only file that may import from the right, from there, and inside functions alone: the methods of an answer that
 write and draw it. A hook that the front door fills would make an answer differ by what was imported before it."""
 ONLY_IN = {

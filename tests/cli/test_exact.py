@@ -12,6 +12,7 @@ import command_line
 from command_line import run
 
 from synergrip.explain.exact import check_proof
+from synergrip.planning.digest import unchanged
 
 document = partial(command_line.document, "plan")
 TIGHT = ("pinch-soft", "--set", "limits.margin=50 N", "--exact")
@@ -31,7 +32,9 @@ def test_the_proof_is_written_beside_the_answer_and_holds() -> None:
     assert found["problem_sha256"] in checked.stdout
     assert found["sum"] < 0
     assert found["why"] is None
-    assert json.loads(Path("out/pinch-soft/plan.json").read_text(encoding="utf-8"))["certificate"]["exact"] == found
+    told = json.loads(Path("out/pinch-soft/plan.json").read_text(encoding="utf-8"))
+    assert told["certificate"]["exact"] == found
+    assert unchanged(told)  # and so has a report
 
 
 def test_an_answer_without_a_proof_removes_that_of_an_earlier_one() -> None:

@@ -16,7 +16,7 @@ import pytest
 from browser import browser_path, browsing
 from command_line import document, run
 
-from synergrip.batch import best_place
+from synergrip.batch import best_place, place_judge
 from synergrip.errors import InputError
 from synergrip.grasps import place_search
 from synergrip.problems.problem import load_problem
@@ -57,11 +57,14 @@ def listened_at(process: subprocess.Popen[str]) -> list[str]:
     return found
 
 
-def test_a_view_is_for_this_machine_alone_and_ends_with_an_interrupt(served: subprocess.Popen[str]) -> None:
+@pytest.mark.parametrize("ended_by", [signal.SIGINT, signal.SIGTERM])
+def test_a_view_is_for_this_machine_alone_and_ends_with_a_word(
+    served: subprocess.Popen[str], ended_by: signal.Signals
+) -> None:
     port = int(address_of(served).rpartition(":")[2])
     if Path("/proc/net/tcp").exists():
         assert listened_at(served) == [f"0100007F:{port:04X}"]
-    served.send_signal(signal.SIGINT)
+    served.send_signal(ended_by)
     out, told = served.communicate(timeout=20)
     assert (served.returncode, out.split()) == (0, ["closed"])
     assert "Traceback" not in told
@@ -164,12 +167,15 @@ def test_what_does_not_touch_is_drawn_and_told_all_the_same(tmp_path: Path) -> N
 def test_an_object_without_a_place_gets_one_that_can_be_written_into_the_file(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(place_search, "ACROSS", 8)
     monkeypatch.setattr(best_place, "FINE", 0.01)
-    monkeypatch.setattr(best_place, "JUDGED", 8)
+    monkeypatch.setattr(place_judge, "JUDGED", 8)
     sets = ("hand.posture=open", "hand.close=close", "task.knots=2", "task.between=report")
     asked = ("barrett-ball-hold", *(part for each in sets for part in ("--set", each)))
     auto = document("plan", *asked, "--set", "object.position=auto", "-o", "auto")
     (note,) = auto["notes"]
-    line = re.search(r"placed   (position = \[.*\])  \(slip margin up to [\d.]+ N; all contacts touch at", note)
+    line = re.search(
+        r"placed   (position = \[.*\])  \(a plan holds there; slip margin up to [\d.]+ N at the start posture; all",
+        note,
+    )
     assert line is not None
     written = document("plan", *asked, "--set", f"object.{line[1]}")
     assert (written["notes"], written["dz_r"]) == ([], auto["dz_r"])

@@ -11,14 +11,12 @@ from command_line import run
 
 import synergrip as sg
 from synergrip.cli.margins import ASKED
+from synergrip.margin.direct import NUMBERS
 from synergrip.margin.margins import BESIDE
 from synergrip.reports.data.json_margins import margins_document
 
 PAGE = (Path(__file__).parents[2] / "docs" / "margins.md").read_text(encoding="utf-8")
-NAMES = [
-    "critical_friction_scale", "heaviest_kg", "load_factor", "least_peak_N", "least_effort", "shortest_duration_s",
-    "largest_amplitude",
-]  # fmt: skip
+NAMES = list(NUMBERS)
 
 
 def test_the_code_of_the_page_runs() -> None:

@@ -20,8 +20,10 @@ from synergrip.errors import InputError, OutputError
 from synergrip.planning.outcome import Plan
 from synergrip.reports.figures import figure as door
 from synergrip.reports.figures.figure import FIGURES, figure
+from synergrip.reports.pictures.sheet import Panel
 
 SVG = "{http://www.w3.org/2000/svg}"
+
 ROOT = Path(__file__).parent.parent.parent
 OVERVIEW = ROOT / "docs" / "images" / "overview.svg"
 POINTS = 72 / 25.4
@@ -69,7 +71,7 @@ def no_planning(monkeypatch: pytest.MonkeyPatch) -> None:
     ("what", "told"),
     [
         ("margin", ["slip margin [N]", "required 0.2 N", "thumb/tip", "time [s]"]),
-        ("cones", ["thumb/tip", "little/tip", "least 0.2 N, t = 0 s"]),
+        ("cones", ["thumb/tip", "little/tip", "least 0.2 N, t = 0 s", "start, 0 s", "end, 2 s", "least slip margin"]),
         ("overview", ["slip margin [N]", "normal force [N]", "limit 20 N", "g", "50 mm"]),
         ("synergies", ["pc1  +16 deg", "1 thumb/tip", "5 little/tip", "g"]),
     ],
@@ -97,6 +99,28 @@ def test_letters_are_as_large_as_asked_and_of_the_font_asked_for(saved: Path, tm
         assert f"{points}px" in label.get("style", "")
         assert all(family in style for style in styles)
     assert not [text for text in texts(plain) if "glass" in text]  # no title by default
+
+
+def test_a_png_has_as_many_dots_as_asked_for(matrices: Path, tmp_path: Path) -> None:
+    for dpi, across in ((None, 160), (75, 75)):
+        figure("margin", matrices, tmp_path / "margin.png", width_mm=76.2, height_mm=60, dpi=dpi)
+        header = (tmp_path / "margin.png").read_bytes()[:24]
+        assert int.from_bytes(header[16:20], "big") == pytest.approx(across * 76.2 / 25.4, abs=1)
+    with pytest.raises(InputError, match="has more than 1e"):
+        figure("margin", matrices, tmp_path / "large.png", width_mm=2000, height_mm=2000, dpi=1200)
+
+
+def test_forces_in_their_cones_begin_at_rings_and_end_at_squares(
+    saved: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = list[bool]()
+    monkeypatch.setattr(Panel, "outlined", lambda *given, square, **named: drawn.append(square))
+    figure("cones", saved, tmp_path / "cones.svg")
+    assert sorted(drawn) == [False] * 6 + [True] * 6  # of five contacts and the key
+    figure("cones", "pinch-soft", tmp_path / "one.svg", overrides=["task.knots=1"])
+    assert len(drawn) == 12
+    assert {"the force"} <= set(texts(tmp_path / "one.svg"))
+    assert not [text for text in texts(tmp_path / "one.svg") if text.startswith(("start", "end"))]
 
 
 def test_text_stays_text_in_a_pdf(saved: Path, tmp_path: Path) -> None:
@@ -170,6 +194,8 @@ def test_how_many_synergies_a_task_needs(tmp_path: Path) -> None:
         (["margin", "tripod", "--width", "1e9"], 2, "--width"),
         (["margin", "tripod", "--height", "20"], 2, "leave no room"),
         (["cones", "tripod", "--height", "90"], 2, "follows from its width"),
+        (["margin", "tripod", "--dpi", "300"], 2, "has lines, no dots"),
+        (["margin", "tripod", "--dpi", "1"], 2, "--dpi"),
         (["margin", "pinch-hard"], 1, "infeasible"),
         (["margin", "no-such-problem"], 2, "no-such-problem"),
     ],

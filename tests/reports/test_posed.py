@@ -21,7 +21,7 @@ from synergrip.problems.unplaced import unplaced_problem
 from synergrip.reports.text.text_grasp import _held_lines
 from synergrip.reports.text.text_spots import balls_lines, spots_table
 from synergrip.reports.view.looks import plain, table_of
-from synergrip.reports.view.marks import pad_axes
+from synergrip.reports.view.marks import axes_length, pad_axes
 from synergrip.reports.view.posed import Posed
 from synergrip.reports.view.posing import Posing
 from synergrip.reports.view.shown import hand_shown, problem_shown
@@ -55,6 +55,23 @@ def test_a_synergy_that_is_turned_back_takes_nothing_along(barrett: Hand) -> Non
     other = far.with_set(barrett.synergy_sets["joints"])
     assert other.q == pytest.approx(far.q)
     assert not other.dz.any()
+
+
+def test_synergies_that_are_the_joints_have_no_dials_of_their_own(barrett: Hand) -> None:
+    assert list(hand_shown(barrett).sets) == ["motors", "close"]
+    assert list(hand_shown(load_hand("robonaut")).sets) == ["eigengrasps"]  # "free" are joints that take others along
+    alone = hand_shown(hand_of([hinge("a", "palm", (0, 0, 0)), hinge("b", "a_link", (0.1, 0, 0))]))
+    assert (alone.sets, alone.begin.synergies.synergies) == ({}, ("a", "b"))
+    on_joints = unplaced_problem("barrett-ball-hold", ["hand.synergies=joints"]).asked
+    assert problem_shown(on_joints, None, None).begin.synergies.name == "motors"
+
+
+def test_axes_are_seen_and_no_longer_than_goes_with_a_small_hand(barrett: Hand) -> None:
+    for hand, long in ((barrett, 3.5 * 6.1e-3), (load_hand("human"), 0.12 * 0.109)):
+        scene = Posed(hand).scene(rest_posture(hand), np.zeros(3))
+        assert axes_length(scene) == pytest.approx(long, rel=0.02)
+    assert axes_length(replace(scene, thickness=0.02)) == 0.04
+    assert axes_length(replace(scene, links=scene.links * 0, pads=scene.pads * 0)) == 3.5 * scene.thickness
 
 
 def test_dials_are_in_the_units_of_people_and_end_where_joints_do(barrett: Hand) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
+import browser
 import numpy as np
 import pytest
 from browser import Page, browser_path, browsing
@@ -27,10 +28,13 @@ from synergrip.reports.html import page
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.saved_answer import read_answer
-from synergrip.reports.html.tables import tables_of, usage_told, why_of
+from synergrip.reports.html.synergies import synergies_of
+from synergrip.reports.html.tables import tables_of, usage_told
+from synergrip.reports.html.why import missing_of, why_of
 from synergrip.reports.pictures.lines import Lines, lines_of
 from synergrip.reports.text.text_usages import worst_of
 from synergrip.reports.view.planned import scene_of
+from synergrip.statics.analysis import analyse
 
 HOSTILE = (
     "<script>boom()</script>",
@@ -102,12 +106,26 @@ def test_what_is_a_little_beyond_its_bound_is_told_as_the_text_tells_it(name: st
         assert np.array_equal(usage_told(each | {"series": series}, document).value, series["values"])
 
 
+def test_what_is_allowed_for_is_told_with_the_worst_case_on_top() -> None:
+    cases = [
+        {"case": "as stated", "worst_N": 0.9, "by_maps": False},
+        {"case": "least <i>", "worst_N": 0.5, "by_maps": True},
+    ]
+    told = {"worst_N": 0.5, "contact": "left/tip", "time_s": 1.0, "case": "least", "cases": cases, "scenarios": None}
+    document = document_of("tripod") | {"allowances": told}
+    (table,) = (each for each in tables_of(document) if each.anchor == "allowed")
+    assert [tuple(cell.text for cell in row) for row in table.rows] == [("least <i>", "0.5 N"), ("as stated", "0.9 N")]
+    assert "0.5 N in the worst case of all that is allowed for" in report_text(document)
+
+
 def test_a_change_that_no_plan_was_found_with_has_no_command() -> None:
     document = document_of("robonaut-handle", *ASKED["robonaut-handle"])
     first = document["repairs"][0]
-    told = [why_of(document | {"repairs": [first | {"verified": known}]}) for known in (True, False)]
-    rows = [None if each is None else (each["repairs"][0]["again"], each["repairs"][0]["set"]) for each in told]
-    assert rows == [("a plan", f"--set {quote(first['set'])}"), ("no plan found", "")]
+    for known, again, command in ((True, "a plan", f"--set {quote(first['set'])}"), (False, "no plan found", "")):
+        why = why_of(document | {"repairs": [first | {"verified": known}]})
+        assert why is not None
+        (row,) = next(part.rows for part in why.parts if part.title == "What would help")
+        assert [cell.text for cell in row[3:]] == [again, command]
 
 
 def test_hostile_titles_and_names_stay_text() -> None:
@@ -171,6 +189,46 @@ def test_of_a_motion_that_is_not_reached_what_is_known_is_seen_until_then() -> N
     found = {each.title: each for each in lines_of(document)}
     assert len(found["slip margin"].values) == len(found["synergy reference"].values) == len(scene.times)
     assert "as far as the motion is followed" in report_text(document)
+
+
+def test_what_is_not_reached_is_shaded_to_the_end_of_the_task() -> None:
+    document = document_of("gripper-box", "task.move[0].lift=10 mm", "task.knots=11")
+    ((begin, end),) = missing_of(document)
+    assert begin == document["reached"]["until_s"]
+    assert end == document["time_s"][-1]
+    known = np.array(document["true"]["time_s"])
+    (chart,) = charts_of(known, lines_of(document)[:1], [(begin, end)], end)
+    assert (chart.end, chart.last) == (end, known[-1])
+    assert f"not reached from t = {begin:.3g} s on" in report_text(document)
+
+
+def test_a_no_tells_what_the_terminal_tells() -> None:
+    """What clashes, from and to in their units, in which model, what is left undone, and what is missing."""
+    clashes, missing = document_of("robonaut-handle", *ASKED["robonaut-handle"]), document_of("barrett-ball-lift")
+    told = [why_of(each) for each in (clashes, missing)]
+    cells = [[cell.text for part in why.parts for row in part.rows for cell in row] for why in told if why is not None]
+    first = clashes["conflicts"][0]
+    assert f"{first['share']:.0%}" in cells[0]
+    assert ", ".join(each["name"] for each in first["items"]) in cells[0]
+    assert {"0 mm", "11.135 mm", "99% of the motion undone"} <= set(cells[1])
+    assert " + ".join(missing["missing_synergies"]["candidates"][0]["names"]) in cells[1]
+    assert told[1] is not None
+    assert "in the linear model of the start posture" in told[1].before[1]
+
+
+def test_each_synergy_is_told_with_what_it_does_by_itself() -> None:
+    """One degree alone moves the object and presses as the response of the grasp has it, and some of it is free."""
+    problem, document = load_problem("gripper-box"), document_of("gripper-box")
+    response = analyse(problem.grasp, problem.timed.wrench[0]).response
+    each = document["control"]["each"][0]
+    assert each["unit"] == "deg"
+    assert np.allclose(each["motion"], np.radians(1) * response.du_dzr[:, 0], atol=1e-12)
+    rows = problem.grasp.rows[0]
+    force = np.linalg.norm(np.radians(1) * response.dlambda_dzr[rows, 0][:3])
+    assert each["internal_N"][0] == pytest.approx(force)
+    (table,) = synergies_of(document)
+    assert [part.title for part in table.parts][-1] == "What each synergy does by itself"
+    assert table.parts[0].rows[0][1].text == document["control"]["motions"][0]["text"]
 
 
 def test_torques_are_in_percent_of_what_each_joint_may_do() -> None:
@@ -250,6 +308,20 @@ def test_reports_open_without_a_network_or_an_error_and_their_cursors_follow(tmp
                 _follows(seen)
             assert not seen.errors
             assert not seen.asked
+
+
+@pytest.mark.skipif(browser_path() is None, reason="there is no Chromium to open the report with")
+def test_without_webgl_a_still_picture_is_seen_and_what_to_do_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(browser, "QUIET", ("--headless=new", "--disable-gpu", "--disable-3d-apis"))
+    (tmp_path / "box.html").write_text(report_text(document_of("gripper-box")), encoding="utf-8")
+    with browsing(400, 300) as seen:
+        seen.open(tmp_path / "box.html")
+        assert seen.value("document.querySelector('.still svg').getBoundingClientRect().height > 50")
+        assert "hardware acceleration" in seen.value("document.getElementById('playback').innerText")
+        assert seen.value("document.querySelector('iframe') === null")
+        assert not seen.errors
 
 
 def _follows(seen: Page) -> None:

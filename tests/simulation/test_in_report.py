@@ -69,7 +69,7 @@ def test_the_report_has_the_words_of_the_command(
     cells = [cell for row in contact_cells(dropped)[1] for cell in row]
     assert [each for each in (*said, *cells) if each not in part] == []
     assert part.count("<svg") == 2
-    assert ADDED_BY not in part
+    assert "simulate FOLDER" not in part
 
 
 def test_code_looks_in_the_folder_of_its_file(tmp_path: Path, played: synergrip.Simulation) -> None:

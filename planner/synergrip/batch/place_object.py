@@ -38,8 +38,10 @@ def place_object(
     Places all over the space that the pads sweep are closed on at once. Where all contacts touch, the largest slip
     margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts,
     references and joint ranges (no others count); around the best ones it is looked again, as long as that gains, until
-    places are 1 mm apart. A place at which the skeleton of the hand stays outside the object goes before one where it
-    does not. The same question has the same answer.
+    places are 1 mm apart. A place at which the skeleton of the hand runs through the object, or a contact is at an edge
+    of it, goes after others. Then `plan` is asked: the first of up to 16 places, best first and far from each other, at
+    which the whole task has a plan is taken, else the best one. The same question has the same answer, unless planning
+    takes longer than a minute, after which no further place is planned at.
 
     Args:
         hand: as of `make_grasp`, and so are the other arguments that it has.
@@ -47,7 +49,7 @@ def place_object(
         posture: an open one, from which the hand closes.
         contacts: all of which are to touch.
         close: the synergy, joint or weights by name along which the hand closes.
-        task: whose load is to be held, at up to five of its knots.
+        task: whose load is to be held, at up to five of its knots, and which is planned at the best places.
         synergies: as of `make_grasp`.
         joint_compliance: as of `make_grasp`.
         synergy_compliance: as of `make_grasp`.
@@ -67,8 +69,8 @@ def place_object(
         ...     contacts=[ContactAt(tip, HardFinger(friction=0.6), stiffness=8e3) for tip in tips],
         ...     task=Task(loads=[Gravity((0, 0, -9.81))], limits=[NormalForce(upper=20.0)]),
         ... )
-        >>> found.margin > 1, found.grasp.n_c
-        (True, 3)
+        >>> found.margin > 1, found.grasp.n_c, found.outcome.verdict
+        (True, 3, 'feasible')
     """
     judge = Arguments("")
     judge.one("task", task, Task, "Task(loads=[Gravity((0, 0, -9.81))])")

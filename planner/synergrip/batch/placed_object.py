@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from synergrip.documents.naming import made_by
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
+from synergrip.planning.outcome import Outcome
 from synergrip.values import Value
 
 
@@ -31,7 +32,11 @@ class PlacedObject(Value):
     touching: int
     """Places of these at which all contacts touch."""
     notes: tuple[str, ...] = ()
-    """What is doubtful."""
+    """What is doubtful, and which better places were set aside because no plan holds there."""
+    outcome: Outcome | None = None
+    """What `plan` says of the task there; None where it refuses the task."""
+    planned: int = 0
+    """Places at which it was planned, best first, until one had a plan."""
 
     @property
     def position(self) -> Array:

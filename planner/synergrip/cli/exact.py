@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 def proven(outcome: Outcome, document: dict[str, Any]) -> tuple[str, dict[str, Any] | None]:
     """Return the line that an exact proof adds to the answer's text, and the proof; put its sum into the document."""
     from synergrip.explain.exact.exact_proof import ExactProof, exact_proof
+    from synergrip.planning.digest import with_digest
     from synergrip.planning.outcome import Infeasible
 
     if not isinstance(outcome, Infeasible):
@@ -23,7 +24,9 @@ def proven(outcome: Outcome, document: dict[str, Any]) -> tuple[str, dict[str, A
     document["certificate"]["exact"] = keys
     if not isinstance(found, ExactProof):
         keys["why"] = found.why
+        document.update(with_digest(document))
         return f"\n{found.why}", None
     keys |= {"sum": float(found.sum), "problem_sha256": found.of}
+    document.update(with_digest(document))
     line = f"\nproof re-checked in exact arithmetic: sum = {float(found.sum):.4g} < 0; problem SHA-256 {found.of}"
     return line, found.document()

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FIGURES = "margin, cones, overview, synergies or needed"
 OPTIONS = {
     "what": "WHAT", "path": "--output", "width_mm": "--width", "height_mm": "--height", "font": "--font",
-    "font_size": "--font-size",
+    "font_size": "--font-size", "dpi": "--dpi",
 }  # fmt: skip
 """Arguments of the library, and how they are called here."""
 
@@ -53,6 +53,7 @@ def figure(
     ] = "",
     font_size: Annotated[float, typer.Option("--font-size", metavar="PT", help="Of axis labels, in points.")] = 8.0,
     title: Annotated[str, typer.Option("--title", help="Above the figure; none without it.")] = "",
+    dpi: Annotated[float | None, typer.Option("--dpi", metavar="DOTS", help="Of a .png, dots per inch (160).")] = None,
     overrides: SetOption = None,
 ) -> None:
     """Draw a figure for a paper, and print a caption for it. A saved plan is not planned again."""
@@ -64,8 +65,9 @@ def figure(
         from synergrip.reports.pictures.paper import Paper
         from synergrip.reports.pictures.sheet import picture_suffix
 
-        chosen, paper = figure_of(what), Paper(width, height, font, font_size, title)
+        chosen, paper = figure_of(what), Paper(width, height, font, font_size, title, dpi)
         picture_suffix(output, "path")
+        paper.refuse_dpi(output)
         possible("--output", output, refuse_unwritable)
         try:
             subject = subject_of(source, overrides or [])

@@ -9,8 +9,11 @@ if TYPE_CHECKING:
     from synergrip.errors import InputError
     from synergrip.grasps.grasp import Grasp
     from synergrip.linalg import Array
+    from synergrip.planning.outcome import Outcome
     from synergrip.problems.problem import Problem
     from synergrip.tasks.task import Task
+
+WRITTEN = "written under [object] it is not looked for again"
 
 
 def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
@@ -19,12 +22,21 @@ def load_placed(name: str, overrides: Sequence[str] | None) -> Problem:
     Raises:
         InputError: everything that is wrong with the file; no place at which all contacts touch.
     """
+    return load_planned(name, overrides)[0]
+
+
+def load_planned(name: str, overrides: Sequence[str] | None) -> tuple[Problem, Outcome | None]:
+    """Return the same, and what `plan` says of it where a place was looked for, as planning there is part of that.
+
+    Raises:
+        InputError: as of `load_placed`.
+    """
     from synergrip.errors import InputError
     from synergrip.problems.problem import load_problem
 
     given = list(overrides or [])
     try:
-        return load_problem(name, given)
+        return load_problem(name, given), None
     except InputError as error:
         if not is_unplaced(error):
             raise
@@ -38,12 +50,13 @@ def is_unplaced(error: InputError) -> bool:
     return any(issue.message == UNPLACED for issue in error.issues)
 
 
-def _placed(name: str, given: list[str]) -> Problem:
+def _placed(name: str, given: list[str]) -> tuple[Problem, Outcome | None]:
     from synergrip.batch.best_place import best_place
     from synergrip.batch.placed_object import found_override
     from synergrip.cli.beside import aside
     from synergrip.cli.progress import shares
     from synergrip.errors import InputError
+    from synergrip.planning.outcome import Plan
     from synergrip.problems.problem import load_problem
     from synergrip.problems.unplaced import unplaced_problem
 
@@ -59,8 +72,10 @@ def _placed(name: str, given: list[str]) -> Problem:
         found = best_place(problem.asked, made, shares())
     except InputError as error:
         raise problem.located(error) from None
-    margin = f"slip margin up to {found.margin:.3g} N; " if found.margin > 0 else ""
-    aside(f"placed   {found.line}  ({margin}all contacts touch at {found.touching} of {found.tried} places)")
+    holds = "a plan holds there; " if isinstance(found.outcome, Plan) else ""
+    margin = f"slip margin up to {found.margin:.3g} N at the start posture; " if found.margin > 0 else ""
+    touching = f"all contacts touch at {found.touching} of {found.tried} places"
+    aside(f"placed   {found.line}  ({holds}{margin}{touching}; {WRITTEN})")
     for note in found.notes:
         aside(f"note     {note}")
-    return put(found.position)
+    return put(found.position), found.outcome

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from synergrip.cli import ending
-from synergrip.cli.beside import tell
+from synergrip.cli.beside import aside, tell
 from synergrip.cli.loading import load_placed
 from synergrip.cli.running import (
     Format,
     FormatOption,
-    ProblemArgument,
     SetOption,
     answering,
     color,
@@ -26,24 +26,31 @@ from synergrip.cli.running import (
     possible,
     show,
     shown_anyway,
+    writing,
 )
 
 if TYPE_CHECKING:
     from synergrip.margin.direct_number import DirectNumber
     from synergrip.margin.found import Margins
     from synergrip.margin.timing.fastest_timing import FastestTiming
+    from synergrip.planning.outcome import Plan
+    from synergrip.problems.problem import Problem
 
 ASKED = (
     "critical_friction_scale, heaviest_kg, load_factor, least_peak_N, least_effort, shortest_duration_s, "
     "largest_amplitude, disturbance, quality, sensitivities, critical_friction_per_contact, "
     "largest_amplitude_per_mode, fastest_timing_s"
 )
-TIMED = "palm.csv"
-"""The file of the fastest timing, in the folder that is asked for."""
+KEY = "PROBLEM|PLAN"
 
 
 def margins(
-    problem: ProblemArgument,
+    problem: Annotated[
+        str,
+        typer.Argument(
+            metavar=KEY, help="A problem file or the name of a bundled problem; a saved plan or its folder."
+        ),
+    ],
     form: FormatOption = Format.TEXT,
     overrides: SetOption = None,
     only: Annotated[
@@ -69,7 +76,12 @@ def margins(
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help=f"Where {TIMED} of --only fastest_timing_s goes."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="DIR",
+            help="Write margins.json, for the report of the plan beside it, and palm.csv of fastest_timing_s.",
+        ),
     ] = None,
     picture: Annotated[
         Path | None,
@@ -78,40 +90,95 @@ def margins(
 ) -> None:
     """Say how far every contact is from slipping, and how heavy, slippery, hard, fast and far the task may get."""
     with answering(form):
-        from synergrip.files import refuse_unwritable
-        from synergrip.margin.found import Margins
-        from synergrip.margin.margins import margins as found_by
+        from synergrip.margin.margins import Wishes, margins_of
+        from synergrip.planning.outcome import Plan
+        from synergrip.planning.planning import plan
         from synergrip.reports.data.json_margins import margins_document
+        from synergrip.reports.data.margins_files import TIMED, refuse_margins_place, write_margins
         from synergrip.reports.text.text_margins import margins_text
 
-        loaded = load_placed(problem, overrides)
+        loaded, saved = _asked(problem, overrides)
         picture_place(picture)
-        place = None if output is None else output / TIMED
-        if place is not None:
-            possible("--output", place, refuse_unwritable)
+        if output is not None:
+            possible("--output", output, refuse_margins_place)
         with placed(loaded), heard():
-            found = found_by(
-                loaded.grasp, loaded.task, only=tuple(only or ()), heard=_tell,
+            wishes = Wishes.of(
+                loaded.grasp, loaded.task, only=tuple(only or ()),
                 directions=[six("--direction", text) for text in direction] if direction else None,
                 box=None if box is None else six("--box", box),
             )  # fmt: skip
-        if not isinstance(found, Margins):
-            end_without_plan(form, loaded, found)
-        told, timed, drawn = margins_document(loaded.title, found, loaded.notes), list[Path](), list[Path]()
+            made = plan(loaded.grasp, loaded.task)
+            if isinstance(made, Plan):
+                of_saved = None if saved is None else _same(made, saved)
+                found = margins_of(made, loaded.grasp, loaded.task, wishes, _tell)
+        if not isinstance(made, Plan):
+            end_without_plan(form, loaded, made)
+        title = loaded.title if saved is None else str(saved["title"])
+        told = margins_document(title, found, loaded.notes, loaded.source, of_saved)
+        written, drawn = list[Path](), list[Path]()
 
         def text() -> str:
-            said = margins_text(loaded, found, color(), whole=whole, written=next(iter(timed), None))
-            return "\n".join([said, *(f"\nwrote {picture}" for picture in drawn)])
+            said = margins_text(loaded, found, color(), whole=whole, written=_named(TIMED, written))
+            files = [*(each for each in written if each.name != TIMED), *drawn]
+            return "\n".join([said, *[""] * bool(files), *(f"wrote {each}" for each in files)])
 
         with shown_anyway(form, text, lambda: told):
-            if place is not None and found.timing is not None and found.timing.path is not None:
-                timed.append(found.timing.write(place))
-                ending.keep(place)
+            if output is not None:
+                with writing("--output", output):
+                    written += [output / name for name in write_margins(output, told, found.timing)]
+                ending.keep(*written)
+                _tell_of_another(output, told)
             if picture is not None:
                 _draw(found, loaded.title, picture)
                 drawn.append(picture)
         show(form, text, lambda: told | ({"picture": str(picture)} if drawn else {}))
     raise typer.Exit(130 if found.interrupted else 0)
+
+
+def _asked(name: str, overrides: list[str] | None) -> tuple[Problem, Mapping[str, Any] | None]:
+    """Return the problem, and the document of the saved plan that it was read from, if that was named."""
+    from synergrip.reports.html.saved_answer import read_answer, saved_file
+
+    file = saved_file(Path(name), KEY)
+    if file is None:
+        return load_placed(name, overrides), None
+    from synergrip.errors import InputError
+    from synergrip.reports.data.saved_problem import problem_of
+
+    if overrides:
+        raise InputError.at("--set", f"'{file}' is planned already; give the problem to change it")
+    document, _ = read_answer(file)
+    return problem_of(document, KEY), document
+
+
+def _same(made: Plan, saved: Mapping[str, Any]) -> str | None:
+    """Return the digest of a saved plan, which was made again."""
+    from synergrip.planning.digest import stated_digest
+    from synergrip.reports.data.saved_problem import refuse_another
+
+    refuse_another(made, saved, KEY)
+    return stated_digest(saved)
+
+
+def _named(name: str, written: list[Path]) -> Path | None:
+    return next((each for each in written if each.name == name), None)
+
+
+def _tell_of_another(folder: Path, told: Mapping[str, Any]) -> None:
+    """Say that margins stand beside a plan that they are not of, whose report leaves them out."""
+    from synergrip.errors import InputError
+    from synergrip.planning.digest import stated_digest
+    from synergrip.reports.html.saved_answer import read_answer
+
+    file = folder / "plan.json"
+    if not file.is_file():
+        return
+    try:
+        document, _ = read_answer(file)
+    except InputError:  # a report says what is wrong with it
+        return
+    if stated_digest(document) != told["plan_sha256"]:
+        aside(f"'{file}' is of another plan, whose report leaves these margins out")
 
 
 def _draw(found: Margins, title: str, picture: Path) -> None:

@@ -10,7 +10,7 @@ import typer
 
 from synergrip.cli import ending
 from synergrip.cli.beside import aside
-from synergrip.cli.loading import load_placed
+from synergrip.cli.loading import load_planned
 from synergrip.cli.progress import tell_what_takes_long, telling
 from synergrip.cli.running import (
     DetailsOption,
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from synergrip.planning.outcome import Outcome
     from synergrip.planning.solvers import Answerer
     from synergrip.problems.problem import Problem
+    from synergrip.reports.data.saved_margins import KnownMargins
+
+SOLVER = "clarabel"
 
 
 def plan(
@@ -47,7 +50,7 @@ def plan(
     ] = None,
     solver: Annotated[
         str, typer.Option("--solver", help="clarabel, or cvxpy: an independent formulation at the start posture.")
-    ] = "clarabel",
+    ] = SOLVER,
     save_program: Annotated[
         Path | None, typer.Option("--save-program", metavar="FILE", help="Save the exact final program (.npz).")
     ] = None,
@@ -60,6 +63,14 @@ def plan(
     report: Annotated[
         bool, typer.Option("--report", help="Also write report.html: playback, charts, tables; it opens offline.")
     ] = False,
+    margins: Annotated[
+        bool,
+        typer.Option(
+            "--margins",
+            help="Also write margins.json, and into the report how far the task may go and what would help: takes as "
+            "long as 10 to 30 plans.",
+        ),
+    ] = False,
     pyramids: Annotated[
         int | None,
         typer.Option(metavar="FACETS", help="Also say what inscribed friction pyramids cost; never for the verdict."),
@@ -71,10 +82,11 @@ def plan(
 ) -> None:
     """Plan a problem, verify the answer, write it; when there is no plan, prove it and say why."""
     with answering(form):
-        loaded = load_placed(problem, overrides)  # what is wrong with it is told before the slow imports
+        loaded, planned = load_planned(problem, overrides)  # what is wrong with it is told before the slow imports
 
         from synergrip.cli.exact import proven
         from synergrip.cli.pyramids import asked, compared
+        from synergrip.cli.with_margins import margins_beside, margins_told
         from synergrip.files import refuse_unwritable
         from synergrip.planning.answer import FORMATS
         from synergrip.planning.planning import plan as make
@@ -102,14 +114,17 @@ def plan(
 
         with shown_anyway(form, text, lambda: document):
             with held_back(signal.SIGINT):  # a plan that is found is written before an interrupt is heard
-                outcome = found_by(make, loaded, answers)
+                outcome = planned if planned and solver == SOLVER else found_by(make, loaded, answers)
                 _explained(outcome)
                 document = outcome_document(loaded.title, loaded.grasp, outcome, loaded.notes, loaded.source)
                 cost = compared(outcome, request, document)
                 told, proof = proven(outcome, document) if exact else ("", None)
+                found = margins_beside(outcome, loaded) if margins else None
                 with writing("--output", folder):
-                    seen = _page(document, outcome, folder) if report else None
-                    written = write_outcome(folder, document, outcome, loaded.file.output.write or FORMATS, proof, seen)
+                    known, more = margins_told(loaded, found)
+                    seen = _page(document, outcome, folder, known) if report else None
+                    formats = loaded.file.output.write or FORMATS
+                    written = write_outcome(folder, document, outcome, formats, proof, seen, more)
                 ending.keep(*(folder / name for name in written))
             if save_program:
                 with writing("--save-program", save_program):
@@ -135,11 +150,11 @@ def found_by(make: Callable[..., Outcome], problem: Problem, answers: Answerer) 
         return make(problem.grasp, problem.task, answers)
 
 
-def _page(document: dict[str, Any], outcome: Outcome, folder: Path) -> str:
+def _page(document: dict[str, Any], outcome: Outcome, folder: Path, known: KnownMargins | None) -> str:
     from synergrip.reports.data.plan_files import csv_of
     from synergrip.reports.html.page import report_text
 
-    return report_text(document, csv_of(outcome), folder, folder)
+    return report_text(document, csv_of(outcome), folder, folder, known)
 
 
 def _save(outcome: Outcome, path: Path) -> None:

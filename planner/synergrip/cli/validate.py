@@ -31,9 +31,10 @@ def validate(
     overrides: SetOption = None,
     picture: PictureOption = None,
 ) -> None:
-    """Check a problem file and everything it names, without solving anything; show posture, contacts and pads.
+    """Check a problem file and everything it names, without planning it; show posture, contacts and pads.
 
-    Where contacts do not touch, pads and picture are shown with what is wrong.
+    Where contacts do not touch, pads and picture are shown with what is wrong. Where object.position = "auto" the place
+    is looked for, which takes plans.
     """
     with answering(form):
         from synergrip.errors import InputError

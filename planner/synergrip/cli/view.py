@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from os.path import exists  # unlike that of Path, no error for a name that is too long
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -45,7 +47,7 @@ def view(
 
         refuse_without({"viser": "viser"}, "view")
         page = _page(what, posture, overrides or [])
-        with heard(), serving(port) as server:
+        with heard(), _heard_to_the_end(), serving(port) as server:
             try:
                 as_time_goes = page(server)
                 say(f"view     http://{server.get_host()}:{server.get_port()}  (this machine alone; Ctrl-C ends)")
@@ -56,6 +58,20 @@ def view(
             except KeyboardInterrupt:
                 pass
         say("closed")
+
+
+@contextmanager
+def _heard_to_the_end() -> Iterator[None]:
+    """Let what ends a program from outside end the view as Ctrl-C does, with its last word."""
+    outside = signal.getsignal(signal.SIGTERM)
+    if outside is not signal.SIG_DFL:  # whoever handles it has a reason
+        yield
+        return
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, outside)
 
 
 def _page(what: str, posture: str | None, overrides: list[str]) -> Page:

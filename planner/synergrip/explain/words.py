@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from synergrip.documents.quantities import SHOWN_IN, apart
 from synergrip.explain.repairs import Repair
-from synergrip.planning.outcome import Infeasible
+from synergrip.planning.outcome import Infeasible, Plan
+from synergrip.tasks.tracking import undone, wish_size
 
 TOO: dict[str, str] = {
     "friction": "friction is too low", "load": "the load is too heavy",
@@ -66,6 +67,15 @@ def nearer(repair: Repair) -> str:
         "" if repair.in_vain is None else f" (with {factor * repair.in_vain:.5g} {unit}".rstrip() + " none was found)"
     )
     return f"{changed(repair)} {factor * repair.least:.5g} {unit}".rstrip() + vain
+
+
+def undone_share(repair: Repair) -> float:
+    """Return which share of the wanted motion a change leaves undone where there is a plan with it."""
+    plan = repair.outcome
+    if not isinstance(plan, Plan) or repair.cause != "tolerance":
+        return 0.0
+    left = undone(plan.analysis, plan.task)
+    return left / wish_size(plan.analysis, plan.task) if left else 0.0
 
 
 def _unit(repair: Repair) -> tuple[float, str]:

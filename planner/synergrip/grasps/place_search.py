@@ -25,6 +25,10 @@ CENTRED = 3
 """Times that the object is moved to the middle of the pads that stopped before all touched, and closed on again."""
 AT_STOP = 0.01
 """Share of its range within which a joint stands at its stop."""
+EDGE = 2e-3
+"""[m] A contact that is nearer to an edge of the object may roll over it, or stands on it already."""
+EDGE_SHARE, ALONG_FACE = 0.2, 0.99
+"""As a share of half of the object where that is thin, and the cosine from which on two normals are of one face."""
 NEAR = 400
 """How many places at most are moved so."""
 
@@ -35,16 +39,17 @@ class TouchingPlaces(Value):
 
     positions: Array  # (N, 3) [m]
     q: Array  # (N, n_q)
-    clear: Flags
-    """(N,) whether the skeleton of the hand stays outside the object."""
+    doubts: Places
+    """(N,) what speaks against each: 1 where the skeleton of the hand runs through the object, 1 where a contact is at
+    an edge of it."""
 
     def taken(self, places: Places) -> TouchingPlaces:
         """Return some of them."""
-        return TouchingPlaces(self.positions[places], self.q[places], self.clear[places])
+        return TouchingPlaces(self.positions[places], self.q[places], self.doubts[places])
 
     def joined(self, other: TouchingPlaces) -> TouchingPlaces:
         """Return these places, then others."""
-        names = ("positions", "q", "clear")
+        names = ("positions", "q", "doubts")
         return TouchingPlaces(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
 
     def different(self) -> TouchingPlaces:
@@ -99,8 +104,21 @@ def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
         _, depths = overlaps(closer.asked.hand, found.q[all_touch], closer.asked.touches)
         all_touch = all_touch[depths.max(axis=1, initial=0.0) <= MEETS]
     positions, q = found.positions[all_touch], found.q[all_touch]
-    inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) if len(q) else np.zeros(0)
-    return TouchingPlaces(positions, q, np.asarray(inside <= DEEP))
+    if not len(q):
+        return TouchingPlaces(positions, q, np.zeros(0, dtype=int))
+    inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) > DEEP
+    edges = _at_edges(closer, positions, q)
+    return TouchingPlaces(positions, q, np.asarray(inside.astype(int) + edges))
+
+
+def _at_edges(closer: Closer, positions: Array, q: Array) -> Flags:
+    """Tell at which places (N, 3) a contact is at an edge: a little inside the object, another face is nearer."""
+    pads = [(pad.link, pad.point) for pad in closer.pads]
+    centres = closer.asked.hand.kinematics.along(q, pads).position - positions[:, None]
+    off, outward = closer.shape.surface(centres)
+    deep = min(EDGE, EDGE_SHARE * float(_half_size(closer.shape).min()))
+    _, below = closer.shape.surface(centres - (off[..., None] + deep) * outward)
+    return np.asarray(((below * outward).sum(axis=-1) < ALONG_FACE).any(axis=1))
 
 
 def _on_one_spot(closer: Closer, q: Array, outward: Array) -> Flags:
@@ -144,11 +162,12 @@ def nearest(closer: Closer, found: ClosedAtMany) -> tuple[Array, Issue]:
         message = f"wherever all contacts touch, two of them are on the same spot of the {closer.shape.title}; {ask}"
         return found.positions[best], Issue(message, key="object.position")
     names = [touch.name for touch in closer.asked.touches]
+    ways = _ways(closer)
     touch = [name for name, yes in zip(names, found.touching[best], strict=True) if yes]
     others = [
-        f"{name} {_away(float(gap), float(facing))}"
-        for name, yes, gap, facing in zip(
-            names, found.touching[best], found.gaps[best], found.facing[best], strict=True
+        f"{name} {_away(float(gap), float(facing))}{way}"
+        for name, yes, gap, facing, way in zip(
+            names, found.touching[best], found.gaps[best], found.facing[best], ways, strict=True
         )
         if not yes
     ]
@@ -175,6 +194,17 @@ def _overlapping(closer: Closer, found: ClosedAtMany, ask: str) -> tuple[Array, 
         f"{in_mm(float(most[least]))}; {ask}"
     )
     return position, Issue(message, key="object.position")
+
+
+def _ways(closer: Closer) -> list[str]:
+    """Return of each pad what keeps it from meeting the others as the hand closes; nothing where it may."""
+    path = closer.path()
+    off = np.linalg.norm(path - path[0].mean(axis=0), axis=-1)  # from the middle of the pads where closing begins
+    leaves = off[1:].min(axis=0) > off[0]
+    return [
+        (" (closing takes it away from the others)" if away else "") if moved else " (closing does not move it)"
+        for moved, away in zip(closer.joints.moved, leaves, strict=True)
+    ]
 
 
 def _in_mm(position: Array) -> str:

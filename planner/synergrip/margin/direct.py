@@ -22,6 +22,11 @@ from synergrip.planning.pace import BRIEF
 from synergrip.values import Value
 
 HEAVIEST, FACTOR = "heaviest_kg", "load_factor"
+NUMBERS = (
+    "critical_friction_scale", HEAVIEST, FACTOR, "least_peak_N", "least_effort", "shortest_duration_s",
+    "largest_amplitude",
+)  # fmt: skip
+"""Names of all that are asked for, as `wanted` has them."""
 AT_END = 2e-3
 """Share of a number within which the plan that is there is at its end already."""
 MORE = (1e-5, 2e-3, 2e-2, 1e-1)

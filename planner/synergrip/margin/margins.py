@@ -65,52 +65,78 @@ def margins(
         >>> margins(problem.grasp, problem.task, only=("load_factor",)).direct["load_factor"].proven  # doctest: +SKIP
         True
     """
-    judge = Arguments("")
-    names = judge.several("only", only, str, '"heaviest_kg"')
-    judge.finish()
-    along, widths = frozen(AXES) if directions is None else judged_directions(directions), judged_box(box)
-    free = timeless(grasp, task)[1] if TIMING in names else None
+    wishes = Wishes.of(grasp, task, only=only, directions=directions, box=box)
     made = plan(grasp, task)
-    if not isinstance(made, Plan):
-        return made
-    if made.fresh is not None:
-        made = replace(made, notes=(*made.notes, STATED))
-    asked = Asked.of(made.grasp, task, made.task)
-    numbers = {each.name: each for each in wanted(asked, made)}
-    for name in names:
-        if name not in (*numbers, *BESIDE):
-            raise InputError.at("only", one_of(name, [*numbers, *BESIDE]))
-    found = _measured(made)
-    pushed = directions is not None or box is not None
-    wants = _Wants(names, [numbers[name] for name in numbers if not names or name in names], along, widths, pushed)
-    if made.interrupted:
-        return replace(found, interrupted=True)
-    try:
-        for more in _more(found, wants, asked, task, heard):
-            found = more
-        if free is not None:
-            found = replace(found, timing=(timing := fastest_timing(grasp, free)))
-            heard(timing)
-    except KeyboardInterrupt:
-        return replace(found, interrupted=True)
-    return found
+    return margins_of(made, grasp, task, wishes, heard) if isinstance(made, Plan) else made
 
 
-@dataclass(frozen=True)
-class _Wants:
+@dataclass(frozen=True, eq=False)
+class Wishes:
     """What is wanted beside the measures."""
 
     names: tuple[str, ...]
     """Empty for all that is not on request."""
-    numbers: Sequence[Wanted]
     directions: Array
     box: Array | None
     pushed: bool
     """Whether directions or a box are given, which ask for disturbances by themselves."""
+    free: Task | None
+    """The task whose timing is free, where the fastest one is wanted."""
+
+    @classmethod
+    def of(
+        cls, grasp: Grasp, task: Task | TimedTask, *, only: Sequence[str] = (),
+        directions: Sequence[Sequence[float]] | Array | None = None, box: Sequence[float] | Array | None = None,
+    ) -> Wishes:  # fmt: skip
+        """Return the arguments of `margins`, judged before anything is planned."""
+        judge = Arguments("")
+        names = judge.several("only", only, str, '"heaviest_kg"')
+        judge.finish()
+        along, widths = frozen(AXES) if directions is None else judged_directions(directions), judged_box(box)
+        free = timeless(grasp, task)[1] if TIMING in names else None
+        return cls(names, along, widths, directions is not None or box is not None, free)
 
     def __contains__(self, name: str) -> bool:
+        """Tell whether something is wanted."""
         usual = not self.names and name not in (*ON_REQUEST, TIMING)
         return usual or name in self.names or (self.pushed and name == DISTURBANCE)
+
+
+def margins_of(
+    made: Plan, grasp: Grasp, task: Task | TimedTask, wishes: Wishes, heard: Heard = lambda number: None
+) -> Margins:
+    """Return the margins of a plan that is made; see `margins`.
+
+    Args:
+        made: plan of the task.
+        grasp: that it was asked with.
+        task: as it was asked.
+        wishes: what is wanted.
+        heard: is told of each number as it is found.
+
+    Raises:
+        InputError: a name that is none.
+    """
+    if made.fresh is not None:
+        made = replace(made, notes=(*made.notes, STATED))
+    asked = Asked.of(made.grasp, task, made.task)
+    numbers = {each.name: each for each in wanted(asked, made)}
+    for name in wishes.names:
+        if name not in (*numbers, *BESIDE):
+            raise InputError.at("only", one_of(name, [*numbers, *BESIDE]))
+    found = _measured(made)
+    if made.interrupted:
+        return replace(found, interrupted=True)
+    chosen = [number for name, number in numbers.items() if name in wishes]
+    try:
+        for more in _more(found, wishes, chosen, asked, task, heard):
+            found = more
+        if wishes.free is not None:
+            found = replace(found, timing=(timing := fastest_timing(grasp, wishes.free)))
+            heard(timing)
+    except KeyboardInterrupt:
+        return replace(found, interrupted=True)
+    return found
 
 
 def _measured(made: Plan) -> Margins:
@@ -124,23 +150,25 @@ def _measured(made: Plan) -> Margins:
     return Margins(made, own, measures(grasp, made.time, promised.forces, least) | headrooms(grasp, limits, promised))
 
 
-def _more(found: Margins, wants: _Wants, asked: Asked, task: Task | TimedTask, heard: Heard) -> Iterator[Margins]:
+def _more(
+    found: Margins, wishes: Wishes, chosen: Sequence[Wanted], asked: Asked, task: Task | TimedTask, heard: Heard
+) -> Iterator[Margins]:
     """Yield margins of which more and more is known, so that an interrupt keeps what is finished."""
     made = found.plan
-    for number in direct(wants.numbers, asked, made):
+    for number in direct(chosen, asked, made):
         yield (found := replace(found, direct={**found.direct, number.name: number}))
         heard(number)
-    for name in (name for name in ON_REQUEST if name in wants):
+    for name in (name for name in ON_REQUEST if name in wishes):
         several: dict[str, DirectNumber] = {}
         for of, number in ON_REQUEST[name](asked, made):
             several = {**several, of: number}
             yield (found := replace(found, on_request={**found.on_request, name: several}))
             heard(number)
-    if DISTURBANCE in wants:
-        yield (found := replace(found, disturbance=disturbances(made, directions=wants.directions, box=wants.box)))
-    if QUALITY in wants:
+    if DISTURBANCE in wishes:
+        yield (found := replace(found, disturbance=disturbances(made, directions=wishes.directions, box=wishes.box)))
+    if QUALITY in wishes:
         yield (found := replace(found, quality=_quality(made)))
-    if SENSITIVITIES in wants:
+    if SENSITIVITIES in wishes:
         changes = sensitivities_of(made, task)
         yield replace(found, sensitivities=changes)
         if changes.interrupted:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from synergrip.explain.repairs import Repair
     from synergrip.explain.synergies.missing_synergies import MissingSynergies
     from synergrip.explain.when import When
+    from synergrip.margin.found import Margins
     from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
     from synergrip.planning.provenance import Asked
     from synergrip.reports.data.viewer import Viewer
@@ -65,18 +66,19 @@ class Answer(Value):
         return save(cast("Outcome", self), folder, formats, problem)
 
     @naming_arguments
-    def report(self, path: str | Path, *, problem: Asked | None = None) -> Path:
+    def report(self, path: str | Path, *, problem: Asked | None = None, margins: Margins | None = None) -> Path:
         """Write the report, the page of ``synergrip plan --report``, and return the file: it opens offline.
 
-        A simulation of this very answer (``synergrip simulate FOLDER -o FOLDER``) that stands in the folder of the
-        file is a part of it.
+        A simulation and margins of this very answer in the folder of the file (``synergrip simulate FOLDER -o FOLDER``,
+        ``synergrip margins FOLDER -o FOLDER``) are a part of it.
 
         Args:
             path: the file, replaced whole or not at all.
             problem: what was asked, as `load_problem` returns it, for title, notes and inputs.
+            margins: of this plan, what `margins` returns for its grasp and task, in place of those in the folder.
 
         Raises:
-            InputError: viser or Jinja is not installed, or a path that can be no file's.
+            InputError: viser or Jinja is not installed, a path that can be no file's, or margins of another plan.
             OutputError: it cannot be written.
 
         Example:
@@ -85,7 +87,7 @@ class Answer(Value):
         """
         from synergrip.reports.data.saving import report
 
-        return report(cast("Outcome", self), path, problem)
+        return report(cast("Outcome", self), path, problem, margins)
 
     @naming_arguments
     def viewer(self, *, height: int = 480) -> Viewer:

@@ -21,8 +21,11 @@ UNCERTAIN = ("seconds",)
 
 
 def with_digest(document: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a document with the digest of all that is in it but where it comes from, which no number hangs on."""
-    keys = sorted(key for key in document if key not in ASIDE)
+    """Return a document with the digest of all that is in it but where it comes from, which no number hangs on.
+
+    One that it had before is replaced.
+    """
+    keys = sorted(key for key in document if key not in (*ASIDE, KEY))
     return {**document, KEY: {"sha256": digest(document, keys), "of": keys}}
 
 

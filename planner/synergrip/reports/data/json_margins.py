@@ -3,27 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
+from synergrip.changes.asked import STATED
+from synergrip.documents.source import Source
+from synergrip.margin.direct import NUMBERS
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.found import Margins
+from synergrip.margin.margins import BESIDE
 from synergrip.margin.measures import Measure
+from synergrip.margin.sensitivity.sensitivity import HAND, START
 from synergrip.planning.arrays import names_of
+from synergrip.planning.digest import stated_digest, with_digest
+from synergrip.planning.provenance import KEY as PROVENANCE
+from synergrip.planning.provenance import provenance_document
 from synergrip.planning.told import cases_document, finite, margin_document, notes_together, structure_document
 from synergrip.reports.data.json_disturbances import disturbance_document, quality_document
-from synergrip.reports.data.json_plan import plain
+from synergrip.reports.data.json_plan import outcome_document, plain
 from synergrip.reports.data.json_sensitivities import sensitivities_document
 from synergrip.reports.data.json_timing import timing_document
 
 
-def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> dict[str, Any]:
-    """Return the document of margins; SI units, angles to the cone in degrees."""
+def margins_document(
+    title: str, found: Margins, notes: Sequence[str] = (), source: Source | None = None, plan_digest: str | None = None
+) -> dict[str, Any]:
+    """Return the document of margins; SI units, angles to the cone in degrees, with its digest and that of its plan.
+
+    Args:
+        title: of the problem.
+        found: its margins.
+        notes: of the problem.
+        source: its text, for provenance.
+        plan_digest: that of the saved plan that the margins are of; else that which the plan has when it is saved.
+    """
     plan = found.plan
     linear = found.linear or {}
-    document: dict[str, Any] = plain({
+    document = plain({
         "title": title,
         "verdict": plan.verdict,
         "exit_code": plan.exit_code,
+        "plan_sha256": plan_digest or _digest_of(title, found, notes),
+        PROVENANCE: provenance_document(plan, source),
+        "covers": _covers(found),
         "structure": structure_document(plan.grasp, plan.analysis),
         **names_of(plan.grasp),
         "time_s": plan.time.tolist(),
@@ -39,7 +61,26 @@ def margins_document(title: str, found: Margins, notes: Sequence[str] = ()) -> d
         "interrupted": found.interrupted,
         "notes": notes_together(plan.notes, notes),
     })  # fmt: skip
-    return document
+    return with_digest(document)
+
+
+def _digest_of(title: str, found: Margins, notes: Sequence[str]) -> str | None:
+    """Return the digest of the plan as it is saved: without the note of its margins."""
+    plan = replace(found.plan, notes=tuple(note for note in found.plan.notes if note != STATED))
+    return stated_digest(outcome_document(title, plan.grasp, plan, notes))
+
+
+def _covers(found: Margins) -> dict[str, Any]:
+    """Return which figures there are, which were not asked for or not found in time, and in which model they are."""
+    there = {
+        "disturbance": found.disturbance, "quality": found.quality, "sensitivities": found.sensitivities,
+        "fastest_timing_s": found.timing,
+    }  # fmt: skip
+    names = [*found.direct, *found.on_request, *(name for name, each in there.items() if each is not None)]
+    return {
+        "found": names, "left": [name for name in (*NUMBERS, *BESIDE) if name not in names],
+        "model": START if found.plan.executed is None else HAND, "knots": len(found.plan.time),
+    }  # fmt: skip
 
 
 def _measure(measure: Measure, linear: Measure | None) -> dict[str, Any]:

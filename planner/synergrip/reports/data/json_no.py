@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from synergrip.explain.explanation import Explanation
+from synergrip.explain.repairs import Repair
+from synergrip.explain.words import undone_share
 from synergrip.linalg import Array
 from synergrip.planning.told import finite
 from synergrip.reports.data.json_missing import missing_document
-
-if TYPE_CHECKING:
-    from synergrip.explain.explanation import Explanation
-    from synergrip.explain.repairs import Repair
 
 
 def no_document(found: Explanation, times: Array) -> dict[str, Any]:
@@ -48,6 +47,6 @@ def repair_document(repair: Repair) -> dict[str, Any]:
     return {
         "cause": repair.cause, "key": repair.key, "from": repair.was, "to": repair.to, "unit": repair.unit,
         "set": repair.set, "tried": repair.tried, "verified": repair.verified, "size": finite(repair.size),
-        "proven_short": repair.proven,
+        "proven_short": repair.proven, "undone_share": undone_share(repair),
         "least_at_start": repair.least, "in_vain": repair.in_vain,
     }  # fmt: skip

@@ -31,7 +31,8 @@ from synergrip.planning.told import (
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
-from synergrip.reports.data.json_no import no_document
+from synergrip.reports.data.json_control import KEY as CONTROL
+from synergrip.reports.data.json_control import control_document
 from synergrip.tasks.scaling import units_of
 
 if TYPE_CHECKING:
@@ -62,10 +63,14 @@ def outcome_document(
         "programs": [_program(decision) for decision in outcome.decisions],
         "notes": notes_together(outcome.notes, notes),
     }
+    if outcome.analysis is not None:
+        document[CONTROL] = control_document(outcome.analysis)
     if (execution := execution_document(outcome)) is not None:
         document[EXECUTION] = execution
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
+    from synergrip.reports.data.json_no import no_document  # of plans nothing of this is needed, nor loaded
+
     known = known or outcome.explanation
     document["exit_code"] = known.exit_code(outcome.exit_code)
     if known.interrupted:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from synergrip.planning.outcome import Outcome, Plan
 from synergrip.together import refuse_others, replace_together
 
 PROOF, REPORT = "proof.json", "report.html"
+NOTHING: Mapping[str, str] = MappingProxyType({})
 NAMES = (*(f"plan.{suffix}" for suffix in FORMATS), PROOF, REPORT)
 
 
@@ -30,12 +32,22 @@ def write_outcome(
     formats: tuple[str, ...],
     proof: dict[str, Any] | None = None,
     report: str | None = None,
+    more: Mapping[str, str] = NOTHING,
 ) -> list[str]:
     """Write an outcome into `folder` and return the names of the files written.
 
     An outcome without a plan has only a document, and perhaps an exact proof; either may have its report. Files of
     an earlier run that are not written anew are removed, so that the folder never holds the answer to another question,
     nor files of two answers.
+
+    Args:
+        folder: where; made when it is missing.
+        document: of the outcome.
+        outcome: what was found.
+        formats: of plan.json, plan.csv and plan.npz.
+        proof: exact, of a no.
+        report: text of its page.
+        more: texts of files that are written with it, by their names.
 
     Raises:
         OSError: it cannot be done; the folder is as it was.
@@ -55,9 +67,12 @@ def write_outcome(
             (new / PROOF).write_text(to_json(proof) + "\n", encoding="utf-8")
         if report is not None:
             (new / REPORT).write_text(report, encoding="utf-8")
+        for name, text in more.items():
+            (new / name).write_text(text, encoding="utf-8")
 
-    replace_together(folder, NAMES, write)
-    return [*(f"plan.{suffix}" for suffix in chosen), *[PROOF] * (proof is not None), *[REPORT] * (report is not None)]
+    replace_together(folder, (*NAMES, *more), write)
+    pages = [*[PROOF] * (proof is not None), *[REPORT] * (report is not None)]
+    return [*(f"plan.{suffix}" for suffix in chosen), *pages, *more]
 
 
 def refuse_place(folder: Path) -> None:

@@ -7,6 +7,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+
 from synergrip.documents.source import Source
 from synergrip.errors import InputError, OutputError, kind_of, one_of
 from synergrip.files import IMPOSSIBLE
@@ -17,6 +19,7 @@ from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import csv_of, write_outcome
 
 if TYPE_CHECKING:
+    from synergrip.margin.found import Margins
     from synergrip.reports.data.viewer import Viewer
 
 T = TypeVar("T")
@@ -31,15 +34,35 @@ def save(outcome: Outcome, folder: str | Path, formats: Sequence[str], problem: 
     return tuple(place / name for name in written)
 
 
-def report(outcome: Outcome, path: str | Path, problem: Asked | None) -> Path:
+def report(outcome: Outcome, path: str | Path, problem: Asked | None, margins: Margins | None = None) -> Path:
     """Write the report of an answer; see `Answer.report`."""
+    from synergrip.reports.data.json_margins import margins_document
+    from synergrip.reports.data.saved_margins import KnownMargins
     from synergrip.reports.html.page import write_report
 
-    place = path_of(path, "path")
+    place, same = path_of(path, "path"), None if margins is None else _of_this(outcome, margins)
     title, notes, source = (outcome.grasp.title, (), None) if problem is None else _told(problem)
+    known = None if same is None else KnownMargins.of(same, margins_document(title, same, notes, source))
     document = outcome_document(title, outcome.grasp, outcome, notes, source)
-    written_at("path", place, lambda: write_report(place, document, csv_of(outcome), beside=place.parent))
+    written_at(
+        "path", place, lambda: write_report(place, document, csv_of(outcome), beside=place.parent, margins=known)
+    )
     return place
+
+
+def _of_this(outcome: Outcome, margins: object) -> Margins:
+    """Return margins, or refuse those of another answer."""
+    from synergrip.margin.found import Margins
+
+    if not isinstance(margins, Margins):
+        raise InputError.at("margins", f"expected what margins(grasp, task) returns, got {kind_of(margins)}")
+    if not (isinstance(outcome, Plan) and _alike(outcome, margins.plan)):
+        raise InputError.at("margins", "are of another plan; give those of the grasp and the task of this answer")
+    return margins
+
+
+def _alike(one: Plan, other: Plan) -> bool:
+    return np.array_equal(one.dz_r, other.dz_r) and np.array_equal(one.margins, other.margins)
 
 
 def draw(plan: Plan, path: str | Path, title: str) -> Path:

@@ -55,9 +55,16 @@ def draw_cones_figure(subject: Subject, path: Path, paper: Paper) -> str:
     write_picture(path, width, top + cones_height(cones, wide), fill, paper.letters)
     return (
         f"{document['title']}. Force of each contact over time inside its friction cone, along the tangents t and o "
-        "as a share of the friction that it has, spin included: on the circle it slips. Dots: where its slip margin "
-        "is least."
+        f"as a share of the friction that it has, spin included: on the circle it slips. {_times(cones)}"
     )
+
+
+def _times(cones: Cones) -> str:
+    """Return what the marks stand for."""
+    if len(cones.times) == 1:
+        return "Dots: the forces."
+    begin, end = (f"t = {time:.3g} s" for time in cones.times[[0, -1]])
+    return f"Rings: {begin}, squares: {end}, dots: where its slip margin is least."
 
 
 def _contacts(subject: Subject) -> Sequence[Contact]:

@@ -80,7 +80,7 @@ def figure_of(what: object, key: str = "what") -> Figure:
 def figure(
     what: str, source: str | Path | Problem | Answer, path: str | Path, *, width_mm: float | None = None,
     height_mm: float | None = None, font: str = "", font_size: float = STANDARD, title: str = "",
-    overrides: Sequence[str] = (),
+    dpi: float | None = None, overrides: Sequence[str] = (),
 ) -> Path:  # fmt: skip
     """Draw a figure for a paper, what ``synergrip figure`` draws, and return the file.
 
@@ -95,10 +95,12 @@ def figure(
         font: a family that is installed, or serif, sans-serif, monospace.
         font_size: of axis labels [points]; other letters are in proportion.
         title: above the figure; none when empty, as papers have their captions.
+        dpi: dots per inch of a .png, 160 when None.
         overrides: texts such as ``limits.margin=0.3 N``, put over the file of a problem.
 
     Raises:
-        InputError: no such figure, source or font; a source without a plan where it takes one; sizes that are none.
+        InputError: no such figure, source or font; a source without a plan where it takes one; sizes that are none;
+            dots per inch of a file that has none, or too many.
         OutputError: it cannot be written.
 
     Example:
@@ -107,7 +109,8 @@ def figure(
     """
     chosen, place = figure_of(what), path_of(path, "path")
     picture_suffix(place, "path")
-    paper = Paper(width_mm, height_mm, font, font_size, title)
+    paper = Paper(width_mm, height_mm, font, font_size, title, dpi)
+    paper.refuse_dpi(place)
     subject = subject_of(source, (overrides,) if isinstance(overrides, str) else overrides)
     if chosen.of_plan:
         subject = subject.answered(_planned)

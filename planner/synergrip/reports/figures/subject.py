@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import json
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from hashlib import sha256
-from os.path import isfile
 from pathlib import Path
 from typing import Any
 
 from synergrip.errors import InputError, kind_of
-from synergrip.files import bundled
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
 from synergrip.planning.answer import Answer
 from synergrip.planning.outcome import Outcome, Plan
 from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
+from synergrip.reports.data.saved_problem import problem_of
 from synergrip.reports.html.saved_answer import read_answer, saved_file
 from synergrip.tasks.timed_task import TimedTask
 
@@ -116,23 +112,5 @@ def _of_problem(problem: Problem) -> Subject:
 
 def _of_provenance(document: Mapping[str, Any]) -> Question:
     """Return what the problem in an answer asks."""
-    told = document.get("provenance") or {}
-    problem, overrides = told.get("problem"), tuple(told.get("overrides") or ())
-    if not isinstance(problem, dict):
-        raise InputError.at(KEY, "this plan was made in code and does not tell its problem; give the problem itself")
-    name, content = problem["name"], problem.get("text") or problem.get("dict") or {}
-    shipped = bundled("problems") / f"{name}.toml"
-    try:
-        if isfile(shipped) and sha256(shipped.read_bytes()).hexdigest() == problem["sha256"]:
-            found = load_problem(name, overrides)
-        else:
-            found = load_problem(_read(content) if isinstance(content, str) else content, overrides)
-    except (InputError, ValueError) as error:  # of a text that is no TOML or JSON, too
-        message = f"the problem '{name}' of this plan cannot be read again ({error}); give the problem file itself"
-        raise InputError.at(KEY, message) from None
+    found = problem_of(document, KEY)
     return Question(found.title, found.grasp, found.timed)
-
-
-def _read(text: str) -> dict[str, Any]:
-    """Return what a problem file says; no TOML begins with a brace, and all JSON of a problem does."""
-    return dict(json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text))

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from shlex import quote
 from typing import Any
 
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.documents.quantities import read_as
+from synergrip.documents.quantities import plain, read_as
 from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.text.text_usages import worst_of
 
 Document = Mapping[str, Any]
+
+ORDER = ("limits", "allowed", "margins", "contacts", "synergies", "model", "physics", "check", "notes")
+"""Anchors of tables, as they follow each other on the page."""
+MOST_CASES = 6
+"""Cases of what is allowed for that are told."""
 
 
 @dataclass(frozen=True)
@@ -25,11 +29,13 @@ class Cell:
     text: str
     number: bool = False
     color: str = ""
+    code: bool = False
+    """Whether it is to be typed as it stands."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table under a title, with sentences before and after it, and charts (SVG) below."""
+    """A table under a title, with sentences before and after it, charts (SVG) below, and smaller tables of its own."""
 
     anchor: str
     title: str
@@ -38,12 +44,18 @@ class Table:
     before: tuple[str, ...] = field(default=())
     after: tuple[str, ...] = field(default=())
     drawn: tuple[str, ...] = field(default=())
+    parts: tuple[Table, ...] = field(default=())
 
 
 def tables_of(document: Document) -> tuple[Table, ...]:
-    """Return limits, contacts, what the synergies control, promise against truth, and the independent check."""
-    return tuple([*_limits(document), *_contacts(document), *_synergies(document), *_truth(document),
-                  *_checks(document), *_notes(document)])  # fmt: skip
+    """Return limits, contacts, promise against truth, and the independent check."""
+    parts = (_limits, _allowed, _contacts, _truth, _checks, _notes)
+    return tuple(table for part in parts for table in part(document))
+
+
+def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:
+    """Return tables as they follow each other on the page."""
+    return tuple(sorted(tables, key=lambda table: ORDER.index(table.anchor)))
 
 
 def _limits(document: Document) -> Iterator[Table]:
@@ -63,6 +75,21 @@ def _limits(document: Document) -> Iterator[Table]:
     if rows:
         head = ("limit", "worst", "where", "when", "bound", "between the knots")
         yield Table("limits", "Limits", head, tuple(rows))
+
+
+def _allowed(document: Document) -> Iterator[Table]:
+    """Yield in which cases of what the task allows for the slip margin is smallest."""
+    told = document.get("allowances")
+    if not told:
+        return
+    every, drawn = sorted(told["cases"], key=lambda each: float(each["worst_N"])), told.get("scenarios")
+    rows = tuple((Cell(each["case"]), _number(f"{plain(each['worst_N'])} N")) for each in every[:MOST_CASES])
+    after = [f"of {len(every)} cases; smallest at {told['contact']}, t = {told['time_s']:.3g} s"]
+    if drawn and "missing" in drawn:
+        after.append(f"{drawn['missing']} of {drawn['count']} fresh scenarios (seed {drawn['seed']}) miss a limit")
+    elif drawn:
+        after.append(f"of {drawn['count']} scenarios (seed {drawn['seed']}) all hold")
+    yield Table("allowed", "What is allowed for", ("case", "smallest slip margin"), rows, after=tuple(after))
 
 
 def _side(told: Mapping[str, Any]) -> str:
@@ -96,33 +123,16 @@ def _contacts(document: Document) -> Iterator[Table]:
     for i, each in enumerate(told):
         k = 0 if margins is None else when_worst(margins[:, i])
         friction = each["parameters"].get("friction")
+        least = () if margins is None else (_number(f"{margins[k, i]:.4g} N"), _number(f"{times[k]:.3g} s"))
+        force = () if forces is None else (_number(f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),)
         rows.append((
             Cell(names[i], color=colors[names[i]]), Cell(each["link"]), Cell(each["kind"]),
             _number("–" if friction is None else f"{friction:.3g}"), _number(read_as(each["pad_radius_m"], "m")),
-            _number(", ".join(f"{round(1e3 * x, 1) + 0.0:.1f}" for x in each["point_m"])),
-            _number("–" if margins is None else f"{margins[k, i]:.4g} N"),
-            _number("–" if margins is None else f"{times[k]:.3g} s"),
-            _number("–" if forces is None else f"{forces[:, i].min():.3g} to {forces[:, i].max():.3g} N"),
+            _number(", ".join(f"{round(1e3 * x, 1) + 0.0:.1f}" for x in each["point_m"])), *least, *force,
         ))  # fmt: skip
-    head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", "least margin",
-            "when", "force")  # fmt: skip
+    known = ("least margin", "when") * (margins is not None) + ("force",) * (forces is not None)
+    head = ("contact", "link", "kind", "friction", "pad radius", "at the start, palm frame [mm]", *known)
     yield Table("contacts", "Contacts", head, tuple(rows))
-
-
-def _synergies(document: Document) -> Iterator[Table]:
-    """Yield what the synergies control (Theorem 1)."""
-    counts = document.get("structure") or {}
-    if counts.get("dim_E_s") is None:
-        return
-    names = (
-        ("dim_E_s", "contact forces that they control (E_s)"),
-        ("dim_Gamma_ucs", "rigid motions of the object that they can produce (Γ_ucs)"),
-        ("dim_Gamma_zr", "what is left over: hand motions without effect on object and forces (Γ_zr)"),
-    )
-    rows = tuple((Cell(text), _number(str(counts[key]))) for key, text in names)
-    total = " + ".join(str(counts[key]) for key, _ in names)
-    after = f"Theorem 1 of the paper: {total} = {counts['n_z']} synergies; the hand has {counts['n_q']} joints."
-    yield Table("synergies", "What the synergies control", ("", "dimensions"), rows, after=(after,))
 
 
 def _truth(document: Document) -> Iterator[Table]:
@@ -156,6 +166,8 @@ def _checks(document: Document) -> Iterator[Table]:
     proof = document.get("certificate") or {}
     after = f"certificate: {proof.get('kind')}, {'verified' if proof.get('verified') else 'not verified'}" + (
         f", by {proof['solver']}" if proof.get("solver") else "")  # fmt: skip
+    if proof.get("kind") == "none":
+        after = "There is no certificate: neither that there is a plan nor that there is none is proven."
     yield Table("check", "Independent check", ("what", "error", "allowed", ""), rows, after=(after,))
 
 
@@ -171,35 +183,3 @@ def _margins(document: Document) -> Any:
 
 def _number(text: str) -> Cell:
     return Cell(text, number=True)
-
-
-def why_of(document: Document) -> dict[str, Any] | None:
-    """Return why there is no plan, and the changes that were tried, as the text tells them; None for a plan."""
-    if document["verdict"] == "feasible":
-        return None
-    when, repairs = document.get("when") or {}, document.get("repairs") or ()
-    told = [f"first at t = {when['first_s']:.3g} s"] if when.get("first_s") is not None else []
-    if document.get("cannot_help"):
-        told.append(f"proven not to help: {_words(', '.join(document['cannot_help']))}")
-    rows = [
-        {"cause": _words(each["cause"]), "was": _of(each["from"], each["unit"]), "to": _of(each["to"], each["unit"]),
-         "again": "a plan" if each["verified"] else "no plan found" if each.get("tried", True) else "not tried",
-         "set": f"--set {quote(each['set'])}" if each["verified"] else ""}
-        for each in repairs
-    ]  # fmt: skip
-    return {"text": (document.get("why") or {}).get("text", ""), "told": told, "repairs": rows}
-
-
-def missing_of(document: Document) -> Sequence[tuple[float, float]]:
-    """Return the stretches of time without a plan [s]."""
-    spans = (document.get("when") or {}).get("intervals_s") or ()
-    return tuple((float(begin), float(end)) for begin, end in spans)
-
-
-def _words(causes: str) -> str:
-    return causes.replace("_", " ")
-
-
-def _of(value: Any, unit: Any) -> str:
-    text = f"{value:.4g}" if isinstance(value, int | float) else "–" if value is None else str(value)
-    return f"{text} {unit or ''}".rstrip()

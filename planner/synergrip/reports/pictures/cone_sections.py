@@ -20,6 +20,8 @@ ACROSS, GAP, SMALLEST, LARGEST = 5, 0.2, 0.95, 2.0
 """Cross-sections in a row at most, the room between them, and how small and large one gets [inch]."""
 CAPTION, NAME, UNDER = 0.4, 8.0, 7.0
 """Room above a cross-section [inch], and sizes of the letters there [points]."""
+KEY_HIGH, KEY_APART = 0.2, 0.32
+"""Height of the line below them that says what stands for which time, and room beside each of its texts [inch]."""
 OUTSIDE = 1.2
 """How far outside its cone a force is drawn at most."""
 
@@ -38,7 +40,7 @@ class Cones:
 def cone_strip(cones: Cones) -> Strip:
     """Return the friction that each contact uses, in which direction, as a share of what it has."""
     width = WIDTH - 2 * MARGIN
-    title = "Force of each contact inside its friction cone (on the circle it slips); dot: where the margin is least"
+    title = "Force of each contact inside its friction cone; on the circle it slips"
     return Strip(
         title, 0.1 + cones_height(cones, width), lambda sheet, top: draw_cones(sheet, cones, MARGIN, top + 0.1, width)
     )
@@ -47,7 +49,7 @@ def cone_strip(cones: Cones) -> Strip:
 def cones_height(cones: Cones, width: float) -> float:
     """Return the height of the cross-sections in a width [inch]."""
     across, side = _grid(cones, width)
-    return math.ceil(len(cones.contacts) / across) * (side + CAPTION + GAP)
+    return math.ceil(len(cones.contacts) / across) * (side + CAPTION + GAP) + KEY_HIGH
 
 
 def draw_cones(sheet: Sheet, cones: Cones, left: float, top: float, width: float) -> None:
@@ -63,6 +65,35 @@ def draw_cones(sheet: Sheet, cones: Cones, left: float, top: float, width: float
         sheet.write(begin, above + 0.3, told[index], size, GREY)
         panel = sheet.panel(begin, above + CAPTION - 0.05, side, side, np.zeros(2), 2.5)
         _section(panel, contact, forces, when_worst(cones.margins[:, index]), colors[contact.name])
+    _key(sheet, cones, left, top + cones_height(cones, width) - KEY_HIGH - GAP / 2, width)
+
+
+def _key(sheet: Sheet, cones: Cones, left: float, top: float, width: float) -> None:
+    """Say below the cross-sections what stands for which time."""
+    marks = _marks(cones.times)
+    panel = sheet.panel(left, top, width, KEY_HIGH, np.array([width, KEY_HIGH]) / 2, width)
+    size = min(UNDER, (width - len(marks) * KEY_APART) * LETTERS / sum(len(told) for _, told in marks))
+    at = 0.0
+    for mark, told in marks:
+        _mark(panel, np.array([at + 0.06, KEY_HIGH / 2]), mark, GREY, 1.0)
+        sheet.write(left + at + 0.15, top + KEY_HIGH / 2 + 0.035, told, size, GREY)
+        at += KEY_APART + len(told) * size / LETTERS
+
+
+def _marks(times: Array) -> list[tuple[str, str]]:
+    """Return the marks of a way through a cone, and what each stands for."""
+    if len(times) == 1:
+        return [("dot", "the force")]
+    ends = (f"{name}, {time:.3g} s" for name, time in zip(("start", "end"), times[[0, -1]], strict=True))
+    return [*zip(("ring", "square"), ends, strict=True), ("dot", "least slip margin")]
+
+
+def _mark(panel: Panel, place: Array, mark: str, color: str, near: float) -> None:
+    """Draw a mark at a place (2,): one inside the other where they are at the same place."""
+    if mark == "dot":
+        panel.dots(place[None], color, 4.5, near)
+    else:
+        panel.outlined(place, color, 7.0, near, square=mark == "square")
 
 
 def _told(cones: Cones, index: int) -> str:
@@ -118,7 +149,10 @@ def _section(panel: Panel, contact: Contact, forces: Array, worst: int, color: s
     if used is None:
         panel.note(np.array([0.0, -0.5]), "no friction")
         return
-    panel.strokes([used], color, 1.6, near=4)
-    panel.dots(used[worst][None], color, 7.0, near=5, edge=0.8)
+    panel.strokes([used], color, 0.9, near=4)
+    if len(used) > 1:
+        _mark(panel, used[-1], "square", color, near=5)
+        _mark(panel, used[0], "ring", color, near=6)
+    _mark(panel, used[worst], "dot", color, near=7)
     panel.note(np.array([1.17, -0.13]), "t")
     panel.note(np.array([-0.13, 1.17]), "o")

@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.linalg import Array
 from synergrip.margin.disturbance.withstood_in_planes import withstood_in_planes
 from synergrip.margin.found import Margins
-from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, Sensitivities, Sensitivity
+from synergrip.margin.sensitivity.sensitivity import KINDS, LARGEST, Sensitivity
 from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.planning.outcome import Plan
 from synergrip.reports.pictures.cone_sections import Cones, cone_strip
@@ -21,15 +21,15 @@ from synergrip.reports.pictures.line_chart import HEAD, Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines
 from synergrip.reports.pictures.sheet import FAINT, GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.strips import LEFT, WIDTH, Strip, plain, write_strips
-from synergrip.reports.text.text_sensitivities import change_of
+from synergrip.reports.pictures.worth import BAR, draw_worth, worth_bars
 
 HIGH, ABOVE, BELOW = 2.2, 0.3, 0.5
 """Height of a chart, and the room above and below it for its labels [inch]."""
 PLANES = ((0, 1), (0, 2), (1, 2))
 SIDE, APART = 2.4, 0.45
 """Of a plane of directions, and between two of them [inch]."""
-BARS, BAR, NAMES = 6, 0.21, 4.1
-"""How many sensitivities are drawn, the height of each, and the room for their names [inch]."""
+NAMES = 4.1
+"""Room for the names of changes [inch]."""
 
 
 def draw_margins(found: Margins, title: str, path: Path) -> None:
@@ -55,8 +55,9 @@ def _strips(found: Margins) -> Iterator[Strip]:
     yield _cones(found)
     if found.disturbance is not None:
         yield _withstood(found.plan, found.disturbance.of)
-    if found.sensitivities is not None and (bars := _bars(found.sensitivities)):
-        yield _worth(bars)
+    if found.sensitivities is not None:
+        bars = [each for kind in KINDS for each in worth_bars(found.sensitivities, kind)]
+        yield from [_worth(bars)] if bars else []
     if found.timing is not None and found.timing.path is not None:
         yield _timing(found.timing)
 
@@ -124,26 +125,13 @@ def _directions(panel: Panel, forces: Array, names: list[str], half: float) -> N
     panel.note(np.array([0.0, reach * 1.1]), names[1])
 
 
-def _bars(found: Sensitivities) -> list[Sensitivity]:
-    """Return the changes worth most, of both margins."""
-    return [
-        each for kind in (LARGEST, FIXED) if found.margins[kind] is not None for each in found.worth_most(kind, BARS)
-    ]
-
-
 def _worth(bars: list[Sensitivity]) -> Strip:
     """Return what changes add to the largest margin, and to the worst one under these references."""
     high = BAR * len(bars)
 
     def draw(sheet: Sheet, top: float) -> None:
-        axes = sheet.chart(NAMES, top + 0.1, WIDTH - NAMES - MARGIN, high)
         colors = [INK if each.kind == LARGEST else GREY for each in bars]
-        places = np.arange(len(bars))[::-1]
-        axes.barh(places, [each.gain for each in bars], color=colors, height=0.7)
-        axes.set_yticks(places, [change_of(each) for each in bars])
-        axes.set_ylim(-0.6, len(bars) - 0.4)
-        plain(axes, "adds to the slip margin [N]", "")
-        axes.tick_params(axis="y", length=0)
+        draw_worth(sheet, Box(NAMES, top + 0.1, WIDTH - NAMES - MARGIN, high), bars, colors)
 
     title = (
         "What changes add, each by 1 % of a number, 1 mm of a contact or 1 deg of its normal: dark to the largest "

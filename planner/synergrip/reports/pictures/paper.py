@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from synergrip.documents.judging import Arguments, described
 from synergrip.errors import InputError
-from synergrip.reports.pictures.sheet import Letters
+from synergrip.reports.pictures.sheet import DOTS_PER_INCH, Letters, picture_suffix
 
 INCH, STANDARD = 25.4, 8.0
 """Millimetres of an inch, and the size of the letters for which pictures are laid out [points]."""
-NARROWEST, WIDEST, SMALLEST, LARGEST = 20.0, 2000.0, 3.0, 72.0
-"""Of widths and heights [mm], and of letters [points]."""
+NARROWEST, WIDEST, SMALLEST, LARGEST, COARSEST, FINEST = 20.0, 2000.0, 3.0, 72.0, 30.0, 2400.0
+"""Of widths and heights [mm], of letters [points], and of dots per inch."""
 
 
 @dataclass(frozen=True)
@@ -29,13 +30,15 @@ class Paper:
     font_size: float = STANDARD
     """Of axis labels [points]; other letters are in proportion."""
     title: str = ""
+    dpi: float | None = None
+    """Dots per inch of a PNG; those that are usual when None."""
 
     def __post_init__(self) -> None:
         """Judge the sizes."""
         judge = Arguments("")
         for name, least, most, unit in (
             ("width_mm", NARROWEST, WIDEST, "mm"), ("height_mm", NARROWEST, WIDEST, "mm"),
-            ("font_size", SMALLEST, LARGEST, "points"),
+            ("font_size", SMALLEST, LARGEST, "points"), ("dpi", COARSEST, FINEST, "dots per inch"),
         ):  # fmt: skip
             if (given := getattr(self, name)) is not None or name == "font_size":
                 value = judge.number(name, given, at_least=least, unit=unit)
@@ -48,8 +51,8 @@ class Paper:
 
     @property
     def letters(self) -> Letters:
-        """Font and scale."""
-        return Letters(self.font, self.font_size / STANDARD)
+        """Font, scale and dots."""
+        return Letters(self.font, self.font_size / STANDARD, self.dpi or DOTS_PER_INCH)
 
     def wide(self, usual_mm: float) -> float:
         """Return the width of the layout [inch]: what is asked for, or what is usual."""
@@ -69,6 +72,15 @@ class Paper:
             message = f"{self.height_mm:g} mm leave no room for the drawing; give {needed:.0f} mm or more"
             raise InputError.at("height_mm", f"{message}, or smaller letters")
         return high
+
+    def refuse_dpi(self, path: Path) -> None:
+        """Refuse dots per inch where a picture is drawn in lines.
+
+        Raises:
+            InputError: some were given, for a file that is no PNG.
+        """
+        if self.dpi is not None and picture_suffix(path) != ".png":
+            raise InputError.at("dpi", f"'{path}' has lines, no dots: leave it away, or write a .png")
 
     def refuse_height(self, what: str) -> None:
         """Refuse a height where it follows from the width.

@@ -14,6 +14,7 @@ from synergrip.reports.pictures.bearings import HIGH, draw_bearings, draw_scale
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.free_places import free_places
 from synergrip.reports.pictures.layout import Columns
+from synergrip.reports.pictures.name_columns import Name, columns_height, columns_width, draw_names
 from synergrip.reports.pictures.page import Page
 from synergrip.reports.pictures.scene import draw_solid
 from synergrip.reports.pictures.sheet import GREY, INK, Panel, Sheet
@@ -23,12 +24,12 @@ from synergrip.reports.view.scene import Frame, Scene
 
 WIDE, FLATTEST, TALLEST = 4.3, 0.5, 1.1
 """Width of a panel [inch], and its height at least and at most, of the width."""
-MOST = 24
-"""Pads that are named below the picture."""
+MOST, NAMED = 24, 72
+"""Pads that are named below the picture, and pads and links that are beside it."""
 
 
 def draw_posture(scene: Scene, frame: Frame, title: str, path: Path) -> None:
-    """Draw a hand from two sides: bones, pads with numbers, the object, and gravity.
+    """Draw a hand from two sides: bones, pads with numbers, the object, and gravity; without contacts with all names.
 
     Args:
         scene: names, shape and radii.
@@ -67,6 +68,14 @@ class _Picture:
         axes = (first.right, first.up, first.toward)
         return first, View(*(frozen(np.cross(up, axis) + up * (up @ axis)) for axis in axes))
 
+    @property
+    def _names(self) -> list[Name]:
+        """What stands beside the hand: pads with their numbers, then links; nothing where there are contacts."""
+        if self.scene.contacts:
+            return []
+        pads = [Name(f"{k} {name}", INK, bold=True) for k, name in enumerate(self.scene.pad_names, start=1)]
+        return [*pads, *(Name(name, GREY) for name in self.scene.link_names)][:NAMED]
+
     def write(self, path: Path) -> None:
         """Lay the panels out, draw them and write the file."""
         views = self.views()
@@ -75,12 +84,18 @@ class _Picture:
         size = np.max(np.array(high) - np.array(low), axis=0) + 0.7 * self.scene.size
         span = float(max(size[0], size[1] / TALLEST))
         tall = WIDE * float(np.clip(size[1] / span, FLATTEST, TALLEST))
+        tall = max(tall, columns_height(self._names))
         notes = tuple(chain(self._named(), self._legend()))
-        page = Page(self.title, self.frame.caption, _TwoPanels(2), tall + HIGH, notes)
+        beside = columns_width(self._names)
+        page = Page(self.title, self.frame.caption, _TwoPanels(2, beside=beside), tall + HIGH, notes)
 
         def draw(sheet: Sheet, index: int, left: float, top: float) -> None:
-            middle = (low[index] + high[index]) / 2
-            self._draw(sheet.panel(left, top, WIDE, tall, middle, span), views[index], 0.06 * span)
+            middle, inch, wide = (low[index] + high[index]) / 2, span / WIDE, WIDE + 2 * beside * (index == 0)
+            panel = sheet.panel(left, top, wide, tall, middle, wide * inch)
+            self._draw(panel, views[index], 0.06 * span)
+            if index == 0:
+                places = views[0].flat(np.vstack([self.frame.pads, self.frame.links])[: len(self._names)])
+                draw_names(panel, self._names, places, middle, np.array([wide, tall]) * inch / 2, inch)
             gravity = -self.frame.up if self.scene.gravity else None
             wide = draw_bearings(sheet, views[index], left, top + tall, gravity)
             draw_scale(sheet, left + wide + 0.15, top + tall + HIGH / 2 + 0.12, span / WIDE, 0.9)
@@ -100,6 +115,8 @@ class _Picture:
         lines = [view.flat(bone) for bone in frame.bones]
         for bone, line in zip(frame.bones, lines, strict=True):
             panel.strokes([line], INK, 3.0, 5.0 + float(view.depth(bone).mean()))
+        if not scene.contacts:
+            panel.dots(view.flat(frame.links), INK, 4.0, 8.9, edge=0.8)
         panel.dots(view.flat(frame.pads), GREY, 4.0, 9.0, edge=0.6)
         if not scene.contacts:
             self._numbers(panel, view.flat(frame.pads), lines, [GREY] * len(frame.pads), off)
@@ -136,20 +153,25 @@ class _Picture:
     def _legend(self) -> Iterator[str]:
         held = f"The object is at ({_numbers(self.frame.position)}) mm. " if self._holds else ""
         contacts = "Lines at contacts: normals into the object; dashed: to their pads. " if self.scene.contacts else ""
-        yield f"{held}{contacts}x, y, z: axes of the palm. From two sides, a quarter turn apart."
+        pads = "Black: pads by number and name; grey: " if self.scene.pad_names else "Names: "
+        names = "" if self.scene.contacts else f"{pads}links, at their origins. "
+        yield f"{held}{contacts}{names}x, y, z: axes of the palm. From two sides, a quarter turn apart."
 
 
+@dataclass(frozen=True)
 class _TwoPanels(Columns):
-    """Panels that are wider than those of other pictures."""
+    """Panels that are wider than those of other pictures, with room for names on both sides of the first."""
+
+    beside: float = 0.0
 
     @property
     def width(self) -> float:
         """Of the sheet [inch]."""
-        return 2 * WIDE + 1.0
+        return 2 * WIDE + 1.0 + 2 * self.beside
 
     def place(self, index: int) -> tuple[int, float]:
         """Return the block of a column and how far from the left it starts [inch]."""
-        return 0, 0.4 + index * (WIDE + 0.2)
+        return 0, 0.4 + index * (WIDE + 0.2 + 2 * self.beside)
 
 
 def _numbers(place: Sequence[float] | Array) -> str:

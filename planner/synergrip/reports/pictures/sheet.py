@@ -6,6 +6,7 @@ The same values give the same bytes: no date, no random names, no settings of th
 from __future__ import annotations
 
 import io
+import re
 import unicodedata
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -28,7 +29,10 @@ SETTINGS = {"svg.hashsalt": "synergrip", "svg.fonttype": "none", "pdf.fonttype":
 NO_DATE: dict[str, dict[str, Any]] = {
     ".svg": {"Date": None, "Creator": None}, ".png": {"Software": None}, ".pdf": {"CreationDate": None}
 }  # fmt: skip
-DOTS_PER_INCH = 160
+DOTS_PER_INCH, MOST_DOTS = 160.0, 1e8
+"""Of a PNG where nothing else is asked for; and the most that it may have in all."""
+_PATH, _FINER = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+"""The way of a line, and the digits of its places [points] beyond those that are seen."""
 LEAST = {"mm": 0.01, "deg": 0.01, "N": 1e-3, "% of limit": 0.1, "% of its range": 0.1}
 """What is less than this from top to bottom is no motion, force or share that anybody means."""
 
@@ -49,6 +53,8 @@ class Letters:
     """A family that is installed; that of matplotlib when empty."""
     scale: float = 1.0
     """Of all letters, strokes and lengths: a sheet of 4 inches is one of 4 times this on paper."""
+    dpi: float = DOTS_PER_INCH
+    """Dots per inch of a PNG."""
 
 
 USUAL = Letters()
@@ -84,6 +90,11 @@ class Panel:
         """Draw points (n, 2) as discs of a diameter in points, with a white edge."""
         self.axes.plot(*points.T, ls="none", marker="o", ms=self.scale * size, mfc=color, mec="white",
                        mew=self.scale * edge, zorder=near)  # fmt: skip
+
+    def outlined(self, point: Array, color: str, size: float, near: float = 1.0, square: bool = False) -> None:
+        """Draw a ring, or a square, around a point (2,), white inside; the size is in points."""
+        self.axes.plot(*point, ls="none", marker="s" if square else "o", ms=self.scale * size, mfc="white", mec=color,
+                       mew=1.1 * self.scale, zorder=near)  # fmt: skip
 
     def cross(self, point: Array, color: str, near: float = 1.0) -> None:
         """Mark a point (2,)."""
@@ -177,12 +188,22 @@ def write_picture(
         letters: in which it is written.
 
     Raises:
-        InputError: a suffix that says no format, or a font that is not installed.
+        InputError: a suffix that says no format, a font that is not installed, or a PNG of more dots than `MOST_DOTS`.
         OSError: the file cannot be written.
     """
     suffix = picture_suffix(path)
+    if suffix == ".png":
+        _refuse_too_many(width * letters.scale * letters.dpi, height * letters.scale * letters.dpi)
     with _drawn(width, height, draw, letters) as figure, atomic_path(path) as temporary:
-        figure.savefig(temporary, format=suffix[1:], dpi=DOTS_PER_INCH, metadata=NO_DATE[suffix])
+        figure.savefig(temporary, format=suffix[1:], dpi=letters.dpi, metadata=NO_DATE[suffix])
+
+
+def _refuse_too_many(across: float, down: float) -> None:
+    if across * down > MOST_DOTS:
+        message = (
+            f"a picture of {across:.0f} x {down:.0f} dots has more than {MOST_DOTS:.0g}; give fewer, or a smaller size"
+        )
+        raise InputError.at("dpi", message)
 
 
 def svg_text(width: float, height: float, draw: Callable[[Sheet], None], letters: Letters = USUAL) -> str:
@@ -191,7 +212,7 @@ def svg_text(width: float, height: float, draw: Callable[[Sheet], None], letters
     with _drawn(width, height, draw, letters) as figure:
         figure.savefig(stream, format="svg", metadata=NO_DATE[".svg"])
     text = stream.getvalue()
-    return text[text.index("<svg") :]
+    return _PATH.sub(lambda found: _FINER.sub(r"\1", found[0]), text[text.index("<svg") :])
 
 
 @contextmanager

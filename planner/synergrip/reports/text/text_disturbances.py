@@ -11,7 +11,7 @@ from synergrip.margin.disturbance.disturbances import AXES, Disturbances, Withst
 from synergrip.margin.disturbance.executed_wrench import ExecutedWrench
 from synergrip.margin.disturbance.withstood import Withstood
 from synergrip.margin.wrench_space.quality import WrenchSpaceQuality
-from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.part import Part
 
 NAMES = ("force along x", "force along y", "force along z", "moment about x", "moment about y", "moment about z")
 SAME = 5e-5
@@ -22,9 +22,8 @@ NONE_LEFT = 1e-5
 """[N] or [N m] below which nothing is left."""
 
 
-def disturbance_lines(found: Disturbances) -> Iterator[str]:
-    """Yield what is withstood: in any direction, along and about the axes or what was asked for, in a box."""
-    yield f"What it withstands beside its load, of the linear model {_about(found)}"
+def disturbance_part(found: Disturbances) -> Part:
+    """Return what is withstood: in any direction, along and about the axes or what was asked for, in a box."""
     rows = [("any direction", *_cells("N", found.slip, found.passive, found.active))]
     every = np.array([each.wrench for each in found.along])
     if np.array_equal(every, AXES):
@@ -37,28 +36,29 @@ def disturbance_lines(found: Disturbances) -> Iterator[str]:
     if found.box is not None:
         box = found.box
         rows.append((f"box of {_written(box.wrench)}", *_cells("times", box.slip, box.passive, box.active)))
+    title = f"What it withstands beside its load, of the linear model {_about(found)}"
     head = ("", "until it slips", "within all limits", "forces answering", "these end at")
-    yield table(head, rows)
+    return Part(title, head, tuple(rows), tuple(_said(found)))
+
+
+def _said(found: Disturbances) -> Iterator[str]:
     norm = f"force and moment about the middle of the contacts / {in_mm(found.length, 4)}"
-    told = (
+    yield (
         f"any direction: a ball of extra wrenches, {norm}; axes are those of the palm through the origin of the "
         "object, the lesser of both ways is told. References stay as they are in the first two columns; in the third "
         "internal forces are planned again for each wrench"
     )
-    yield from wrapped("         ", told)
     if not found.passive.lower > NONE_LEFT and found.passive.limit:
-        used = f"within all limits nothing is left: the plan uses all of {found.passive.limit}"
-        yield from wrapped("         ", used)
+        yield f"within all limits nothing is left: the plan uses all of {found.passive.limit}"
     if found.left_out:
-        said = f"left out, for they say nothing of an instant: {', '.join(found.left_out)}"
-        yield from wrapped("         ", said)
+        yield f"left out, for they say nothing of an instant: {', '.join(found.left_out)}"
     if found.executed is not None:
-        yield from wrapped("         ", _executed(found.executed))
+        yield _executed(found.executed)
 
 
-def quality_lines(found: WrenchSpaceQuality) -> Iterator[str]:
-    """Yield the classical figures, those of the synergies beside those of any forces."""
-    yield "Classical figures, free of units: normal forces of 1 together (L1), moments divided by the same length"
+def quality_part(found: WrenchSpaceQuality) -> Part:
+    """Return the classical figures, those of the synergies beside those of any forces."""
+    title = "Classical figures, free of units: normal forces of 1 together (L1), moments divided by the same length"
     rows = (
         ("epsilon quality", _pair(found.epsilon), _pair(found.epsilon_synergies)),
         *_of_each(found),
@@ -70,9 +70,8 @@ def quality_lines(found: WrenchSpaceQuality) -> Iterator[str]:
         ),
         ("isotropy", f"{found.isotropy:.4g}", f"{found.isotropy_synergies:.4g}"),
     )
-    yield table(("", "any contact forces", "those that synergies and loads make"), rows)
-    if found.why:
-        yield from wrapped("         ", found.why)
+    head = ("", "any contact forces", "those that synergies and loads make")
+    return Part(title, head, rows, (found.why,) if found.why else ())
 
 
 def _of_each(found: WrenchSpaceQuality) -> Iterator[tuple[str, str, str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +10,14 @@ import numpy as np
 from synergrip.documents.quantities import SHOWN_IN, plain
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.found import Margins
-from synergrip.margin.measures import Measure
+from synergrip.margin.measures import Measure, Worst
 from synergrip.planning.told import notes_together
 from synergrip.problems.problem import Problem
+from synergrip.reports.text.part import Part, part_lines
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_cases import case_table, guaranteed_margin
-from synergrip.reports.text.text_disturbances import disturbance_lines, quality_lines
-from synergrip.reports.text.text_on_request import attained_cells, several_lines
+from synergrip.reports.text.text_disturbances import disturbance_part, quality_part
+from synergrip.reports.text.text_on_request import attained_cells, several_part
 from synergrip.reports.text.text_plan import verdict_word
 from synergrip.reports.text.text_problem import problem_lines
 from synergrip.reports.text.text_sensitivities import sensitivity_lines
@@ -48,14 +49,16 @@ def margins_text(
         written: the file with the path of the palm in its fastest timing.
     """
     plan = found.plan
-    slip = found.measures["slip margin"].worst
+    slip = found.measures["slip margin"]
+    least = slip.worst
     who = "the linear model of the start posture" if plan.executed is None else "the hand that moves"
     head = [
         *problem_lines(problem), "",
-        f"{verdict_word(plan.verdict, color)}  smallest slip margin {_value(found.measures['slip margin'])} "
-        f"({slip.name}, t = {slip.time_s:.2f} s){guaranteed_margin(plan)}",
+        f"{verdict_word(plan.verdict, color)}  smallest slip margin {told_value(slip, least.value)} "
+        f"({least.name}, t = {least.time_s:.2f} s){guaranteed_margin(plan)}",
     ]  # fmt: skip
-    parts = [head, [f"How sure it is: the worst of all knots, of {who}", _measures(found)], *_parts(found, whole=whole)]
+    linear = None if found.linear is None else {name: each.worst for name, each in found.linear.items()}
+    parts = [head, [*part_lines(measures_part(found.measures, linear, who))], *_parts(found, whole=whole)]
     if found.timing is not None:
         parts.append([*timing_lines(problem, found.timing, written)])
     lines = [line for part in parts for line in (*part, "")][:-1]
@@ -69,25 +72,33 @@ def _parts(found: Margins, *, whole: bool) -> Iterator[list[str]]:
     if found.plan.cases:
         yield [*_cases(found)]
     if found.direct:
-        yield [*_numbers(found)]
+        yield [*part_lines(numbers_part(found.direct))]
     for name, several in found.on_request.items():
-        yield [*several_lines(name, several)]
+        yield [*part_lines(several_part(name, several))]
     if found.disturbance is not None:
-        yield [*disturbance_lines(found.disturbance)]
+        yield [*part_lines(disturbance_part(found.disturbance))]
     if found.quality is not None:
-        yield [*quality_lines(found.quality)]
+        yield [*part_lines(quality_part(found.quality))]
     if found.sensitivities is not None:
         yield [*sensitivity_lines(found.sensitivities, found.plan.grasp, whole=whole)]
 
 
-def _measures(found: Margins) -> str:
+def measures_part(measures: Mapping[str, Measure], linear: Mapping[str, Worst] | None, who: str) -> Part:
+    """Return where each measure is worst.
+
+    Args:
+        measures: by name.
+        linear: where they are worst in the linear model of the start posture, where that is another.
+        who: has the measures, in words.
+    """
     rows = []
-    for name, each in found.measures.items():
+    for name, each in measures.items():
         worst = each.worst
-        linear = () if found.linear is None else (_value(found.linear[name]),)
-        rows.append((name, _value(each), f"{worst.name}, t = {worst.time_s:.2f} s", *linear, each.formula))
-    linear = () if found.linear is None else ("linear model",)
-    return table(("", "worst", "at", *linear, "formula"), rows)
+        beside = () if linear is None else (told_value(each, linear[name].value),)
+        where = f"{worst.name}, t = {worst.time_s:.2f} s"
+        rows.append((name, told_value(each, worst.value), where, *beside, each.formula))
+    head = ("", "worst", "at", *(() if linear is None else ("linear model",)), "formula")
+    return Part(f"How sure it is: the worst of all knots, of {who}", head, tuple(rows))
 
 
 def _cases(found: Margins) -> Iterator[str]:
@@ -97,25 +108,23 @@ def _cases(found: Margins) -> Iterator[str]:
     yield table(("slip margin", "at", "case"), case_table(cases))
 
 
-def _value(measure: Measure) -> str:
-    value = measure.worst.value
+def told_value(measure: Measure, value: float) -> str:
+    """Return a value of a measure as people read it."""
     if np.isfinite(value):
         return f"{plain(value if abs(value) > ROUNDING else 0.0)} {measure.unit}".strip()
     return "none would do" if measure.most_is_worst else "no friction is needed"
 
 
-def _numbers(found: Margins) -> Iterator[str]:
-    """Yield the numbers that there are, and why there are no others."""
-    there = [each for each in found.direct.values() if each.value is not None]
-    if there:
-        yield "How far it may go, each of these by itself"
-        yield table(("", "attained", "end", "with"), [_row(each) for each in there])
-        for why in dict.fromkeys(each.why for each in there):
-            names = ", ".join(ASKS[each.name][0] for each in there if each.why == why)
-            yield from wrapped("         ", f"{names}: {why}")
-    for each in found.direct.values():
-        if each.value is None:
-            yield from wrapped("         ", f"{ASKS[each.name][0]}: {each.why}")
+def numbers_part(numbers: Mapping[str, DirectNumber]) -> Part:
+    """Return the numbers that there are, where their other ends come from, and why there are no others."""
+    there = [each for each in numbers.values() if each.value is not None]
+    below = [
+        f"{', '.join(ASKS[each.name][0] for each in there if each.why == why)}: {why}"
+        for why in dict.fromkeys(each.why for each in there)
+    ]
+    below += [f"{ASKS[each.name][0]}: {each.why}" for each in numbers.values() if each.value is None]
+    title = "How far it may go, each of these by itself" if there else ""
+    return Part(title, ("", "attained", "end", "with"), tuple(map(_row, there)), tuple(below))
 
 
 def _row(number: DirectNumber) -> tuple[str, ...]:

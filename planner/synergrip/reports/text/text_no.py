@@ -9,11 +9,9 @@ from synergrip.documents.quantities import plain
 from synergrip.explain.explanation import Explanation
 from synergrip.explain.repairs import Repair
 from synergrip.explain.synergies.missing_synergies import MissingSynergies
-from synergrip.explain.words import INTERRUPTED, changed, nearer, values
+from synergrip.explain.words import INTERRUPTED, changed, nearer, undone_share, values
 from synergrip.linalg import Array
-from synergrip.planning.outcome import Plan
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.tasks.tracking import undone, wish_size
 
 FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 """How far a number was turned of which no value helps, where it is not as far as it goes."""
@@ -40,15 +38,15 @@ def no_lines(found: Explanation, times: Array, place: Callable[[str], str], comm
 
 def more_lines(found: Explanation, times: Array, place: Callable[[str], str], command: str = "") -> Iterator[str]:
     """Yield what is known beyond the reason; arguments as of `no_lines`."""
-    if where := _when(found, times):
+    late = found.when
+    if where := when_words(late.first_s, late.intervals_s, late.alone, times, moves=found.moves):
         yield from wrapped("Where    ", where)
     if found.conflicts:
         yield from ("", "What clashes")
         rows = []
         for each in found.conflicts:
             more = f" and {len(each.items) - BEST} more" if len(each.items) > BEST else ""
-            share = f"{each.share:.0%}" if each.share >= 0.01 else "< 1%"
-            rows.append((each.key, share, ", ".join(each.items[:BEST]) + more, place(each.key)))
+            rows.append((each.key, share_words(each.share), ", ".join(each.items[:BEST]) + more, place(each.key)))
         yield table(("limit", "share of the proof", "at", "stated"), rows, right=(1,))
     yield from _repairs(found, command)
     if found.interrupted:
@@ -76,19 +74,26 @@ def _repairs(found: Explanation, command: str) -> Iterator[str]:
         pair = "" if found.posed is None else ", nor any pair"
         yield from wrapped("Help     ", f"no single change gives a plan of those that were tried{pair}")
     if found.clashing is not None:
-        yield from wrapped("Clash    ", _clash(found.clashing))
+        yield from wrapped("Clash    ", clash_words(found.clashing))
     if found.cannot_help:
-        words = ", ".join(cause.replace("_", " ") + FAR.get(cause, "") for cause in found.cannot_help)
-        yield from _no_help(words, moves=found.moves)
+        head, words = no_help_words(found.cannot_help, moves=found.moves)
+        if found.moves:
+            yield from ("", head, *wrapped("", words))
+        else:
+            yield from wrapped("No help  ", f"{head.removeprefix('No help ')}: {words}")
 
 
-def _no_help(words: str, *, moves: bool) -> Iterator[str]:
-    """Yield of which numbers no value helps, with the model that this is proven of."""
+def no_help_words(causes: Sequence[str], *, moves: bool) -> tuple[str, str]:
+    """Return in which model it is proven that no value of some numbers helps, and which numbers these are."""
+    words = ", ".join(cause.replace("_", " ") + FAR.get(cause, "") for cause in causes)
     if moves:
-        head = f"No help {AT_START}, whatever the value (proven; not of the hand that moves)"
-        yield from ("", head, *wrapped("", words))
-    else:
-        yield from wrapped("No help  ", f"proven of {AT_START.removeprefix('in ')}, whatever the value: {words}")
+        return f"No help {AT_START}, whatever the value (proven; not of the hand that moves)", words
+    return f"No help proven of {AT_START.removeprefix('in ')}, whatever the value", words
+
+
+def share_words(share: float) -> str:
+    """Return a share of a proof."""
+    return f"{share:.0%}" if share >= 0.01 else "< 1%"
 
 
 def _helping(found: Explanation, *, command: str) -> Iterator[str]:
@@ -130,18 +135,15 @@ def _changes(rows: Sequence[tuple[Repair, ...]]) -> str:
         for row in rows
         for k, each in enumerate(row)
     ]
-    planned = [(_again(each),) for row in rows for each in row]
+    planned = [(again_words(each, undone_share(each)),) for row in rows for each in row]
     whole = [(*cell[:3], *said, cell[3]) for cell, said in zip(cells, planned, strict=True)]
     return table(("change", "from", "to", "planned again", "with"), whole)
 
 
-def _again(repair: Repair) -> str:
-    """Return what planning with a change came to."""
-    if not isinstance(repair.outcome, Plan):
+def again_words(repair: Repair, share: float) -> str:
+    """Return what planning with a change came to; `share` of the motion is left undone then."""
+    if not repair.verified:
         return "no plan found" if repair.tried else "not tried"
-    plan = repair.outcome
-    left = undone(plan.analysis, plan.task) if repair.cause == "tolerance" else 0.0
-    share = left / wish_size(plan.analysis, plan.task) if left else 0.0
     return f"{share:.0%} of the motion undone" if share >= LITTLE else "a plan"
 
 
@@ -159,7 +161,7 @@ def _missing(missing: MissingSynergies) -> Iterator[str]:
         yield table(("columns", "of", "with them", "with"), rows)
 
 
-def _clash(keys: Sequence[str]) -> str:
+def clash_words(keys: Sequence[str]) -> str:
     """Return which limits cannot hold together."""
     if not keys:
         return "load, motion and friction leave no plan by themselves, whatever the limits"
@@ -168,15 +170,25 @@ def _clash(keys: Sequence[str]) -> str:
     return f"{', '.join(keys[:-1])} and {keys[-1]} cannot hold together; none of them can be left out of the proof"
 
 
-def _when(found: Explanation, times: Array) -> str:
-    """Return which instants have no plan; on a hand that moves, in which model."""
-    late, model = found.when, f"{AT_START} " if found.moves else ""
-    if late.first_s is None or len(times) < 2:
+def when_words(
+    first: float | None, intervals: Sequence[Sequence[float]], alone: bool | None, times: Array, *, moves: bool
+) -> str:
+    """Return which instants have no plan; on a hand that moves, in which model.
+
+    Args:
+        first: the first of them [s], where it is known.
+        intervals: from and to [s], of those without a plan even by themselves.
+        alone: whether there are such.
+        times: (T,) knots [s] of the task.
+        moves: whether it is a hand that moves.
+    """
+    model = f"{AT_START} " if moves else ""
+    if first is None or len(times) < 2:
         return ""
-    if late.alone is False:
-        together = f"together they have none up to t = {plain(late.first_s)} s"
+    if alone is False:
+        together = f"together they have none up to t = {plain(first)} s"
         return f"{model}every instant has a plan by itself; for the steps between them, {together}"
-    ends = [_stretch(start, end, times) for start, end in late.intervals_s]
+    ends = [_stretch(start, end, times) for start, end in intervals]
     return f"{', '.join(ends)}: {model}none of these instants has a plan even by itself"
 
 

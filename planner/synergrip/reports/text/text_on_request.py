@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from shlex import quote
 
 import numpy as np
 
 from synergrip.documents.quantities import in_mm, plain
 from synergrip.margin.direct_number import DirectNumber
-from synergrip.reports.text.tables import table, wrapped
+from synergrip.reports.text.part import Part
 
 TITLES = {
     "critical_friction_per_contact": "How slippery each contact may be, the others as they are",
@@ -18,16 +18,17 @@ TITLES = {
 """Name -> what stands above its table."""
 
 
-def several_lines(name: str, numbers: Mapping[str, DirectNumber]) -> Iterator[str]:
-    """Yield the table of some numbers, where their other ends come from, and why there are no others."""
+def several_part(name: str, numbers: Mapping[str, DirectNumber]) -> Part:
+    """Return the table of some numbers, where their other ends come from, and why there are no others."""
     there = {of: each for of, each in numbers.items() if each.value is not None}
     moves = any(each.displacement is not None for each in there.values())
-    yield TITLES[name] if numbers else f"{TITLES[name]}: there is none"
-    if there:
-        moved = ("moved by",) if moves else ()
-        yield table(("", "attained", "end", *moved, "with"), [_row(of, each) for of, each in there.items()])
-    for why in dict.fromkeys(each.why for each in numbers.values()):
-        yield from wrapped("         ", f"{', '.join(of for of, each in numbers.items() if each.why == why)}: {why}")
+    whys = dict.fromkeys(each.why for each in numbers.values())
+    return Part(
+        TITLES[name] if numbers else f"{TITLES[name]}: there is none",
+        ("", "attained", "end", *(("moved by",) if moves else ()), "with"),
+        tuple(_row(of, each) for of, each in there.items()),
+        tuple(f"{', '.join(of for of, each in numbers.items() if each.why == why)}: {why}" for why in whys),
+    )
 
 
 def attained_cells(of: str, number: DirectNumber, told: Callable[[float], str], *more: str) -> tuple[str, ...]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from synergrip.documents.quantities import plain
 from synergrip.grasps.grasp import Grasp
+from synergrip.linalg import Array
 from synergrip.margin.sensitivity.sensitivity import FIXED, LARGEST, START, Sensitivities, Sensitivity
 from synergrip.reports.text.tables import table, wrapped
 from synergrip.reports.text.text_spots import triple
@@ -14,6 +15,9 @@ HEADS = {
     LARGEST: "of the largest margin, {}, by its multipliers", FIXED: "of the worst margin, {}, with these references",
 }  # fmt: skip
 MEANT = "each by 1 % of a number, 1 mm of a contact or 1 deg of its normal"
+
+WHOLE = ("change", "adds", "toward less", "toward more", "in", "")
+"""Columns where all is told."""
 
 
 def sensitivity_lines(found: Sensitivities, grasp: Grasp, *, whole: bool = False) -> Iterator[str]:
@@ -30,30 +34,35 @@ def sensitivity_lines(found: Sensitivities, grasp: Grasp, *, whole: bool = False
         if not chosen:
             yield f"{of}: {'interrupted before it was found' if found.interrupted else 'no such change adds to it'}"
             continue
-        columns = ("change", "adds", "toward less", "toward more", "in", "") if whole else ("change", "adds", "in")
+        columns = WHOLE if whole else ("change", "adds", "in")
         named += chosen
         yield of
-        yield table(columns, [_row(each, whole=whole) for each in chosen])
-    yield from _tangents(named, grasp)
+        yield table(columns, [cells_of(each, whole=whole) for each in chosen])
+    if grasp.held is not None:
+        frames = {contact.name: contact.frame.T for contact in grasp.contacts}
+        yield from (line for told in tangents(named, frames) for line in wrapped("         ", told))
     if whole:
         for name, why in found.left_out.items():
             if name not in HEADS:
                 yield from wrapped("         ", f"{name}: {why}")
 
 
-def _tangents(named: Sequence[Sensitivity], grasp: Grasp) -> Iterator[str]:
-    """Yield where the tangents point that changes are along or about, of a grasp on a hand."""
-    if grasp.held is None:
-        return
+def tangents(named: Sequence[Sensitivity], frames: Mapping[str, Array]) -> Iterator[str]:
+    """Yield a sentence about where the tangents point that changes are along or about.
+
+    Args:
+        named: the changes.
+        frames: (3, 3) of each contact, rows n, t, o, in the palm frame at the start.
+    """
     asked = {(each.of, each.direction.rsplit(" ", 1)[-1]) for each in named}
     told = [
-        f"{name} of {contact.name} {triple(contact.frame[:, column], 3)}"
-        for contact in grasp.contacts
-        for column, name in ((1, "t"), (2, "o"))
-        if (contact.name, name) in asked
+        f"{name} of {contact} {triple(frame[row], 3)}"
+        for contact, frame in frames.items()
+        for row, name in ((1, "t"), (2, "o"))
+        if (contact, name) in asked
     ]
     if told:
-        yield from wrapped("         ", f"in the palm frame at the start: {', '.join(told)}")
+        yield f"in the palm frame at the start: {', '.join(told)}"
 
 
 def change_of(each: Sensitivity) -> str:
@@ -64,7 +73,8 @@ def change_of(each: Sensitivity) -> str:
     return f"{each.name}{of}{where} {sign}{each.per}"
 
 
-def _row(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
+def cells_of(each: Sensitivity, *, whole: bool) -> tuple[str, ...]:
+    """Return what a change adds and in which model; `whole` with both one-sided derivatives, and why they differ."""
     change = change_of(each)
     model = "linear model" if each.model == START else "hand that moves"
     gain = f"{plain(each.gain, 3)} N" if each.gain else "-"

@@ -14,12 +14,11 @@ from synergrip.reports.text.tables import wrapped
 
 def timing_lines(problem: Problem, found: FastestTiming, written: Path | None) -> Iterator[str]:
     """Yield how fast the path of the palm can be gone, and the options that plan it so; `written` is its file."""
+    first = how_fast(found)[0]
     if found.value is None:
-        yield from wrapped("         ", f"fastest timing: {found.why}")
+        yield from wrapped("         ", first)
         return
-    below = "" if found.lower is None else f", not below {plain(found.lower, 5)} s"
-    instead = f"instead of {plain(found.given_s, 5)} s{below}"
-    yield f"Fastest timing along the path of the palm: {plain(found.value, 5)} s {instead}"
+    yield first
     yield from wrapped("         ", found.why)
     if written is None:
         yield "         -o DIR writes it as the path of the palm"
@@ -31,3 +30,12 @@ def timing_lines(problem: Problem, found: FastestTiming, written: Path | None) -
         sets.append(f"task.knots={len(found.path.times)}")
     yield f"wrote    {written}"
     yield f"with     {' '.join(f'--set {quote(each)}' for each in sets)}"
+
+
+def how_fast(found: FastestTiming) -> tuple[str, ...]:
+    """Return how fast the path of the palm can be gone and what is proven of it, or why that is not known."""
+    if found.value is None:
+        return (f"fastest timing: {found.why}",)
+    below = "" if found.lower is None else f", not below {plain(found.lower, 5)} s"
+    instead = f"instead of {plain(found.given_s, 5)} s{below}"
+    return f"Fastest timing along the path of the palm: {plain(found.value, 5)} s {instead}", found.why

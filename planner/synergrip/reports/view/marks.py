@@ -11,8 +11,9 @@ from synergrip.linalg import Array
 from synergrip.reports.view.scene import Frame, Scene
 from synergrip.vectors import quaternions
 
-AXES = 3.5
-"""Length of the axes of links, in radii of the bones; those of pads are half as long."""
+AXES, SHARE, SEEN = 3.5, 0.12, 2.0
+"""Length of the axes of links: in radii of the bones, but no larger share of a hand that is small beside its bones, if
+that leaves them so many radii to be seen; those of pads are half as long."""
 
 
 class Marks:
@@ -20,7 +21,7 @@ class Marks:
 
     def __init__(self, nodes: Any, scene: Scene, *, names: bool) -> None:
         """Draw those of a scene on nodes (`viser.SceneApi`); `names` of pads are seen from the start, or not."""
-        self.scene, self.named, long = scene, names, AXES * scene.thickness
+        self.scene, self.named, long = scene, names, axes_length(scene)
         self.links = _axes(nodes, "/palm/link_frames", len(scene.link_names), long)
         self.pads = _axes(nodes, "/palm/pad_frames", len(scene.pad_names), long / 2)
         self.names = [nodes.add_label(f"/palm/link_names/{i}", name, font_screen_scale=0.8)
@@ -44,6 +45,12 @@ class Marks:
         for each in what if isinstance(what, list) else [what]:
             if each is not None:
                 each.visible = seen
+
+
+def axes_length(scene: Scene) -> float:
+    """Return how long the axes of links are [m]."""
+    thick, small = scene.thickness, SHARE * scene.hand_size
+    return max(SEEN * thick, min(AXES * thick, small)) if small > 0 else AXES * thick
 
 
 def pad_axes(pushing: Array) -> Array:

@@ -38,7 +38,7 @@ class Panel:
             server: `viser.ViserServer`.
             posed: the hand and what it is to hold.
             posing: where it begins.
-            sets: the synergy sets that can be turned, by name.
+            sets: the synergy sets that can be turned, by name; none where all that can be turned are joints.
             closed: the posture (n_q,) in which the hand has closed on the object at a position (3,), or an error.
             title: what is said above the dials.
             notes: what is said below them.
@@ -50,9 +50,11 @@ class Panel:
         self.drawn.look(server)
         self.said = gui.add_markdown(headline(title + (NOTED if notes else "")))
         self._whole(gui)
-        with gui.add_folder("Synergies (from where it began)") as self.folder:
-            self._choice(gui)
-            self.synergies = self._synergies(gui)
+        self.synergies: list[Any] = []
+        if sets:
+            with gui.add_folder("Synergies (from where it began)") as self.folder:
+                self._choice(gui)
+                self.synergies = self._synergies(gui)
         with gui.add_folder("Joints"):
             self.joints = [self._dial(gui, dial, Posing.with_joint, i) for i, dial in enumerate(posing.joint_dials())]
         self.axes: list[Any] = []
@@ -80,7 +82,7 @@ class Panel:
         with self.server.atomic():
             self.drawn.show(frame)
             self.marks.show(frame)
-            _turn(self.synergies, posing.synergy_dials())
+            _turn(self.synergies, posing.synergy_dials() if self.synergies else [])
             _turn(self.joints, posing.joint_dials())
             _turn(self.axes, self._axis_dials() if self.axes else [])
             self.table.content = table_of(self.drawn.scene, frame)

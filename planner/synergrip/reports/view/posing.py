@@ -112,6 +112,16 @@ class Posing(Value):
         return dials
 
 
+def only_joints(hand: Hand, synergies: SynergySet) -> bool:
+    """Tell whether each synergy is a joint, by itself or with what follows it: the dial of the joint does the same."""
+    names = list(hand.joint_names)
+    if not set(synergies.synergies) <= set(names):
+        return False
+    which = [names.index(name) for name in synergies.synergies]
+    ways = np.eye(len(names)), coupling_map(names, hand.couplings)[0]
+    return any(bool(np.allclose(synergies.S, way[:, which])) for way in ways)
+
+
 def _ranges(hand: Hand) -> tuple[Array, Array]:
     """Return the ends (n_q,) of the ranges in which joints are moved."""
     wide = np.array([WIDE[joint.kind] for joint in hand.joints])

@@ -14,8 +14,8 @@ from synergrip.linalg import Array
 from synergrip.reports.pictures.bones import SHORTEST
 from synergrip.values import Value
 
-THICK = 0.12
-"""Radius of bones where no pad has one, as a share of their median length."""
+THICK, THICKEST = 0.12, 0.05
+"""Radius of bones where no pad has one, as a share of their median length, and at most of the whole hand."""
 SLIM = 0.7
 """Radius of bones as a share of the median radius of the pads."""
 HELD = 0.2
@@ -77,9 +77,13 @@ class Scene(Value):
         """[m] How large what is held is: half the side of the box around contacts and object."""
         points = self.places[0] if self.shape is None else np.vstack([self.places[0], self._corners])
         if len(points) < 2:
-            hand = np.vstack([self.links[0], self.pads[0]])
-            return HELD * float(np.ptp(hand, axis=0).max()) or 0.05
+            return HELD * self.hand_size or 0.05
         return float(np.ptp(points, axis=0).max() / 2) or 0.05
+
+    @property
+    def hand_size(self) -> float:
+        """[m] The longest side of the box around links and pads; 0 where all of them are at one place."""
+        return float(np.ptp(np.vstack([self.links[0], self.pads[0]]), axis=0).max())
 
     @property
     def middle(self) -> Array:
@@ -116,4 +120,6 @@ def thickness_of(bones: Array, radii: Array) -> float:
         return SLIM * float(np.median(radii[radii > 0]))
     lengths = np.linalg.norm(bones[:, 1] - bones[:, 0], axis=1)
     lengths = lengths[lengths > SHORTEST]
-    return THICK * float(np.median(lengths)) if len(lengths) else 0.005
+    if not len(lengths):
+        return 0.005
+    return min(THICK * float(np.median(lengths)), THICKEST * float(np.ptp(bones.reshape(-1, 3), axis=0).max()))

@@ -16,7 +16,7 @@ from synergrip.hands.spots import rest_posture
 from synergrip.hands.synergies.matrix import posture as posture_named
 from synergrip.linalg import Array, frozen
 from synergrip.reports.view.posed import Posed, middle_of
-from synergrip.reports.view.posing import Posing
+from synergrip.reports.view.posing import Posing, only_joints
 from synergrip.values import Value
 
 
@@ -27,7 +27,7 @@ class Shown(Value):
     posed: Posed
     begin: Posing
     sets: Mapping[str, SynergySet]
-    """Synergy sets by name, the one it begins with first."""
+    """Synergy sets by name, the one it begins with first, without those that are the joints themselves."""
     closed: Callable[[Array], Array] | None = None
     """The posture (n_q,) of the hand closed on the object at a position (3,); None where it does not close."""
     title: str = ""
@@ -40,13 +40,12 @@ def hand_shown(hand: Hand, posture: str | None = None) -> Shown:
     Raises:
         InputError: a posture that it has not, at ``--posture``.
     """
-    synergies = next(iter(hand.synergy_sets.values()))
+    sets = _beside_joints(hand, hand.synergy_sets)
+    synergies = next(iter((sets or hand.synergy_sets).values()))
     q = rest_posture(hand) if posture is None else posture_named(hand, synergies, posture, "--posture")
     posed = Posed(hand)
     notes = () if hand.pads else ("the hand has no pads; a problem puts contacts on its links",)
-    return Shown(
-        posed, Posing.at(hand, synergies, q, middle_of(posed, q)), hand.synergy_sets, title=hand.title, notes=notes
-    )
+    return Shown(posed, Posing.at(hand, synergies, q, middle_of(posed, q)), sets, title=hand.title, notes=notes)
 
 
 def problem_shown(
@@ -72,10 +71,15 @@ def problem_shown(
     elif asked.closing is not None:
         notes.append("the hand is drawn before it closes")
     notes += held.notes if held is not None else ()
-    sets = {asked.synergies.name: asked.synergies, **asked.hand.synergy_sets}
-    sets[asked.synergies.name] = asked.synergies
-    begin = Posing.at(asked.hand, asked.synergies, q, body.position)
+    every = {asked.synergies.name: asked.synergies, **asked.hand.synergy_sets}
+    sets = _beside_joints(asked.hand, every | {asked.synergies.name: asked.synergies})
+    begin = Posing.at(asked.hand, next(iter(sets.values()), asked.synergies), q, body.position)
     return Shown(posed, begin, sets, _closing(asked), asked.title, tuple(notes))
+
+
+def _beside_joints(hand: Hand, sets: Mapping[str, SynergySet]) -> Mapping[str, SynergySet]:
+    """Return the sets without those whose synergies are the joints, which have dials of their own."""
+    return {name: each for name, each in sets.items() if not only_joints(hand, each)}
 
 
 def _closing(asked: AskedGrasp) -> Callable[[Array], Array] | None:
