@@ -65,12 +65,14 @@ COMPILED = {
     f"batch/{name}.py"
     for name in (
         "lanes",
+        "lanes_rows",
         "lanes_algebra",
         "lanes_linear",
         "lanes_kernel",
         "lanes_dense",
         "lanes_bases",
         "lanes_centroid",
+        "lanes_confirmed",
         "lanes_statics",
     )
 }

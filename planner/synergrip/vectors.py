@@ -31,23 +31,48 @@ def lengths_of(vectors: Array) -> Array:
 
 
 def rotation_vectors(rotations: Array) -> Array:
-    """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3); those by nearly pi are SciPy's."""
+    """Return rotation vectors (..., 3) of rotation matrices (..., 3, 3)."""
     parts = rotations.reshape(*rotations.shape[:-2], 9) @ _SINES_AND_COSINE
     sines, cosine = parts[..., :3], parts[..., 3] - 0.5
     sine = lengths_of(sines)
     found = sines * (np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0) + (sine == 0))[..., None]
     if np.any(far := cosine < FAR_ROUND):
-        from scipy.spatial.transform import Rotation
-
-        found[far] = Rotation.from_matrix(rotations[far]).as_rotvec()
+        found[far] = _vectors_of(_quaternions(rotations[far]))
     return np.asarray(found)
+
+
+def rotation_matrices(vectors: Array) -> Array:
+    """Return the rotation matrices (..., 3, 3) of rotation vectors (..., 3), by Rodrigues' formula."""
+    angle = lengths_of(vectors)[..., None, None] / np.pi  # sinc(x) is sin(pi x) / (pi x)
+    K = skews(vectors)
+    return np.asarray(np.eye(3) + np.sinc(angle) * K + np.sinc(angle / 2) ** 2 / 2 * (K @ K))
 
 
 def quaternions(rotations: Array) -> Array:
     """Return rotation matrices (T, 3, 3) as quaternions (T, 4), w first and never negative."""
-    from scipy.spatial.transform import Rotation
+    return frozen(_quaternions(rotations))
 
-    return frozen(Rotation.from_matrix(rotations).as_quat(canonical=True)[:, [3, 0, 1, 2]])
+
+def _quaternions(rotations: Array) -> Array:
+    """Return quaternions (T, 4), w first and never negative: the row of ``4 q q'`` whose own entry is the largest."""
+    R, trace = rotations, np.trace(rotations, axis1=1, axis2=2)
+    squares = np.column_stack([trace, *(R[:, i, i] for i in range(3))])
+    products = np.empty((len(R), 4, 4))
+    products[:, 0, 0] = 1 + trace
+    for i in range(3):
+        j, k = _NEXT[i], _LAST[i]
+        products[:, i + 1, i + 1] = 1 + 2 * R[:, i, i] - trace
+        products[:, 0, i + 1] = products[:, i + 1, 0] = R[:, k, j] - R[:, j, k]
+        products[:, j + 1, k + 1] = products[:, k + 1, j + 1] = R[:, k, j] + R[:, j, k]
+    found = products[np.arange(len(R)), squares.argmax(axis=1)]
+    found /= np.linalg.norm(found, axis=1, keepdims=True)
+    return np.asarray(np.where(found[:, :1] < 0, -found, found))
+
+
+def _vectors_of(quaternions: Array) -> Array:
+    """Return rotation vectors (T, 3) of quaternions (T, 4) that turn by more than nothing, w first, never negative."""
+    sine = lengths_of(quaternions[:, 1:])
+    return np.asarray(quaternions[:, 1:] * (2 * np.arctan2(sine, quaternions[:, 0]) / sine)[:, None])
 
 
 def times(matrices: Array, vectors: Array) -> Array:

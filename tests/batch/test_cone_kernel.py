@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from random_cone_problems import by_clarabel, certificates, proofs, random_problems, values
@@ -65,6 +67,19 @@ def test_the_two_kernels_are_the_same_method(N: int) -> None:
     assert np.array_equal(ours.status, theirs.status)
     assert np.array_equal(ours.iterations, theirs.iterations)
     assert np.abs(ours.x - theirs.x).max() < 1e-6
+
+
+@pytest.mark.parametrize("quadratic", [False, True])
+def test_lower_and_upper_bounds_of_the_same_are_solved_as_any_others(solve: Solver, quadratic: bool) -> None:
+    lines = random_problems(21, 5, [1] * 4 + [3, 4], quadratic=quadratic, seed=8)
+    A = np.concatenate([lines.A[:, :3], -lines.A[:, :3], lines.A[:, 3:]], axis=1)
+    b = np.concatenate([lines.b[:, :3], 3.0 - lines.b[:, :3], lines.b[:, 3:]], axis=1)
+    apart = ConeProblems(lines.P, lines.q, A, b, (1, 1, 1, *lines.sizes))
+    ours, theirs = (solve(each, SHARP, np.full(21, -np.inf)) for each in (replace(apart, pairs=3), apart))
+    assert np.array_equal(ours.status, theirs.status)
+    assert (right := ours.status == Status.SOLVED).mean() > 0.5
+    for name in ("x", "s", "z"):
+        assert np.abs(getattr(ours, name) - getattr(theirs, name))[right].max() < 1e-6
 
 
 def test_a_point_that_is_good_enough_is_taken_and_keeps_all_cones(solve: Solver) -> None:

@@ -41,3 +41,22 @@ def test_a_squeeze_beyond_the_limit_that_stopped_it_does_not_hold(name: str) -> 
     for axis in range(6):
         assert not judged(programs, v, margin, wrench + 1e-5 * np.eye(6)[axis]).holds.any()
     assert not judged(programs, np.nan * v, margin, wrench).holds.any()
+
+
+BOTH_SIDES = {"normal force": sg.NormalForce(lower=0.1, upper=4.0)}
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_rows_that_are_said_to_be_opposite_are(name: str) -> None:
+    """Lower and upper bounds; those of normal forces may be in different units, and are none."""
+    wrench = random_wrenches(np.random.default_rng(2), 4)
+    limits = [BOTH_SIDES.get(name, LIMITS[name]), sg.JointTorque(np.append(np.inf, np.full(8, 0.3)))]
+    task = sg.Task(knots=1, limits=limits[: 1 + (name != "joint torque")], goals=[sg.LargestMargin()])
+    programs = assembled(stated_on(sg.analyse(GRASP), asked(GRASP, task, wrench, None, None).task, wrench, None))
+    expected = {"normal force": 8, "joint torque": 9, "actuator effort": 5 + 8, "synergy reference": 5 + 8}
+    assert programs.pairs == expected.get(name, 9 + 8)
+    for each in (programs.largest_margin(), programs.least_effort("contact", 0.0)[0], programs.least_peak(0.0)):
+        first, second = each.A[:, : each.pairs], each.A[:, each.pairs : 2 * each.pairs]
+        assert each.pairs == programs.pairs
+        assert np.array_equal(first, -second)
+        assert np.abs(first).max() > 0

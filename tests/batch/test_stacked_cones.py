@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pytest
 from random_cone_problems import grasp_like
 
 from synergrip.batch.stacked_cones import stacked_cones
+from synergrip.conic.affine import Affine
 from synergrip.grasps.contacts.elliptic_soft_finger import EllipticSoftFinger
+from synergrip.grasps.contacts.hard_finger import HardFinger
 from synergrip.grasps.contacts.kind import ContactKind
 from synergrip.grasps.contacts.patch_contact import PatchContact
 from synergrip.grasps.contacts.soft_finger import SoftFinger
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack
+from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.linalg import Array
 from synergrip.statics.analyses import analyse_many, analyses_for_plans
 from synergrip.statics.response import Maps
 from synergrip.statics.subspaces import Bases
+
+
+@dataclass(frozen=True, kw_only=True)
+class Slanted(HardFinger):
+    """A finger whose second tangent is told along both."""
+
+    @classmethod
+    def cones_with(cls, values: Mapping[str, Array]) -> tuple[Array, ...]:
+        """Rows mu n, t + o, o."""
+        W = np.array(HardFinger.cones_with(values)[0])
+        W[..., 1, 2] = 1.0
+        return (W,)
 
 
 def with_kinds(grasp: Grasp, *kinds: ContactKind) -> Grasp:
@@ -45,11 +61,29 @@ def test_cones_of_contacts_of_several_classes_and_frictions_are_those_of_each_co
         grasps.append(with_kinds(grasp_like(rng, ["soft"] * 2), soft if k % 3 else elliptic, elliptic))
     factors = rng.uniform(0.1, 2.0, N) if with_factors else None
     forces = rng.normal(size=(N, grasps[0].n_l))
-    (cones,) = stacked_cones(grasps, factors)
+    (cones,) = stacked_cones(grasps[0], StackedKinds.of(grasps), factors)
     image = cones.images(forces)
     ours = image[..., 0] - np.linalg.norm(image[..., 1:], axis=-1)
     each = [of_contacts(g, 1.0 if factors is None else factors[k], forces[k]) for k, g in enumerate(grasps)]
     assert np.abs(ours - each).max() < 1e-12 * np.abs(each).max()
+    few = [7, 2]
+    (some,) = stacked_cones(grasps[7], StackedKinds.of(grasps).taken(few), None if factors is None else factors[few])
+    assert np.array_equal(some.W, cones.taken(few).W)
+
+
+def test_a_kind_whose_cone_takes_two_components_in_one_row_has_them_both() -> None:
+    grasp = grasp_like(np.random.default_rng(1), ["hard"] * 3)
+    kinds = StackedKinds.of([with_kinds(grasp, Slanted(friction=0.5), *(each.kind for each in grasp.contacts[1:]))])
+    forces, factors = np.random.default_rng(2).normal(size=(4, 9)), np.array([0.5, 1.0, 1.5, 2.0])
+    (cones,) = stacked_cones(grasp, kinds, factors)
+    assert cones.columns is None
+    straight, slanted = cones.images(forces)[:, 1], cones.images(forces)[:, 0]
+    assert np.array_equal(straight[:, 1:], forces[:, 4:6])
+    assert np.allclose(
+        slanted, np.column_stack([0.5 * factors * forces[:, 0], forces[:, 1] + forces[:, 2], forces[:, 2]])
+    )
+    value = Affine(np.eye(9), np.zeros((4, 9)))
+    assert np.allclose(cones.after(value)[0].matrix, cones.W)
 
 
 def test_one_contact_with_two_cones_and_many_frictions() -> None:

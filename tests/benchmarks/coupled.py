@@ -12,7 +12,6 @@ how far the objectives are apart, beside 1 or themselves, and the growth of peak
 from __future__ import annotations
 
 import os
-import resource
 import subprocess
 import sys
 import time
@@ -25,6 +24,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 from named_goals import goals
+from peak_memory import grown
 from random_cone_problems import grasp_like
 
 from synergrip.conic.decide import judge
@@ -103,9 +103,7 @@ def memory(solver: str, form: str, goal: str, knots: int) -> None:
     """Print by how much one solution lets the memory of this process grow [MB]."""
     SOLVERS[solver](program_of(form, goal, 201), Settings())
     program = program_of(form, goal, knots)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    SOLVERS[solver](program, Settings())
-    print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1e3)
+    print(grown(lambda: SOLVERS[solver](program, Settings())))
 
 
 def row(form: str, goal: str, knots: int) -> str:

@@ -14,7 +14,7 @@ from synergrip.linalg import interpolated
 from synergrip.planning.executing import Executor
 from synergrip.planning.planning import plan
 from synergrip.statics.analysis import analyse
-from synergrip.vectors import rotation_vectors
+from synergrip.vectors import quaternions, rotation_matrices, rotation_vectors
 
 NAMES = ("human-ball", "dlr-ball-move", "gripper-peg")
 
@@ -59,12 +59,15 @@ def test_a_load_that_the_knots_do_not_know_is_counted() -> None:
     assert guess < 0.02 * lines
 
 
-@pytest.mark.parametrize("angle", [0.0, 1e-200, 1e-12, 1e-7, 1e-2, 1.0, 1.6, 2.1, 3.1])
+@pytest.mark.parametrize("angle", [0.0, 1e-200, 1e-12, 1e-7, 1e-2, 1.0, 1.6, 2.1, 3.1, 3.1415926])
 def test_rotation_vectors_are_those_of_the_rotations(angle: float) -> None:
     axes = np.random.default_rng(1).normal(size=(4, 3, 3))
     vectors = angle * axes / np.linalg.norm(axes, axis=-1, keepdims=True)
     rotations = Rotation.from_rotvec(vectors.reshape(-1, 3)).as_matrix().reshape(4, 3, 3, 3)
     assert np.allclose(rotation_vectors(rotations), vectors, rtol=0, atol=1e-14)
+    assert np.allclose(rotation_matrices(vectors), rotations, rtol=0, atol=1e-14)
+    second = Rotation.from_rotvec(vectors.reshape(-1, 3)).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    assert np.allclose(quaternions(rotations.reshape(-1, 3, 3)), second, rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from synergrip.conic import certificate
 from synergrip.conic.certificate import ACCEPTABLE
 from synergrip.conic.decide import ATTEMPTS
 from synergrip.conic.goals.least_motion import RESCALED, STIFFEST, LeastMotion
@@ -18,6 +19,7 @@ from synergrip.conic.question import Question
 from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import clarabel_
 from synergrip.linalg import frozen
+from synergrip.planning import solvers
 from synergrip.planning.outcome import Outcome, Plan, Unknown
 from synergrip.planning.planning import plan_of_start_posture as plan
 from synergrip.planning.solvers import SOLVERS
@@ -125,3 +127,19 @@ def test_smoothness_that_does_not_verify_is_looked_at_less_closely() -> None:
     np.testing.assert_allclose(outcome.motion.dz_r, best.motion.dz_r, atol=1e-6)
     assert LeastMotion("accelerations", exact=True).rescaled is None
     assert LeastMotion().rescaled is None
+
+
+def test_what_rounding_hides_is_not_asked_for_in_other_units(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(solvers, "SMALL", 1e12)  # any value is small beside it
+    counts = []
+    for share in (np.inf, 0.0):
+        monkeypatch.setattr(certificate, "HIDDEN", share)
+        asked: list[Question] = []
+
+        def keep(question: Question, best: Solution, asked: list[Question] = asked) -> Solution:
+            asked.append(question)
+            return best
+
+        assert isinstance(planned("['smooth']", {"smoothest references": keep}), Plan)
+        counts.append(len(asked))
+    assert counts[0] > counts[1] == 1

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
 from synergrip.batch.cone_problems import ConeProblems
-from synergrip.batch.stacked_cones import most, stacked_cones
+from synergrip.batch.stacked_cones import StackedCones, most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
 from synergrip.conic.bounds import within
 from synergrip.conic.goals.least_effort import Effort
@@ -22,9 +24,11 @@ from synergrip.conic.limits.normal_force import FAR, NormalForce, bound_unit
 from synergrip.conic.limits.slip_margin import SlipMargin
 from synergrip.conic.rows import Rows
 from synergrip.conic.variable_bounds import LARGEST, variable_bounds
-from synergrip.grasps.friction_cones import Cones
 from synergrip.linalg import Array, Places, frozen
 from synergrip.values import Value
+
+LOWER, UPPER = -1, 0
+"""The order of rows that come in pairs, bounds of the same quantities: before those that do not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -32,11 +36,13 @@ class Assembled(Value):
     """N programs as arrays: ``constant - A (v, s)`` lies in the cones, s the margin over the unit."""
 
     stated: Stated
-    cones: tuple[Cones, ...]
+    cones: tuple[StackedCones, ...]
     unit: Array  # (N,) [N]
     A: Array  # (N, m, n + 1)
     constant: Array  # (N, m)
     sizes: tuple[int, ...]
+    pairs: int
+    """Lower bounds, the first rows, whose rows of A are minus those of as many upper ones that come next."""
 
     @property
     def far(self) -> Array:
@@ -63,7 +69,7 @@ class Assembled(Value):
     def largest_margin(self) -> ConeProblems:
         """Return: maximise s, the last unknown."""
         n = self.A.shape[2]
-        return ConeProblems(np.zeros((1, n, n)), -np.eye(n)[-1:], self.A, self.constant, self.sizes)
+        return ConeProblems(np.zeros((1, n, n)), -np.eye(n)[-1:], self.A, self.constant, self.sizes, self.pairs)
 
     def at_margin(self, margin: float, places: Places | slice = slice(None)) -> tuple[Array, Array]:
         """Return A (..., m, n) and b (..., m) of the programs at some places, at a margin [N]."""
@@ -73,7 +79,7 @@ class Assembled(Value):
     def least_effort(self, of: Effort, margin: float) -> tuple[ConeProblems, Array]:
         """Return: the least effort at a margin [N]; and the constant (N,) of its objective."""
         F, f = self._effort(of)
-        problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], *self.at_margin(margin), self.sizes)
+        problems = ConeProblems(F.mT @ F, (f[:, None, :] @ F)[:, 0, :], *self.at_margin(margin), self.sizes, self.pairs)
         return problems, (f**2).sum(axis=-1) / 2
 
     def least_peak(self, margin: float) -> ConeProblems:
@@ -83,10 +89,12 @@ class Assembled(Value):
         matrix = (force.matrix[..., normal, :] * columns(stated, self.unit)[:, None, :]) / self.unit[:, None, None]
         below = np.concatenate([matrix, np.full((*matrix.shape[:2], 1), -1.0)], axis=2)
         others = np.concatenate([A, np.zeros((*A.shape[:2], 1))], axis=2)
-        b = np.concatenate([-force.constant[:, normal] / self.unit[:, None], b], axis=1)
-        n, sizes = self.A.shape[2], (1,) * len(normal) + self.sizes
+        n, first = self.A.shape[2], slice(2 * self.pairs)
+        rest = slice(first.stop, None)
+        b = np.concatenate([b[:, first], -force.constant[:, normal] / self.unit[:, None], b[:, rest]], axis=1)
+        whole = np.concatenate([others[:, first], below, others[:, rest]], axis=1)
         return ConeProblems(
-            np.zeros((1, n, n)), np.eye(n)[-1:], np.concatenate([below, others], axis=1), b, sizes
+            np.zeros((1, n, n)), np.eye(n)[-1:], whole, b, (1,) * len(normal) + self.sizes, self.pairs
         )  # fmt: skip
 
     def _effort(self, of: Effort) -> tuple[Array, Array]:
@@ -105,37 +113,62 @@ def columns(stated: Stated, unit: Array) -> Array:
     return result
 
 
+class _Part(NamedTuple):
+    """Rows of one kind, in the order in which they are put down: by what comes first here."""
+
+    order: int
+    """`LOWER`, `UPPER`, or 1 and more for others: the size of their cones."""
+    size: int
+    matrix: Array
+    times: Array
+    """(N or 1, rows) by what rows of the matrix are multiplied."""
+    constant: Array
+    takes: Array | float
+    """What a margin of one unit takes."""
+
+
 def assembled(stated: Stated) -> Assembled:
     """Return stated tasks as arrays."""
-    cones, unit = stacked_cones(stated.grasps, stated.friction), stated.unit
-    parts = sorted(_parts(stated, cones, unit), key=lambda part: part[0])  # half-lines first
+    cones, unit = stacked_cones(stated.grasps[0], stated.kinds, stated.friction), stated.unit
+    parts = sorted(_parts(stated, cones, unit), key=attrgetter("order"))  # half-lines first
     N, n, alpha = stated.count, stated.formulation.n_v, stated.n_alpha
-    sizes = tuple(size for size, matrix, *_ in parts for _ in range(matrix.shape[-2] // size))
-    total = sum(matrix.shape[-2] for _, matrix, *_ in parts)
+    sizes = tuple(part.size for part in parts for _ in range(part.matrix.shape[-2] // part.size))
+    total = sum(part.matrix.shape[-2] for part in parts)
+    pairs = sum(part.matrix.shape[-2] for part in parts if part.order == LOWER)
     A, constant, at = np.empty((N, total, n + 1)), np.empty((N, total)), 0
-    for _, matrix, value, divisor, takes in parts:
-        rows = slice(at, at + matrix.shape[-2])
-        np.multiply(matrix[..., :alpha], (unit[:, None] / -divisor)[..., None], out=A[:, rows, :alpha])
-        np.divide(matrix[..., alpha:], -divisor[..., None], out=A[:, rows, alpha:-1])
-        np.divide(value, divisor, out=constant[:, rows])
-        A[:, rows, -1] = takes
+    for part in parts:
+        rows = slice(at, at + part.matrix.shape[-2])
         at = rows.stop
-    return Assembled(stated, cones, unit, A, constant, sizes)
+        constant[:, rows] = part.constant
+        if part.order == UPPER:
+            continue
+        np.multiply(part.matrix[..., :alpha], (unit[:, None] * -part.times)[..., None], out=A[:, rows, :alpha])
+        np.multiply(part.matrix[..., alpha:], -part.times[..., None], out=A[:, rows, alpha:-1])
+        A[:, rows, -1] = part.takes
+    np.negative(A[:, :pairs], out=A[:, pairs : 2 * pairs])
+    return Assembled(stated, cones, unit, A, constant, sizes, pairs)
 
 
-def _parts(
-    stated: Stated, cones: tuple[Cones, ...], unit: Array
-) -> Iterator[tuple[int, Array, Array, Array, Array | float]]:
-    """Yield size of cones, matrix, constant, what rows are divided by, and what a margin of one unit takes."""
+def _parts(stated: Stated, cones: tuple[StackedCones, ...], unit: Array) -> Iterator[_Part]:
+    """Yield the rows of cones and limits."""
     force = stated.formulation.force
     for each in cones:
-        value = force.after(each.W)
-        own = np.repeat(each.unit, each.size, axis=-1)
-        first = np.tile(np.eye(each.size)[0], len(each.contacts)) / own
-        yield each.size, value.matrix, value.constant, own * unit[:, None], first
+        (value, times), own = each.after(force), np.repeat(each.unit, each.size, axis=-1)
+        first, divisor = np.tile(np.eye(each.size)[0], len(each.contacts)) / own, own * unit[:, None]
+        yield _Part(each.size, each.size, value.matrix, times / divisor, value.constant / divisor, first)
     for limit in stated.task.limits:
-        for rows in _rows(stated, limit):
-            yield rows.dim, rows.matrix, rows.constant, _divisor(limit, rows, unit), 0.0
+        every = _rows(stated, limit)
+        orders = (LOWER, UPPER) if _opposite(limit, every) else (1,) * len(every)
+        for rows, order in zip(every, orders, strict=True):
+            divisor = _divisor(limit, rows, unit)
+            yield _Part(order, rows.dim, rows.matrix, 1 / divisor, rows.constant / divisor, 0.0)
+
+
+def _opposite(limit: Limit, every: list[Rows]) -> bool:
+    """Return whether the rows of a limit are lower and upper bounds of the same, in the same units: `within_bounds`."""
+    if len(every) != 2 or isinstance(limit, NormalForce):
+        return False
+    return [item.name for item in every[0].items] == [item.name for item in every[1].items]
 
 
 def _rows(stated: Stated, limit: Limit) -> list[Rows]:

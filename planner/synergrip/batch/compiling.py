@@ -9,6 +9,9 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
+import numpy as np
+
+from synergrip.linalg import Array
 from synergrip.log import LOG
 
 
@@ -55,3 +58,11 @@ class Compiled:
                         self.name)  # fmt: skip
         LOG.info("the %s was %s in %.1f s", self.name, "loaded" if hits else "compiled", time.perf_counter() - start)
         self.loaded = True
+
+
+def as_rows(values: Array) -> Array:
+    """Return (N or 1, entries) numbers one after the other, read-only: one form for a compiled function."""
+    whole = values[:1] if values.strides[0] == 0 or len(values) == 1 else values
+    flat = np.ascontiguousarray(whole).reshape(len(whole), -1).view()
+    flat.setflags(write=False)
+    return flat

@@ -41,6 +41,9 @@ class ConeProblems(Value):
     b: Array  # (N, m)
     sizes: tuple[int, ...]
     """Rows of each cone, in the order of the rows; a cone of 1 row is a half-line."""
+    pairs: int = 0
+    """How many half-lines come first whose rows of A are, in their order, minus those of as many that come next: lower
+    and upper bounds of the same. A solver may make use of it."""
 
     def __post_init__(self) -> None:
         """Judge the shapes."""
@@ -64,7 +67,7 @@ class ConeProblems(Value):
     def taken(self, places: Any) -> ConeProblems:
         """Return the problems at some places."""
         P, q, A = (each if len(each) == 1 < len(self) else each[places] for each in (self.P, self.q, self.A))
-        return ConeProblems(P, q, A, self.b[places], self.sizes)
+        return ConeProblems(P, q, A, self.b[places], self.sizes, self.pairs)
 
 
 def groups_of(sizes: tuple[int, ...]) -> tuple[Group, ...]:

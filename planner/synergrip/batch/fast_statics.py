@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from synergrip.batch.compiling import Compiled
-from synergrip.batch.confirmed import confirmed
+from synergrip.batch.compiling import Compiled, as_rows
 from synergrip.grasps.stack import GraspStack, Matrices
 from synergrip.linalg import Array
 from synergrip.statics.analysis import Analysis, analyse
@@ -19,8 +18,8 @@ from synergrip.statics.saddle import other_numbers
 from synergrip.statics.subspaces import Bases
 from synergrip.statics.theorem1 import Coordinates
 
-SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_dense.py", "lanes_bases.py", "lanes_centroid.py", "lanes_statics.py",
-           "numpy_kernel.py")  # fmt: skip
+SOURCES = ("lanes.py", "lanes_algebra.py", "lanes_rows.py", "lanes_dense.py", "lanes_bases.py", "lanes_centroid.py",
+           "lanes_confirmed.py", "lanes_statics.py", "numpy_kernel.py")  # fmt: skip
 """What the compiled statics are made of."""
 
 
@@ -99,13 +98,21 @@ class Spans(NamedTuple):
     C_s: NDArray[np.int64]  # (n_l, 2)
     C_q: NDArray[np.int64]  # (n_q, 2)
     C_z: NDArray[np.int64]  # (n_z, 2)
+    L: NDArray[np.int64]  # (n_l,) from where, of the factor of C (`lanes_statics`)
+    L_T: NDArray[np.int64]  # (n_l,) of its transpose, from the last row up and the last column back
+    R: NDArray[np.int64]  # (6,) of that of the motions, which has no zeros
 
     @classmethod
     def of(cls, matrices: Matrices) -> Spans:
         """Return those that hold for all of N grasps."""
         every = (matrices.J, matrices.S, matrices.C_s, matrices.C_q, matrices.C_z)
-        J, S, *others = (((each[:1] if each.strides[0] == 0 else each) != 0).any(axis=0) for each in every)
-        return cls(*(_spans(each) for each in (J, J.T, S, S.T, *others)))
+        J, S, C_s, C_q, C_z = (((each[:1] if each.strides[0] == 0 else each) != 0).any(axis=0) for each in every)
+        within = J @ (C_q | S @ C_z @ S.T) @ J.T | C_s
+        first = np.minimum(within.argmax(axis=1), np.arange(len(J)))
+        last = np.array([np.flatnonzero(first <= i)[-1] for i in range(len(J))])
+        spans = {"J": J, "J_T": J.T, "S": S, "S_T": S.T, "C_s": C_s, "C_q": C_q, "C_z": C_z}
+        starts = {"L": first, "L_T": len(J) - 1 - last[::-1], "R": np.zeros(6, dtype=np.int64)}
+        return cls(**{name: _spans(each) for name, each in spans.items()}, **starts)
 
 
 def _spans(there: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -138,8 +145,10 @@ def _made(stamp: int) -> Any:
 
 def _prepare(function: Any) -> None:
     """Work out the statics of no grasp at all."""
-    spans = Spans(*(np.zeros((1, 2), dtype=np.int64),) * 7)
-    function((_given(np.zeros((1, 1))),) * 8, Layout.of(7, 1, 1), spans, np.zeros(1), 0, (0, 1))
+    none, starts = np.zeros((1, 2), dtype=np.int64), np.zeros(1, dtype=np.int64)
+    spans = Spans(none, none, none, none, none, none, none, starts, starts, starts)
+    layout, numbers = Layout.of(7, 1, 1), np.zeros(1)
+    function((as_rows(np.zeros((1, 1))),) * 8, layout, spans, numbers, numbers, np.zeros((0, 1)), False)
 
 
 compiled = Compiled("statics", SOURCES, _made, _prepare)
@@ -154,14 +163,12 @@ class ClearStatics:
 
     def __call__(self, stack: GraspStack) -> Clear | None:
         """Return what is clear of the statics of many grasps, and confirmed; None where nothing is."""
-        matrices = stack.matrices
-        layout = Layout.of(matrices.G.shape[-1], *matrices.S.shape[-2:])
+        layout = Layout.of(stack.like.n_l, *stack.like.S.shape)
         if layout is None:
             return None
-        arrays = tuple(_given(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
-        found = compiled()(arrays, layout, Spans.of(matrices), _others(layout), len(stack), (layout.clear, layout.end))
+        found = np.empty((len(stack), layout.end - layout.clear))
         each = _each(found, layout, stack)
-        clear = (found[:, 0] > 0) & confirmed(stack, each)
+        clear = lanes(stack, layout, found, known=False)
         places = np.flatnonzero(clear)
         if not len(places):
             return None
@@ -172,12 +179,21 @@ class ClearStatics:
         return Clear(places, stack, each, like) if like.spaces.dimensions == (layout.r, layout.d, 0) else None
 
 
-def _given(values: Array) -> Array:
-    """Return (N or 1, entries) numbers one after the other, read-only, as one form of the compiled function takes."""
-    whole = values[:1] if values.strides[0] == 0 or len(values) == 1 else values
-    flat = np.ascontiguousarray(whole).reshape(len(whole), -1).view()
-    flat.setflags(write=False)
-    return flat
+def lanes(stack: GraspStack, layout: Layout, found: Array, *, known: bool) -> NDArray[np.bool_]:
+    """Write the statics of grasps into `found`, from `layout.clear` on; return (N,) which are clear, and confirmed.
+
+    Confirmed means that the rows of `found` were read anew and meet the equations of the grasps. Where they are `known`
+    that is all that is done.
+    """
+    matrices = stack.matrices
+    arrays = tuple(as_rows(each) for each in (*vars(matrices).values(), stack.metric.motion, stack.metric.force))
+    compiled()(arrays, layout, Spans.of(matrices), _others(layout), _chances(layout), found, known)
+    return np.asarray(found[:, 0] > 0)
+
+
+@cache
+def _chances(layout: Layout) -> Array:
+    return np.random.default_rng(1).normal(size=layout.z + 6 + layout.r + layout.d)
 
 
 @cache

@@ -66,6 +66,61 @@ def store(typing: Any, array: Any, index: Any, value: Any) -> Any:
     return types.void(array, types.intp, lanes), made
 
 
+def _transposed(builder: Any, rows: list[Any]) -> list[Any]:
+    """Return the columns of eight vectors: halves of pairs change places, of entries 1, 2 and 4 apart."""
+    kind = ir.VectorType(ir.IntType(32), LANES)
+    for apart in (1, 2, 4):
+        low = [i if not i & apart else i - apart + LANES for i in range(LANES)]
+        high = [i + apart if not i & apart else i + LANES for i in range(LANES)]
+        orders = [ir.Constant(kind, order) for order in (low, high)]
+        pairs = [(rows[i & ~apart], rows[i | apart], orders[bool(i & apart)]) for i in range(LANES)]
+        rows = [builder.shuffle_vector(*pair) for pair in pairs]
+    return rows
+
+
+def _at(context: Any, builder: Any, of: Any, array: Any, place: Any) -> Any:
+    """Return a pointer to the numbers of a contiguous array from one of them on."""
+    return builder.gep(context.make_array(of)(context, builder, array).data, [place])
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def load_columns(typing: Any, w: Any, index: Any, rows: Any, first: Any, down: Any) -> Any:
+    """Write eight entries (8, 8) of `w`: entry k has number ``first + k`` of each of eight rows, `down` apart."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        w, index, rows, first, down = arguments
+        found = []
+        for lane in range(LANES):
+            place = builder.add(first, builder.mul(down, ir.Constant(down.type, lane)))
+            whole = builder.bitcast(_at(context, builder, signature.args[2], rows, place), VECTOR.as_pointer())
+            found.append(builder.load(whole, align=8))
+        for k, column in enumerate(_transposed(builder, found)):
+            entry = builder.add(index, ir.Constant(index.type, k))
+            builder.store(column, _place(context, builder, signature.args[0], w, entry), align=8)
+        return context.get_dummy_value()
+
+    return types.void(w, types.intp, rows, types.intp, types.intp), made
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def store_columns(typing: Any, w: Any, index: Any, rows: Any, first: Any, down: Any) -> Any:
+    """Write the other way round: eight numbers of each of eight rows from eight entries of `w`."""
+
+    def made(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        w, index, rows, first, down = arguments
+        found = []
+        for k in range(LANES):
+            entry = builder.add(index, ir.Constant(index.type, k))
+            found.append(builder.load(_place(context, builder, signature.args[0], w, entry), align=8))
+        for lane, row in enumerate(_transposed(builder, found)):
+            place = builder.add(first, builder.mul(down, ir.Constant(down.type, lane)))
+            whole = builder.bitcast(_at(context, builder, signature.args[2], rows, place), VECTOR.as_pointer())
+            builder.store(row, whole, align=8)
+        return context.get_dummy_value()
+
+    return types.void(w, types.intp, rows, types.intp, types.intp), made
+
+
 @intrinsic  # type: ignore[untyped-decorator]
 def all_of(typing: Any, value: Any) -> Any:
     """Return a number in all lanes."""

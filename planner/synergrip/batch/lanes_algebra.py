@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from synergrip.batch.lanes import LANES, all_of, load, root, store, where_less
+from synergrip.batch.lanes import LANES, all_of, kept_apart, load, root, store, where_less
 
 
 def compiled(function: Any, *, inner: bool = True) -> Any:
@@ -94,12 +94,12 @@ def add_scaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
 
 
 @compiled
-def unscaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
+def unscaled(w: Any, v: int, under: int, x: int, out: int, cones: Any) -> None:
     """Write ``W^-1 x``."""
-    two, one = all_of(2.0), all_of(1.0)
+    two = all_of(2.0)
     for c in range(len(cones)):
         first, size = cones[c, 0], cones[c, 1]
-        factor = one / load(w, beta + c)
+        factor = load(w, under + c)
         if size == 1:
             store(w, out + first, factor * load(w, x + first))
             continue
@@ -110,39 +110,18 @@ def unscaled(w: Any, v: int, beta: int, x: int, out: int, cones: Any) -> None:
 
 
 @compiled
-def unscaled_rows(w: Any, v: int, beta: int, A: int, out: int, n: int, wide: int, cones: Any) -> None:
-    """Write ``W^-1 A``, rows of n numbers, as rows of `wide` numbers."""
-    two, one = all_of(2.0), all_of(1.0)
-    for c in range(len(cones)):
-        first, size = cones[c, 0], cones[c, 1]
-        factor = one / load(w, beta + c)
-        if size == 1:
-            for j in range(n):
-                store(w, out + first * wide + j, factor * load(w, A + first * n + j))
-            continue
-        for j in range(n):
-            total = load(w, v + first) * load(w, A + first * n + j)
-            for i in range(first + 1, first + size):
-                total = total - load(w, v + i) * load(w, A + i * n + j)
-            twice = two * total
-            head = twice * load(w, v + first) - load(w, A + first * n + j)
-            store(w, out + first * wide + j, factor * head)
-            for i in range(first + 1, first + size):
-                store(w, out + i * wide + j, factor * (load(w, A + i * n + j) - twice * load(w, v + i)))
-
-
-@compiled
-def divided(w: Any, b: int, a: int, out: int, cones: Any) -> None:
+def divided(w: Any, b: int, a: int, over: int, out: int, cones: Any) -> None:
     """Write c whose Jordan product with a is b."""
     for c in range(len(cones)):
         first, size = cones[c, 0], cones[c, 1]
+        inverse = load(w, over + c)
         if size == 1:
-            store(w, out + first, load(w, b + first) / load(w, a + first))
+            store(w, out + first, load(w, b + first) * inverse)
             continue
-        head = flipped_dot(w, a, b, first, size) / determinant(w, a, first, size)
-        over = all_of(1.0) / load(w, a + first)
+        head = flipped_dot(w, a, b, first, size) * inverse * inverse
+        over_a = all_of(1.0) / load(w, a + first)
         for i in range(first + 1, first + size):
-            store(w, out + i, over * (load(w, b + i) - head * load(w, a + i)))
+            store(w, out + i, over_a * (load(w, b + i) - head * load(w, a + i)))
         store(w, out + first, head)
 
 
@@ -159,58 +138,71 @@ def less_product(w: Any, a: int, b: int, centre: Any, out: int, cones: Any) -> N
 
 
 @compiled
-def longest_step(w: Any, at: int, step: int, cones: Any) -> Any:
-    """Return how far a step may go before it leaves a cone."""
+def longest_step(w: Any, at: int, over: int, step: int, cones: Any) -> Any:
+    """Return the inverse of how far a step may go before it leaves a cone; 1e-300 where it never does."""
     zero, one = all_of(0.0), all_of(1.0)
     most = all_of(1e-300)
     for c in range(len(cones)):
         first, size = cones[c, 0], cones[c, 1]
+        inverse = load(w, over + c)
         if size == 1:
-            most = larger(most, (zero - load(w, step + first)) / load(w, at + first))
+            most = larger(most, zero - load(w, step + first) * inverse)
             continue
-        over = one / root(determinant(w, at, first, size))
-        head = over * over * flipped_dot(w, at, step, first, size)
-        factor = (head + over * load(w, step + first)) / (over * load(w, at + first) + one)
+        head = inverse * inverse * flipped_dot(w, at, step, first, size)
+        factor = (head + inverse * load(w, step + first)) / (inverse * load(w, at + first) + one)
         squares = zero
         for i in range(first + 1, first + size):
-            part = over * (load(w, step + i) - factor * load(w, at + i))
+            part = inverse * (load(w, step + i) - factor * load(w, at + i))
             squares = squares + part * part
         most = larger(most, root(squares) - head)
-    return one / most
+    return most
 
 
 @compiled
-def carried_on(w: Any, v: int, beta: int, point: int, s: int, z: int, cones: Any) -> None:
-    """Write v, beta and lambda of a pair that is s and z in the coordinates of the old scaling."""
+def carried_on(w: Any, at: Any, s: int, z: int, cones: Any) -> None:
+    """Write the scaling of a pair that is s and z in the coordinates of the old one: v, beta, lambda, and inverses.
+
+    These are 1 / beta, and 1 over the size of each cone's part of lambda, ``root(a'J a)``.
+    """
+    kept_apart()
     one, half = all_of(1.0), all_of(0.5)
+    v, beta, under, point, over = at.v, at.beta, at.under, at.point, at.over
     for c in range(len(cones)):
         first, size = cones[c, 0], cones[c, 1]
         if size == 1:
             ours, theirs = load(w, s + first), load(w, z + first)
-            store(w, beta + c, load(w, beta + c) * root(ours / theirs))
-            store(w, point + first, root(ours * theirs))
+            middle = root(ours * theirs)
+            inverse = one / middle
+            store(w, point + first, middle)
+            store(w, over + c, inverse)
+            store(w, beta + c, load(w, beta + c) * ours * inverse)
+            store(w, under + c, load(w, under + c) * theirs * inverse)
             continue
         of_s, of_z = root(determinant(w, s, first, size)), root(determinant(w, z, first, size))
         over_s, over_z = one / of_s, one / of_z
         middle = root(half * (one + over_s * over_z * dot(w, s, z, first, size)))
         with_s = over_s * dot(w, v, s, first, size)
         with_z = over_z * flipped_dot(w, v, z, first, size)
-        over = half / middle
-        mean, apart = over * (with_s + with_z), with_s - with_z
+        over_2 = half / middle
+        mean, apart = over_2 * (with_s + with_z), with_s - with_z
         v_0, s_0, z_0 = load(w, v + first), over_s * load(w, s + first), over_z * load(w, z + first)
-        head = v_0 * (mean + mean) - over * (s_0 + z_0)
+        head = v_0 * (mean + mean) - over_2 * (s_0 + z_0)
         turn = (v_0 * apart - half * s_0 + half * z_0) / (head + one)
         by_v = apart - (turn + turn) * mean
-        by_s, by_z = half * (one - turn / middle), half * (one + turn / middle)
+        share = (turn + turn) * over_2
+        by_s, by_z = half * (one - share), half * (one + share)
         size_of = root(of_s * of_z)
-        norm = one / root(all_of(2.0) * (head + one))
+        inverse = one / size_of
+        norm = one / root(head + head + all_of(2.0))
         for i in range(first + 1, first + size):
             v_i, s_i, z_i = load(w, v + i), over_s * load(w, s + i), over_z * load(w, z + i)
             store(w, point + i, size_of * (by_v * v_i + by_s * s_i + by_z * z_i))
-            store(w, v + i, norm * ((mean + mean) * v_i + over * (s_i - z_i)))
+            store(w, v + i, norm * ((mean + mean) * v_i + over_2 * (s_i - z_i)))
         store(w, point + first, size_of * middle)
+        store(w, over + c, inverse)
         store(w, v + first, norm * (head + one))
-        store(w, beta + c, load(w, beta + c) * root(of_s / of_z))
+        store(w, beta + c, load(w, beta + c) * of_s * inverse)
+        store(w, under + c, load(w, under + c) * of_z * inverse)
 
 
 @compiled

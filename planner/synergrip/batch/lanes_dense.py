@@ -37,44 +37,53 @@ def product_within(w: Any, out: int, A: Any, spans: Any, B: Any, m: int, n: int,
 
 @compiled
 def _two_rows(w: Any, out: int, A: Any, B: Any, i: int, below: int, first: int, end: int, n: int, add: float) -> None:
-    """Write two rows of A B (..., n), or one where they are the same, by columns `first` to `end` of A."""
+    """Write two rows of A B (..., n), by columns `first` to `end` of A; one where both are the same.
+
+    Three columns are made at once. Where there are fewer the last one is made several times, and put down as often:
+    nothing is added twice.
+    """
     kept_apart()
-    times = all_of(add)
     a, b = A.first + i * A.down, A.first + below * A.down
-    for j in range(0, n, 2):
-        beside = min(j + 1, n - 1)
-        c, d = B.first + j * B.right, B.first + beside * B.right
-        s00, s01, s10, s11 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
+    for j in range(0, n, 3):
+        k, l = min(j + 1, n - 1), min(j + 2, n - 1)  # noqa: E741
+        c, d, e = B.first + j * B.right, B.first + k * B.right, B.first + l * B.right
+        p0, p1, p2, q0, q1, q2 = all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)
         for inner in range(first, end):
-            x, y = load(w, a + inner * A.right), load(w, b + inner * A.right)
-            p, q = load(w, c + inner * B.down), load(w, d + inner * B.down)
-            s00, s01, s10, s11 = s00 + x * p, s01 + x * q, s10 + y * p, s11 + y * q
-        _put(w, out + i * n + j, s00, times, add)
-        if beside > j:
-            _put(w, out + i * n + beside, s01, times, add)
-        if below > i:
-            _put(w, out + below * n + j, s10, times, add)
-            if beside > j:
-                _put(w, out + below * n + beside, s11, times, add)
+            x, y, u = load(w, a + inner * A.right), load(w, b + inner * A.right), load(w, c + inner * B.down)
+            p0, q0 = p0 + x * u, q0 + y * u
+            u = load(w, d + inner * B.down)
+            p1, q1 = p1 + x * u, q1 + y * u
+            u = load(w, e + inner * B.down)
+            p2, q2 = p2 + x * u, q2 + y * u
+        row, other = out + i * n, out + below * n
+        if add != 0.0:
+            times = all_of(add)
+            p0, p1, p2 = load(w, row + j) + times * p0, load(w, row + k) + times * p1, load(w, row + l) + times * p2
+            q0, q1, q2 = (
+                load(w, other + j) + times * q0,
+                load(w, other + k) + times * q1,
+                load(w, other + l) + times * q2,
+            )
+        store(w, row + j, p0)
+        store(w, row + k, p1)
+        store(w, row + l, p2)
+        store(w, other + j, q0)
+        store(w, other + k, q1)
+        store(w, other + l, q2)
 
 
 @compiled
-def _put(w: Any, place: int, value: Any, times: Any, add: float) -> None:
-    if add == 0.0:
-        store(w, place, value)
-    else:
-        store(w, place, load(w, place) + times * value)
+def cholesky(w: Any, a: int, n: int, starts: Any) -> Any:
+    """Write L of ``A = L L'`` over A (n, n), its diagonal inverted; return the least pivot over its diagonal.
 
-
-@compiled
-def cholesky(w: Any, a: int, n: int) -> Any:
-    """Write L of ``A = L L'`` over A (n, n), its diagonal inverted; return the least pivot over its diagonal."""
+    Rows of A, and so those of L, are 0 before their `starts` (n,).
+    """
     kept_apart()
     one, least = all_of(1.0), all_of(1.0)
     for j in range(n):
         whole = load(w, a + j * n + j)
         pivot = whole
-        for k in range(j):
+        for k in range(starts[j], j):
             part = load(w, a + j * n + k)
             pivot = pivot - part * part
         share = pivot / whole
@@ -82,27 +91,32 @@ def cholesky(w: Any, a: int, n: int) -> Any:
         over = one / root(pivot)
         store(w, a + j * n + j, over)
         for i in range(j + 1, n):
+            if starts[i] > j:
+                continue
             entry = load(w, a + i * n + j)
-            for k in range(j):
+            for k in range(max(starts[i], starts[j]), j):
                 entry = entry - load(w, a + i * n + k) * load(w, a + j * n + k)
             store(w, a + i * n + j, entry * over)
     return least
 
 
 @compiled
-def lower_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
-    """Write ``L^-1 B`` over B (n, columns), for L of `cholesky`."""
-    _solved_in_turn(w, Matrix(L, n, 1), n, b, columns, columns)
+def lower_solved(w: Any, L: int, n: int, starts: Any, b: int, columns: int) -> None:
+    """Write ``L^-1 B`` over B (n, columns), for L of `cholesky`, whose rows are 0 before their `starts` (n,)."""
+    _solved_in_turn(w, Matrix(L, n, 1), n, starts, b, columns, columns)
 
 
 @compiled
-def lower_transposed_solved(w: Any, L: int, n: int, b: int, columns: int) -> None:
-    """Write ``L'^-1 B`` over B (n, columns), for L of `cholesky`: from the last row up L' is lower triangular."""
-    _solved_in_turn(w, Matrix(L + n * n - 1, -1, -n), n, b + (n - 1) * columns, -columns, columns)
+def lower_transposed_solved(w: Any, L: int, n: int, starts: Any, b: int, columns: int) -> None:
+    """Write ``L'^-1 B`` over B (n, columns), for L of `cholesky`: from the last row up L' is lower triangular.
+
+    So turned, its rows are 0 before their `starts` (n,).
+    """
+    _solved_in_turn(w, Matrix(L + n * n - 1, -1, -n), n, starts, b + (n - 1) * columns, -columns, columns)
 
 
 @compiled
-def _solved_in_turn(w: Any, L: Matrix, n: int, b: int, down: int, columns: int) -> None:
+def _solved_in_turn(w: Any, L: Matrix, n: int, starts: Any, b: int, down: int, columns: int) -> None:
     """Write ``L^-1 B`` over B (n, columns), whose rows are `down` apart, for a lower L with an inverted diagonal."""
     kept_apart()
     for c in range(0, columns, 4):
@@ -110,7 +124,7 @@ def _solved_in_turn(w: Any, L: Matrix, n: int, b: int, down: int, columns: int) 
         for i in range(n):
             row, here = b + i * down, L.first + i * L.down
             one, two, three, four = load(w, row + c), load(w, row + d), load(w, row + e), load(w, row + f)
-            for k in range(i):
+            for k in range(starts[i], i):
                 part, above = load(w, here + k * L.right), b + k * down
                 one, two = one - part * load(w, above + c), two - part * load(w, above + d)
                 three, four = three - part * load(w, above + e), four - part * load(w, above + f)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.batch.lanes import LANES, all_of, any_above_zero, load, root, store, where_less
+from synergrip.batch.lanes import LANES, all_of, any_above_zero, kept_apart, load, root, store, where_less
 from synergrip.batch.lanes_algebra import (
     add_scaled,
     carried_on,
@@ -22,10 +22,10 @@ from synergrip.batch.lanes_algebra import (
     magnitude,
     moved_inside,
     unscaled,
-    unscaled_rows,
     workspace,
 )
-from synergrip.batch.lanes_linear import factor, solution
+from synergrip.batch.lanes_linear import factor, rows_of_step, solution
+from synergrip.batch.lanes_rows import lanes_into_rows, rows_into_lanes
 from synergrip.batch.numpy_kernel import BOUNDARY, MOST, STUCK
 
 SOLVED, ENOUGH, NOTHING = 0.0, 1.0, 2.0
@@ -34,24 +34,37 @@ SOLVED, ENOUGH, NOTHING = 0.0, 1.0, 2.0
 @compiled
 def _residuals(w: Any, at: Any) -> Any:
     """Write what is missing to an optimum; return the largest of both, the size of the first, and the objective."""
-    value, of_x, of_s, size = all_of(0.0), all_of(0.0), all_of(0.0), all_of(1.0)
-    for i in range(at.n):
-        of_P = all_of(0.0)
-        for j in range(at.n):
-            of_P = of_P + load(w, at.P + i * at.n + j) * load(w, at.x + j)
-        value = value + load(w, at.x + i) * (all_of(0.5) * of_P + load(w, at.q + i))
-        size = larger(size, magnitude(of_P))
-        total = of_P + load(w, at.q + i)
-        for r in range(at.m):
-            total = total + load(w, at.A + r * at.n + i) * load(w, at.z + r)
+    kept_apart()
+    zero, n, pairs = all_of(0.0), at.n, at.pairs
+    value, of_x, of_s, size = zero, zero, zero, all_of(1.0)
+    for r in range(at.rows):
+        part = load(w, at.z + pairs + r)
+        store(w, at.one + r, load(w, at.z + r) - part if r < pairs else part)
+    for i in range(n):
+        total = load(w, at.q + i)
+        of_P = zero
+        if at.quadratic:
+            for j in range(n):
+                of_P = of_P + load(w, at.P + i * n + j) * load(w, at.x + j)
+            size = larger(size, magnitude(of_P))
+        value = value + load(w, at.x + i) * (all_of(0.5) * of_P + total)
+        total = total + of_P
+        for r in range(at.rows):
+            total = total + load(w, at.A + r * n + i) * load(w, at.one + r)
         store(w, at.rx + i, total)
         of_x = larger(of_x, magnitude(total))
-    for r in range(at.m):
-        total = load(w, at.s + r) - load(w, at.b + r)
-        for j in range(at.n):
-            total = total + load(w, at.A + r * at.n + j) * load(w, at.x + j)
-        store(w, at.rs + r, total)
-        of_s = larger(of_s, magnitude(total))
+    for r in range(at.rows):
+        total = zero
+        for j in range(n):
+            total = total + load(w, at.A + r * n + j) * load(w, at.x + j)
+        if r < pairs:
+            left = load(w, at.s + r) - load(w, at.b + r) + total
+            store(w, at.rs + r, left)
+            of_s = larger(of_s, magnitude(left))
+            total = zero - total
+        left = load(w, at.s + pairs + r) - load(w, at.b + pairs + r) + total
+        store(w, at.rs + pairs + r, left)
+        of_s = larger(of_s, magnitude(left))
     return of_x, of_s, size, value
 
 
@@ -60,19 +73,21 @@ def _begin(w: Any, at: Any, cones: Any) -> None:
     """Write the least-squares point, moved into the cones, and its scaling."""
     zero, one = all_of(0.0), all_of(1.0)
     for r in range(at.m):
-        for j in range(at.wide):
-            store(w, at.R + r * at.wide + j, load(w, at.A + r * at.n + j) if j < at.n else zero)
-    factor(w, at)
-    solution(w, at, at.q, at.b, at.x, at.z)
-    for r in range(at.m):
-        store(w, at.s + r, zero - load(w, at.z + r))
         store(w, at.v + r, zero)
     for c in range(len(cones)):
         store(w, at.v + cones[c, 0], one)
         store(w, at.beta + c, one)
+        store(w, at.under + c, one)
+    for r in range(at.rows):
+        store(w, at.R + r * at.wide + at.wide - 1, zero)  # the column that makes their number even
+    rows_of_step(w, at, cones)
+    factor(w, at)
+    solution(w, at, at.q, at.b, at.x, at.z)
+    for r in range(at.m):
+        store(w, at.s + r, zero - load(w, at.z + r))
     moved_inside(w, at.s, at.m, cones)
     moved_inside(w, at.z, at.m, cones)
-    carried_on(w, at.v, at.beta, at.point, at.s, at.z, cones)
+    carried_on(w, at, at.s, at.z, cones)
 
 
 @compiled
@@ -110,26 +125,34 @@ def _judged(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> An
 @compiled
 def _reach(w: Any, at: Any, cones: Any) -> Any:
     """Return how far both parts of a step may go."""
-    of_s, of_z = longest_step(w, at.point, at.ds, cones), longest_step(w, at.point, at.dz, cones)
-    return where_less(of_z, of_s, of_z, of_s)
+    kept_apart()
+    of_s = longest_step(w, at.point, at.over, at.ds, cones)
+    of_z = longest_step(w, at.point, at.over, at.dz, cones)
+    return all_of(1.0) / larger(of_s, of_z)
 
 
 @compiled
 def _direct(w: Any, at: Any, cones: Any, gap: Any) -> Any:
     """Write the step, in scaled coordinates, predicted and corrected; return how far it may go."""
     zero, one = all_of(0.0), all_of(1.0)
-    unscaled_rows(w, at.v, at.beta, at.A, at.R, at.n, at.wide, cones)
+    rows_of_step(w, at, cones)
     factor(w, at)
-    unscaled(w, at.v, at.beta, at.rs, at.scaled_rs, cones)
+    unscaled(w, at.v, at.under, at.rs, at.scaled_rs, cones)
     for r in range(at.m):
         store(w, at.aim + r, load(w, at.point + r) - load(w, at.scaled_rs + r))
     solution(w, at, at.rx, at.aim, at.dx, at.dz)
+    both = zero
     for r in range(at.m):
-        store(w, at.ds + r, zero - load(w, at.point + r) - load(w, at.dz + r))
-    short = larger(zero, one - _reach(w, at, cones))
-    centre = short * short * short * gap / all_of(float(len(cones)))
+        ds, dz = zero - load(w, at.point + r) - load(w, at.dz + r), load(w, at.dz + r)
+        store(w, at.ds + r, ds)
+        both = both + ds * dz
+    reach = _reach(w, at, cones)
+    reach = where_less(one, reach, one, reach)
+    would_be = larger(zero, one - reach + reach * reach * both / gap)
+    would_be = where_less(one, would_be, one, would_be)
+    centre = would_be * root(would_be) * gap / all_of(float(len(cones)))
     less_product(w, at.ds, at.dz, centre, at.ds, cones)
-    divided(w, at.ds, at.point, at.aim, cones)
+    divided(w, at.ds, at.point, at.over, at.aim, cones)
     for r in range(at.m):
         wanted = load(w, at.aim + r) - load(w, at.point + r)
         store(w, at.ds + r, wanted)
@@ -151,13 +174,13 @@ def _move(w: Any, at: Any, cones: Any, step: Any, active: Any) -> None:
     for r in range(at.m):
         store(w, at.ds + r, where_less(zero, active, step * load(w, at.ds + r), zero))
         store(w, at.dz + r, where_less(zero, active, step * load(w, at.dz + r), zero))
-    unscaled(w, at.v, at.beta, at.dz, at.aim, cones)
+    unscaled(w, at.v, at.under, at.dz, at.aim, cones)
     add_scaled(w, at.v, at.beta, at.ds, at.s, cones)
     for r in range(at.m):
         store(w, at.z + r, load(w, at.z + r) + load(w, at.aim + r))
         store(w, at.dz + r, load(w, at.point + r) + load(w, at.dz + r))
         store(w, at.ds + r, load(w, at.point + r) + load(w, at.ds + r))
-    carried_on(w, at.v, at.beta, at.point, at.ds, at.dz, cones)
+    carried_on(w, at, at.ds, at.dz, cones)
 
 
 @compiled
@@ -185,22 +208,18 @@ def _eight(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Non
 def made(stamp: int) -> Any:
     """Return the function that solves groups of eight; its compiled form is kept for this `stamp` alone.
 
-    It takes the problems (groups, entries, 8), where things are, the cones (cones, 2) and the tolerances, and returns
-    what comes after the problems in each workspace: x, s, z, status, iterations.
+    It takes numbers of the problems, a row for each (N or 1, ...), which of them come one after the other in the
+    workspace (from, how many), where things are, the cones (cones, 2) and the tolerances; it writes x, s, z, status and
+    iterations (N, entries).
     """
 
-    def solved(given: Any, at: Any, cones: Any, residual: float, most_gap: float) -> Any:
-        entries, answers = at.x, at.v - at.x
-        found = np.empty((given.shape[0], answers, LANES))
+    def solved(given: Any, spans: Any, found: Any, at: Any, cones: Any, residual: float, most_gap: float) -> None:
         w = workspace(at.end + stamp * 0)
-        for group in range(given.shape[0]):
-            for k in range(entries):
-                for lane in range(LANES):
-                    w[k * LANES + lane] = given[group, k, lane]
+        for group in range((len(found) + LANES - 1) // LANES):
+            entry, here = 0, min(LANES, len(found) - group * LANES)
+            for part, rows in enumerate(given):
+                entry = rows_into_lanes(w, entry, rows, spans[part, 0], spans[part, 1], group, here)
             _eight(w, at, cones, residual, most_gap)
-            for k in range(answers):
-                for lane in range(LANES):
-                    found[group, k, lane] = w[(entries + k) * LANES + lane]
-        return found
+            lanes_into_rows(w, at.x, found, group, here)
 
     return compiled(solved, inner=False)

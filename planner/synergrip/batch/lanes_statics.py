@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from synergrip.batch.lanes import LANES, all_of, kept_apart, load, store, where_less
+from synergrip.batch.lanes import LANES, all_of, any_above_zero, kept_apart, load, store, where_less
 from synergrip.batch.lanes_algebra import compiled, magnitude, workspace
 from synergrip.batch.lanes_bases import bases
 from synergrip.batch.lanes_centroid import about_centroid, in_place
+from synergrip.batch.lanes_confirmed import confirmed
 from synergrip.batch.lanes_dense import (
     Matrix,
     cholesky,
@@ -24,6 +23,7 @@ from synergrip.batch.lanes_dense import (
     product,
     product_within,
 )
+from synergrip.batch.lanes_rows import lanes_into_rows, rows_into_lanes
 from synergrip.statics.saddle import APART, CAUTION, ROUNDOFF
 
 AGREED = 1e-12
@@ -47,30 +47,30 @@ def _factors(w: Any, at: Any, spans: Any) -> Any:
     for i in range(l * l):
         store(w, at.L + i, load(w, at.C_s + i))
     product(w, at.L, Matrix(at.wide, q, 1), Matrix(at.J, 1, q), l, q, l, 1.0)
-    of_forces = cholesky(w, at.L, l)
+    of_forces = cholesky(w, at.L, l, spans.L)
     for i in range(l):
         for j in range(6):
             store(w, at.Y + 6 * i + j, load(w, at.turned + j * l + i))
-    lower_solved(w, at.L, l, at.Y, 6)
+    lower_solved(w, at.L, l, spans.L, at.Y, 6)
     product(w, at.R, Matrix(at.Y, 1, 6), Matrix(at.Y, 6, 1), 6, l, 6, 0.0)
-    of_motions = cholesky(w, at.R, 6)
+    of_motions = cholesky(w, at.R, 6, spans.R)
     return where_less(of_forces, of_motions, of_forces, of_motions)
 
 
 @compiled
-def _solved(w: Any, at: Any, b: int) -> None:
+def _solved(w: Any, at: Any, spans: Any, b: int) -> None:
     """Write lambda and u over the right-hand sides (l + 6, k) of ``C lambda + G'u = f``, ``G lambda = g``."""
     kept_apart()
     l, k = at.l, at.k  # noqa: E741
-    lower_solved(w, at.L, l, b, k)
+    lower_solved(w, at.L, l, spans.L, b, k)
     u = b + l * k
     for i in range(6 * k):
         store(w, u + i, all_of(0.0) - load(w, u + i))
     product(w, u, Matrix(at.Y, 1, 6), Matrix(b, k, 1), 6, l, k, 1.0)
-    lower_solved(w, at.R, 6, u, k)
-    lower_transposed_solved(w, at.R, 6, u, k)
+    lower_solved(w, at.R, 6, spans.R, u, k)
+    lower_transposed_solved(w, at.R, 6, spans.R, u, k)
     product(w, b, Matrix(at.Y, 6, 1), Matrix(u, k, 1), l, 6, k, -1.0)
-    lower_transposed_solved(w, at.L, l, b, k)
+    lower_transposed_solved(w, at.L, l, spans.L_T, b, k)
 
 
 @compiled
@@ -103,7 +103,7 @@ def _corrected(w: Any, at: Any, spans: Any, a: int, out: int) -> None:
         for j in range(k):
             store(w, balance + i * k + j, all_of(-1.0 if j == z + i else 0.0))
     product(w, balance, Matrix(at.turned, l, 1), Matrix(a, k, 1), 6, l, k, -1.0)
-    _solved(w, at, out)
+    _solved(w, at, spans, out)
 
 
 @compiled
@@ -139,23 +139,38 @@ def _largest(w: Any, at: Any, values: int, out: int, times: float, beside: int, 
 
 @compiled
 def _maps(w: Any, at: Any, spans: Any) -> None:
-    """Write the maps, and the largest entries of each and of what the arithmetic may have lost."""
+    """Write the maps, and the largest entries of each and of what the arithmetic may have lost.
+
+    What is left over of the equations corrects them once, and once more where that was much.
+    """
     l, z, k = at.l, at.z, at.k  # noqa: E741
-    for i in range(24):
-        store(w, at.size + i, all_of(0.0))
     for i in range(l + 6):
         for j in range(k):
             fit = load(w, at.JS + i * z + j) if i < l and j < z else all_of(-1.0 if i - l == j - z else 0.0)
             store(w, at.maps + i * k + j, fit)
-    _solved(w, at, at.maps)
+    _solved(w, at, spans, at.maps)
     for _ in range(2):
         _followed(w, at, spans, at.maps, 1.0)
         _corrected(w, at, spans, at.maps, at.other)
         _added(w, at, at.maps, at.other)
-    _followed(w, at, spans, at.other, 0.0)
-    _followed(w, at, spans, at.maps, 1.0)
-    _largest(w, at, at.maps, at.size, 1.0, at.maps, 0.0)
-    _largest(w, at, at.other, at.lost, CAUTION, at.maps, ROUNDOFF)
+        _followed(w, at, spans, at.other, 0.0)
+        _followed(w, at, spans, at.maps, 1.0)
+        for i in range(24):
+            store(w, at.size + i, all_of(0.0))
+        _largest(w, at, at.maps, at.size, 1.0, at.maps, 0.0)
+        _largest(w, at, at.other, at.lost, CAUTION, at.maps, ROUNDOFF)
+        if not any_above_zero(all_of(1.0) - _kept(w, at)):
+            break
+
+
+@compiled
+def _kept(w: Any, at: Any) -> Any:
+    """Return 1 where no map has lost more than its digits allow, else 0."""
+    kept = all_of(1.0)
+    for i in range(12):  # a map that is nothing and has lost nothing is 0 for sure
+        allowed = all_of(AGREED) * load(w, at.size + i) + all_of(1e-300)
+        kept = where_less(load(w, at.lost + i), allowed, kept, all_of(0.0))
+    return kept
 
 
 @compiled
@@ -173,11 +188,7 @@ def _doubts(w: Any, at: Any, spans: Any, half_units: Any) -> Any:
     for i in range(at.n * at.k):
         store(w, at.other + i, load(w, at.other + i) - load(w, at.maps + i))
     _largest(w, at, at.other, at.lost, CAUTION / APART, at.maps, 0.0)
-    clear = all_of(1.0)
-    for i in range(12):  # a map that is nothing and has lost nothing is 0 for sure
-        allowed = all_of(AGREED) * load(w, at.size + i) + all_of(1e-300)
-        clear = where_less(load(w, at.lost + i), allowed, clear, all_of(0.0))
-    return clear
+    return _kept(w, at)
 
 
 @compiled
@@ -195,26 +206,31 @@ def _eight(w: Any, at: Any, spans: Any, half_units: Any) -> None:
 def made(stamp: int) -> Any:
     """Return the function that works out the statics of grasps; its compiled form is kept for this `stamp` alone.
 
-    It takes the numbers of the grasps (N or 1, entries) one after the other, where things are, where rows are not 0,
-    what the numbers of a grasp are multiplied by to tell how far they are known, how many grasps there are, and which
-    entries of the workspace are wanted (from, to); it returns these (N, entries).
+    It takes the numbers of the grasps, a row for each (N or 1, ...), where things are, where rows are not 0, what the
+    numbers of a grasp are multiplied by to tell how far they are known, and normal numbers to confirm by; it writes a
+    row for each grasp, from `at.clear` on. Where `known`, what these rows have is confirmed, and nothing worked out.
     """
 
-    def worked_out(given: Any, at: Any, spans: Any, half_units: Any, count: int, wanted: Any) -> Any:
-        found = np.empty((count, wanted[1] - wanted[0]))
+    def worked_out(given: Any, at: Any, spans: Any, half_units: Any, chances: Any, found: Any, known: bool) -> None:
         w = workspace(at.end + stamp * 0)
-        for group in range((count + LANES - 1) // LANES):
-            entry, here = 0, min(LANES, count - group * LANES)
-            for part in given:
-                for k in range(part.shape[1]):
-                    for lane in range(LANES):
-                        row = group * LANES + min(lane, here - 1) if len(part) > 1 else 0
-                        w[(entry + k) * LANES + lane] = part[row, k]
-                entry += part.shape[1]
-            _eight(w, at, spans, half_units)
-            for k in range(wanted[0], wanted[1]):
-                for lane in range(here):
-                    found[group * LANES + lane, k - wanted[0]] = w[k * LANES + lane]
-        return found
+        for group in range((len(found) + LANES - 1) // LANES):
+            here = min(LANES, len(found) - group * LANES)
+            if not known:
+                _numbers(w, given, group, here)
+                _eight(w, at, spans, half_units)
+                lanes_into_rows(w, at.clear, found, group, here)
+            _numbers(w, given, group, here)
+            rows_into_lanes(w, at.clear, found, 0, found.shape[1], group, here)
+            store(w, at.clear, load(w, at.clear) * confirmed(w, at, chances))
+            for lane in range(here):
+                found[group * LANES + lane, 0] = w[at.clear * LANES + lane]
 
     return compiled(worked_out, inner=False)
+
+
+@compiled
+def _numbers(w: Any, given: Any, group: int, here: int) -> None:
+    """Write the numbers of eight grasps, which come first in the workspace."""
+    entry = 0
+    for rows in given:
+        entry = rows_into_lanes(w, entry, rows, 0, rows.shape[1], group, here)

@@ -22,7 +22,7 @@ from synergrip.linalg import Array
 
 MOST = 50
 """Iterations; nearly all problems take 7 to 12."""
-BOUNDARY = 0.99
+BOUNDARY = 0.98
 """Share of the way to the boundary of the cones that a step goes at most."""
 STUCK = 1e-4
 """A step shorter than this leads nowhere any more."""
@@ -155,7 +155,8 @@ def _stepped(state: _State, left: _Residuals) -> tuple[_State, NDArray[np.bool_]
 
     _, ds, dz = direction(-point)
     reach = np.minimum(1.0, np.minimum(W.longest_step(ds), W.longest_step(dz)))
-    centring = (1 - reach) ** 3 * left.gap / len(problems.sizes)
+    would_be = np.clip(1 - reach + reach**2 * (ds * dz).sum(axis=-1) / left.gap, 0.0, 1.0)  # as ds + dz = -lambda
+    centring = would_be**1.5 * left.gap / len(problems.sizes)
     unit = heads(W.groups)
     wanted = W.divided(centring[:, None] * unit - W.product(ds, dz)) - point
     dx, ds, dz = direction(wanted)

@@ -44,8 +44,8 @@ def judged(assembled: Assembled, v: Array, margin: Array, wrench: Array) -> Phys
         wrench: (N, 6) load about B [N, N m].
     """
     stated, formulation = assembled.stated, assembled.stated.formulation
-    unknowns = v * columns(stated, assembled.unit)
-    dz_r = formulation.reference.at(unknowns)
+    parts = formulation.parts(v * columns(stated, assembled.unit))
+    dz_r = times(formulation.map_of(lambda at: at.coordinates.inverse), np.concatenate(parts, axis=1))
     made = times(formulation.map_of(lambda at: at.response.dlambda_dzr), dz_r)
     forces = stated.at_rest + made
     normal = forces[:, stated.grasps[0].normal_rows]

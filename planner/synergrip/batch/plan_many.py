@@ -174,10 +174,10 @@ def _on_stack(
 
     if quick is not None and (found := quick(part)) is not None:
         yield found.places, stated(found.like, found.each, found.grasps, found.places), np.ones(len(found.places), bool)
-        if len(left := np.setdiff1d(left, found.places)):
-            part = part.taken(left)
-    if not len(left):
-        return
+        if len(found.places) == len(left):
+            return
+        left = np.setdiff1d(left, found.places)
+        part = part.taken(left)
     for group in analyses_for_plans(part):
         known, within = _known(group), left[group.places]
         if known.any():

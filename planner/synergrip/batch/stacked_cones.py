@@ -3,65 +3,110 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain
-from operator import attrgetter
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
-from synergrip.grasps.contacts.kind import ContactKind
-from synergrip.grasps.friction_cones import Cones
+from synergrip.conic.affine import Affine, times
+from synergrip.grasps.friction_cones import SLIPPERY
 from synergrip.grasps.grasp import Grasp
-from synergrip.linalg import Array
+from synergrip.grasps.stacked_kinds import StackedKinds
+from synergrip.linalg import Array, Places
+from synergrip.values import Value
 
 
-def stacked_cones(grasps: Sequence[Grasp], friction: Array | None) -> tuple[Cones, ...]:
-    """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first."""
-    first, kinds = grasps[0], list(map(attrgetter("kind"), chain.from_iterable(map(attrgetter("contacts"), grasps))))
-    every = [
-        (contact, W.shape[-2], W) for contact in range(first.n_c) for W in _cones(kinds[contact :: first.n_c], friction)
-    ]
-    leading = (len(grasps),) if len(grasps) > 1 else (() if friction is None else (len(friction),))
+@dataclass(frozen=True, eq=False, repr=False)
+class StackedCones(Value):
+    """The cones of one size of all contacts, as `Cones` has them, in as few numbers as they take."""
+
+    size: int
+    contacts: NDArray[np.intp]
+    """(cones,) which contact each belongs to."""
+    n_l: int
+    columns: NDArray[np.intp] | None
+    """(cones * size,) the one force component that each row of W takes; None where there is a row that takes more."""
+    entries: Array
+    """What it takes of it (cones * size,), or W (cones * size, n_l); or (N, ...) with one for each problem."""
+
+    @cached_property
+    def W(self) -> Array:
+        """(cones * size, n_l), or (N, ...) with one for each problem."""
+        if self.columns is None:
+            return self.entries
+        whole = np.zeros((*self.entries.shape, self.n_l))
+        whole[..., range(len(self.columns)), self.columns] = self.entries
+        return whole
+
+    @cached_property
+    def unit(self) -> Array:
+        """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
+        largest = np.abs(self.entries[..., :: self.size] if self.columns is not None else self.W[..., :: self.size, :])
+        largest = largest if self.columns is not None else largest.max(axis=-1)
+        return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
+
+    def taken(self, places: Places) -> StackedCones:
+        """Return those of the problems at some places."""
+        one_for_all = self.entries.ndim == (1 if self.columns is not None else 2)
+        return self if one_for_all else replace(self, entries=self.entries[places])
+
+    def after(self, force: Affine) -> tuple[Affine, Array]:
+        """Return ``W lambda`` of contact forces that are affine in something, but for a factor of each row.
+
+        The factors (..., rows) are those of its matrix, and come with it, so that nobody multiplies twice.
+        """
+        if self.columns is None:
+            whole = force.after(self.W)
+            return whole, np.ones(whole.matrix.shape[-2])
+        every = np.array_equal(self.columns, np.arange(force.matrix.shape[-2]))
+        taken = force.matrix if every else force.matrix[..., self.columns, :]
+        return Affine(taken, self.entries * force.constant[:, self.columns]), self.entries
+
+    def images(self, forces: Array) -> Array:
+        """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
+        every = times(self.W, forces) if self.columns is None else self.entries * forces[:, self.columns]
+        return every.reshape(len(forces), len(self.contacts), self.size)
+
+
+def stacked_cones(first: Grasp, kinds: StackedKinds, friction: Array | None) -> tuple[StackedCones, ...]:
+    """Return the cones of one grasp, or of N, with friction multiplied by (N,) factors; half-lines first.
+
+    Args:
+        first: the grasp, or the first of N.
+        kinds: of the contacts of all.
+        friction: factors; None for friction as it is.
+    """
+    every = [(i, W.shape[-2], W) for i, contact in enumerate(kinds.contacts) for W in contact.cones(friction)]
+    leading = (len(kinds),) if len(kinds) > 1 else (() if friction is None else (len(friction),))
     found = []
     for size in sorted({size for _, size, _ in every}):
-        chosen = [each for each in every if each[1] == size]
-        W = np.zeros((*leading, len(chosen) * size, first.n_l))
-        for k, (contact, _, own) in enumerate(chosen):
-            W[..., k * size : (k + 1) * size, first.rows[contact]] = own
-        found.append(Cones(size, np.array([contact for contact, *_ in chosen]), W))
+        chosen = [(contact, W) for contact, own, W in every if own == size]
+        contacts, columns = np.array([contact for contact, _ in chosen]), _columns(first, chosen)
+        shape = (len(chosen) * size,) if columns is not None else (len(chosen) * size, first.n_l)
+        entries = np.zeros((*leading, *shape))
+        for k, (contact, W) in enumerate(chosen):
+            rows, own = slice(k * size, (k + 1) * size), first.rows[contact]
+            if columns is None:
+                entries[..., rows, own] = W
+            else:
+                entries[..., rows] = W[..., range(size), columns[rows] - own.start]
+        found.append(StackedCones(size, contacts, first.n_l, columns, entries))
     return tuple(found)
 
 
-def _cones(kinds: Sequence[ContactKind], friction: Array | None) -> tuple[Array, ...]:
-    """Return the cones (..., d, rows) of one contact in all grasps; each class of contacts makes its own at once."""
-    classes: list[type[ContactKind]] = list(dict.fromkeys(map(type, kinds)))
-    if len(classes) == 1:
-        return classes[0].cones_with(_values(kinds, friction))
-    which = np.array([classes.index(type(kind)) for kind in kinds])
-    whole: list[Array] = []
-    for i, each in enumerate(classes):
-        places = np.flatnonzero(which == i)
-        own = each.cones_with(
-            _values([kinds[k] for k in places.tolist()], None if friction is None else friction[places])
-        )
-        whole = whole or [np.empty((len(kinds), *W.shape[-2:])) for W in own]
-        for every, W in zip(whole, own, strict=True):
-            every[places] = W
-    return tuple(whole)
+def _columns(first: Grasp, chosen: Sequence[tuple[int, Array]]) -> NDArray[np.intp] | None:
+    """Return (cones * size,) the one force component that rows of cones take; None where one takes more."""
+    found = []
+    for contact, W in chosen:
+        there = (W != 0).reshape(-1, *W.shape[-2:]).any(axis=0)
+        if not (there.sum(axis=1) == 1).all():
+            return None
+        found.append(first.rows[contact].start + there.argmax(axis=1))
+    return np.concatenate(found)
 
 
-def _values(kinds: Sequence[ContactKind], friction: Array | None) -> dict[str, Array]:
-    """Return the parameters () or (N,) of contacts of one class, those of friction multiplied by factors."""
-    first = kinds[0]
-    values = {name: np.fromiter(map(attrgetter(name), kinds), float, len(kinds)) for name in first.named()}
-    if len(kinds) == 1:
-        values = {name: value[0] for name, value in values.items()}
-    for name in first.frictions if friction is not None else ():
-        if name in values:
-            values[name] = values[name] * friction
-    return values
-
-
-def most(cones: Sequence[Cones], grasp: Grasp) -> Array:
+def most(cones: Sequence[StackedCones], grasp: Grasp) -> Array:
     """Return (n_l,) or (N, n_l) the largest size of each force component for a newton of normal force, by the cones."""
     leading = cones[0].W.shape[:-2]
     result = np.ones((*leading, grasp.n_l))

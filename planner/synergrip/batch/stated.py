@@ -21,6 +21,7 @@ from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.scale import Metric
 from synergrip.grasps.stack import GraspStack
+from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.linalg import Array, frozen, sealed
 from synergrip.statics.analyses import AnalysisGroup
 from synergrip.statics.analysis import Analysis
@@ -43,6 +44,8 @@ class Stated(Value):
     """(N,) by which friction is multiplied; None for the contacts as they are."""
     grasps: tuple[Grasp, ...]
     """One for all, or N."""
+    kinds: StackedKinds
+    """Of the contacts of these."""
     metric: Metric
     """Scaled coordinates of the one grasp, or (N, ...) of each."""
     postures: Array | None
@@ -85,8 +88,8 @@ def stated_on(analysis: Analysis, task: TimedTask, wrench: Array, friction: Arra
     """Return the tasks with loads (N, 6) and friction factors (N,) on one grasp."""
     found = _formulated(analysis, task, wrench)
     held, scale = analysis.grasp.held, analysis.response.scale
-    postures = None if held is None else held.q[None]
-    return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), scale, postures)
+    postures, kinds = None if held is None else held.q[None], StackedKinds.of((analysis.grasp,))
+    return Stated(task, _held_at_start(found, wrench), friction, (analysis.grasp,), kinds, scale, postures)
 
 
 def stated_each(
@@ -104,7 +107,7 @@ def stated_each(
     """
     grasps = stack.given or (stack.like,)
     found = replace(_formulated(like, task, wrench), each=_begun(each, grasps))
-    return Stated(task, _held_at_start(found, wrench), friction, grasps, each.metric, stack.starts)
+    return Stated(task, _held_at_start(found, wrench), friction, grasps, stack.kinds, each.metric, stack.starts)
 
 
 def _formulated(analysis: Analysis, task: TimedTask, wrench: Array) -> Formulation:

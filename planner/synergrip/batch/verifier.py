@@ -89,9 +89,9 @@ def outside(problems: ConeProblems, values: Array) -> Array:
     worst = np.full(len(values), -np.inf)
     for group in problems.groups:
         part = values[:, group.rows].reshape(len(values), group.cones, group.size)
-        beyond = np.linalg.norm(part[..., 1:], axis=-1) - part[..., 0]
-        worst = np.maximum(worst, np.where(np.isnan(beyond), np.inf, beyond).max(axis=1))
-    return worst
+        beyond = -part[..., 0] if group.size == 1 else np.linalg.norm(part[..., 1:], axis=-1) - part[..., 0]
+        worst = np.maximum(worst, beyond.max(axis=1))  # what is no number stays
+    return np.where(np.isnan(worst), np.inf, worst)
 
 
 def projected(problems: ConeProblems, y: Array) -> Array:

@@ -83,6 +83,6 @@ class Affine(Value):
 
 def times(matrix: Array, values: Array) -> Array:
     """Return ``matrix @ values[k]`` (T, p) for values (T, m) and one matrix (p, m), or one for each, (T, p, m)."""
-    if matrix.ndim == 2:
-        return np.asarray(values @ matrix.T)
+    if matrix.ndim == 2 or len(matrix) == 1 < len(values):
+        return np.asarray(values @ matrix.reshape(matrix.shape[-2:]).T)
     return np.asarray((matrix @ values[:, :, None])[:, :, 0])

@@ -32,6 +32,8 @@ FAR = 1e3
 """Size of an unknown from which on units do not suit it."""
 UNBOUNDED_GAIN = 1e-5
 """Least improvement along a ray of size 1, and share of it by which a cone may be left."""
+HIDDEN = 1e-5
+"""Share of a small value that is rounding from which on no units show to the tolerance whether it is the least."""
 EPSILON = float(np.finfo(float).eps) / 2
 ROUNDING = 1e-12
 """Relative rounding allowance when the sign of a sum decides a proof."""
@@ -98,8 +100,18 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
-    rounding = 0.0 if verified else float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON / terms
+    rounding = 0.0 if verified else rounding_of(program, x) / terms
     return Certificate("optimal", bool(verified), max(primal, 0.0), dual, gap, rounding=rounding)
+
+
+def rounding_of(program: Program, x: Array) -> float:
+    """Return about how much of the objective at x (n,) is rounding of the sums that it is worked out from."""
+    return float(np.linalg.norm(x * (abs(program.P) @ np.abs(x)))) * EPSILON
+
+
+def rounding_hides(program: Program, x: Array, value: float) -> bool:
+    """Return whether so much of a small value of the objective at x (n,) is rounding that no other units help."""
+    return rounding_of(program, x) > HIDDEN * value
 
 
 def _largest(values: Array) -> float:

@@ -139,8 +139,8 @@ class Formulation(Value):
     @cached_property
     def force(self) -> Affine:
         """Contact forces lambda (n_l) [N, N m]."""
-        of_load = self.map_of(lambda at: at.response.right_inverse)
-        known = self.map_of(lambda at: forces_at_start(at.response)) - product(of_load, self.load_change)
+        of_load = self.map_of(lambda at: at.response.dlambda_dw)
+        known = self.map_of(lambda at: forces_at_start(at.response)) + product(of_load, self.load_change)
         return self.departed("force", self.alpha.after(self.map_of(lambda at: at.spaces.E_s)).plus(known))
 
     @cached_property

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import solve_banded
 
 from synergrip.conic.goals.goal import Squares
 from synergrip.linalg import RANK_TOLERANCE, Array, null_spaces, split
@@ -109,6 +108,8 @@ class _Course:
         band = np.zeros((lags, count))
         for lag in range(min(lags, count)):
             band[lag, : count - lag] = self.weights[lag:, lag]
+        from scipy.linalg import solve_banded
+
         later = solve_banded((lags - 1, 0), band, known)
         return _orthonormal(np.vstack([first, later]))
 

@@ -12,7 +12,6 @@ from itertools import chain
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
 from synergrip.conic.certificate import Certificate, judge_infeasible
 from synergrip.conic.cones import project_on_dual, row_sizes
@@ -57,6 +56,8 @@ def heads(program: Program) -> Array:
 
 def polished(program: Program, ray: Array) -> Array:
     """Return the ray y (m,) with less of ``A'y`` left over, still in the dual cone: projected on each in turn."""
+    from scipy.sparse import linalg
+
     if not np.all(np.isfinite(ray)) or not np.any(ray):
         return ray
     sizes = row_sizes(program)  # a far limit counts as much as a near one

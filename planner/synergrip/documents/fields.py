@@ -38,7 +38,7 @@ POSITIVE: Schema = {"type": "number", "exclusiveMinimum": 0}
 class Table(BaseModel):
     """A table of a file: unknown keys are refused, values cannot be changed."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)  # built for what a file has
 
     def issues(self) -> Iterable[Issue]:
         """Return what is wrong between the keys of this table; their keys are relative to it."""

@@ -8,7 +8,7 @@ from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.states import States
 from synergrip.linalg import Array, Places
 from synergrip.statics.response import Maps
-from synergrip.vectors import off_chord
+from synergrip.vectors import off_chord, rotation_matrices, rotation_vectors
 
 
 def states_between(
@@ -27,20 +27,18 @@ def states_between(
         times: (M,) [s].
         wrench: (M, 6) on the object; straight from one equilibrium to the next when it is None.
     """
-    from scipy.spatial.transform import Rotation
-
     states = equilibria.states
     last = np.clip(np.searchsorted(known, times, side="right"), min(1, len(known) - 1), len(known) - 1)
     first = np.maximum(last - 1, 0)
     share = np.clip((times - known[first]) / np.maximum(known[last] - known[first], 1e-300), 0.0, 1.0)[:, None]
-    before = Rotation.from_matrix(np.array(states.rotation[first]))
-    turn = (Rotation.from_matrix(np.array(states.rotation[last])) * before.inv()).as_rotvec()
+    before = states.rotation[first]
+    turn = rotation_vectors(states.rotation[last] @ before.mT)
     linear = [getattr(states, name)[last] - getattr(states, name)[first] for name in ("q", "position", "forces")]
     chord = np.hstack([*linear[:2], turn, linear[2]])
     bend = _bend(equilibria, maps, (first, last), share, chord, wrench)
     moved = share * chord + np.where(np.logical_and(regular[first], regular[last])[:, None], bend, 0.0)
     q, position, turned, forces = np.split(moved, np.cumsum([states.q.shape[1], 3, 3]), axis=1)
-    rotation = (Rotation.from_rotvec(turned) * before).as_matrix()
+    rotation = rotation_matrices(turned) @ before
     return States(states.q[first] + q, states.position[first] + position, rotation, states.forces[first] + forces)
 
 

@@ -19,6 +19,7 @@ from synergrip.errors import InputError
 from synergrip.linalg import Array, Places, frozen
 from synergrip.statics.response import Maps
 from synergrip.values import Value
+from synergrip.vectors import rotation_matrices, rotation_vectors
 
 ALIKE = 0.01
 """Share by which motions may be resisted differently and be alike: which of them is softest, rounding would say."""
@@ -118,13 +119,11 @@ class Execution(Value):
         Args:
             wanted: (T, 6) displacements from the start: translation and rotation vector [m, rad].
         """
-        from scipy.spatial.transform import Rotation
-
         judge = Arguments("Execution.left")
         aim = np.array(judge.array("wanted", wanted, (len(self.times), 6), ", one for each time")[: len(self.states)])
         judge.finish()
-        turn = Rotation.from_rotvec(aim[:, 3:]) * Rotation.from_matrix(np.array(self.states.rotation)).inv()
-        return frozen(np.hstack([aim[:, :3] - self.du[:, :3], turn.as_rotvec()]))
+        turn = rotation_vectors(rotation_matrices(aim[:, 3:]) @ self.states.rotation.mT)
+        return frozen(np.hstack([aim[:, :3] - self.du[:, :3], turn]))
 
     @cached_property
     def margins(self) -> Array:
@@ -181,7 +180,5 @@ class Execution(Value):
     @cached_property
     def du(self) -> Array:
         """(K, 6) displacement of the object from the start: translation and rotation vector [m, rad]."""
-        from scipy.spatial.transform import Rotation
-
-        turn = Rotation.from_matrix(np.array(self.states.rotation)).as_rotvec()
+        turn = rotation_vectors(self.states.rotation)
         return frozen(np.hstack([self.states.position - self.setting.held.body.position, turn]))

@@ -11,6 +11,7 @@ from synergrip.equilibrium.balance import Balance
 from synergrip.equilibrium.setting import Setting
 from synergrip.equilibrium.states import Loads, States
 from synergrip.linalg import Array
+from synergrip.vectors import rotation_matrices
 
 AT_REST = 1e-11
 """Error of `Balance.error` that counts as equilibrium."""
@@ -112,9 +113,7 @@ def _same(one: States | None, other: States) -> bool:
 
 
 def _moved(setting: Setting, states: States, change: Array) -> States:
-    from scipy.spatial.transform import Rotation
-
     n_l = setting.grasp.n_l
     forces, joints, shift, turn = np.split(change, [n_l, change.shape[1] - 6, change.shape[1] - 3], axis=1)
-    rotation = Rotation.from_rotvec(turn).as_matrix() @ states.rotation
+    rotation = rotation_matrices(turn) @ states.rotation
     return States(states.q + joints, states.position + shift, rotation, states.forces + forces)

@@ -13,7 +13,7 @@ from synergrip.documents.naming import naming_arguments
 from synergrip.documents.places import places_of
 from synergrip.linalg import Array
 from synergrip.values import Value
-from synergrip.vectors import rotation_vectors
+from synergrip.vectors import rotation_matrices, rotation_vectors
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -40,13 +40,11 @@ class States(Value):
 
     def between(self, other: States, share: Array) -> States:
         """Return states about on the way to others, at shares (T,) of it: for Newton's method to begin at."""
-        from scipy.spatial.transform import Rotation
-
         turns = share[:, None] * rotation_vectors(other.rotation @ self.rotation.mT)
         q, position, forces = (
             straight(getattr(self, name), getattr(other, name), share) for name in ("q", "position", "forces")
         )
-        return States(q, position, Rotation.from_rotvec(turns).as_matrix() @ self.rotation, forces)
+        return States(q, position, rotation_matrices(turns) @ self.rotation, forces)
 
     @classmethod
     def joined(cls, parts: Sequence[States]) -> States:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,7 +84,18 @@ def cones_of(contacts: Sequence[Contact], rows: Sequence[slice]) -> tuple[Cones,
     return tuple(found)
 
 
-def slip_margins(cones: Sequence[Cones], normal: Array, forces: Array) -> Array:
+class Images(Protocol):
+    """Cones of one size, as far as margins go by them."""
+
+    @property
+    def contacts(self) -> NDArray[np.intp]:
+        """(cones,) which contact each belongs to."""
+
+    def images(self, forces: Array) -> Array:
+        """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
+
+
+def slip_margins(cones: Sequence[Images], normal: Array, forces: Array) -> Array:
     """Return slip margins (N, n_c) [N] of contact forces (N, n_l) by the contacts' own formula, from their cones.
 
     ``(W lambda)_0 - ||(W lambda)_1..||``, the smallest of the cones of a contact, and no more than a pull.

@@ -17,6 +17,7 @@ from synergrip.errors import InputError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.postures import Postures
 from synergrip.grasps.scale import Metric, metric_of
+from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.grasps.varied_arrays import judged_array
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
@@ -103,10 +104,12 @@ class GraspStack(Value, Sequence[Grasp]):
         if not given:
             raise InputError.at("grasps", "expected at least one grasp, got none")
         _judge_forms(given)
-        names = [field.name for field in fields(Matrices)]
-        stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in (*names, "w_0")]
+        names = (*(field.name for field in fields(Matrices)), "w_0")
+        stacked = [_stacked(list(map(attrgetter(name), given)), len(given)) for name in names]
         points = _stacked([contact.point for grasp in given for contact in grasp.contacts], len(given), given[0].n_c)
-        return cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
+        stack = cls(Matrices(*stacked[:-1]), points, stacked[-1], given[0], given)
+        stack.__dict__["kinds"] = StackedKinds.of(given)  # with the other arrays
+        return stack
 
     @classmethod
     @naming_arguments
@@ -168,18 +171,17 @@ class GraspStack(Value, Sequence[Grasp]):
             UnknownPlaceError: there are no such places.
         """
         places = places_of("places", places, len(self))
-        given: tuple[Grasp, ...] = ()
-        if self.given:
-            chosen = isinstance(places, slice)
-            given = self.given[places] if chosen else tuple(self.given[i] for i in np.arange(len(self))[places])
+        if given := self.given:
+            each = range(len(self))[places] if isinstance(places, slice) else np.arange(len(self))[places]
+            given = tuple(given[i] for i in each)
         postures = None if self.postures is None else self.postures.taken(places)
         stack = GraspStack(
             self.matrices.taken(places), self.points[places], self.w_0[places], self.like, given, postures
         )  # fmt: skip
-        for name in ("metric", "of_object"):  # as cached properties would work them out again
+        for name in ("metric", "of_object", *["kinds"] * bool(self.given)):  # else they would be worked out again
             if name in self.__dict__:
                 own = self.__dict__[name]
-                stack.__dict__[name] = own.taken(places) if isinstance(own, Metric) else own[places]
+                stack.__dict__[name] = own[places] if isinstance(own, np.ndarray) else own.taken(places)
         return stack
 
     @cached_property
@@ -200,6 +202,11 @@ class GraspStack(Value, Sequence[Grasp]):
             hand = self.like.held and self.like.held.hand
             alike = [same and (each and each.hand) is hand for same, each in zip(alike, held, strict=True)]
         return None if all(alike) else alike.index(False)
+
+    @cached_property
+    def kinds(self) -> StackedKinds:
+        """The kinds of contacts of the N grasps, or of the one that all are like."""
+        return StackedKinds.of(self.given or (self.like,))
 
     @cached_property
     def of_object(self) -> Array:

@@ -22,6 +22,7 @@ from synergrip.statics.response import Maps, Response
 from synergrip.tasks.marks import Jump
 from synergrip.tasks.pushes import pushes_in, shares_in_order
 from synergrip.tasks.timed_task import TimedTask
+from synergrip.vectors import rotation_matrices
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,8 +124,6 @@ def motion_of(execution: Execution, start: Analysis, wrench: Array, sag: Array) 
 
 
 def _states(own: Setting, motion: Motion) -> States:
-    from scipy.spatial.transform import Rotation
-
-    rotation = Rotation.from_rotvec(np.array(motion.du[:, 3:])).as_matrix()
+    rotation = rotation_matrices(motion.du[:, 3:])
     position = own.held.body.position + motion.du[:, :3]
     return States(np.array(own.held.q + motion.dq), np.array(position), rotation, np.array(motion.forces))

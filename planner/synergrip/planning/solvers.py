@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT
+from synergrip.conic.certificate import GAP_TOLERANCE, TIGHT, rounding_hides
 from synergrip.conic.decide import ALONG, ATTEMPTS, Decision, decide, rank
 from synergrip.conic.formulation import Units
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -177,7 +177,10 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     best = found = _decided(question, solver)
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
-        if best.settled or (best.decision.certificate.rounded and best.question.goal.rescaled is not None):
+        rounded = best.decision.certificate.rounded and best.question.goal.rescaled is not None
+        known = best.decision.optimal and best.small  # verified, but not beside its own value
+        hidden = known and rounding_hides(best.decision.program, best.decision.solution.x, best.value)
+        if best.settled or rounded or hidden:
             break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:

@@ -16,7 +16,6 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from synergrip.documents.quantities import plain
 from synergrip.errors import Issue
@@ -30,6 +29,7 @@ from synergrip.tasks.palm_path import PalmPath
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import Course, TimedTask
 from synergrip.tasks.timing import stretched
+from synergrip.vectors import rotation_matrices
 
 LOOKS = 65
 """Instants from one corner of the motion to the next at which it is looked at."""
@@ -93,7 +93,7 @@ def _left_out(palm: PalmInWorld, mass: float, tensor: Array, course: Course, tim
     omega, alpha = palm.rotation_rates(times)
     d, v, a = moved[:, :3], rates[:, :3], changes[:, :3]
     force = -mass * acceleration_of(d, a + 2 * np.cross(omega, v), omega, alpha)
-    R = Rotation.from_rotvec(np.array(moved[:, 3:])).as_matrix()
+    R = rotation_matrices(moved[:, 3:])
     turned = R @ tensor @ R.transpose(0, 2, 1)
     whole = inertial_moment(turned, omega + rates[:, 3:], alpha + np.cross(omega, rates[:, 3:]) + changes[:, 3:])
     return np.hstack([force, whole - inertial_moment(tensor, omega, alpha)])

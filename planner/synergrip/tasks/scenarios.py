@@ -18,6 +18,7 @@ from synergrip.statics import Response, respond
 from synergrip.tasks.arguments import TaskArguments, keep
 from synergrip.tasks.shares import largest_share, samples_for
 from synergrip.values import ByContent
+from synergrip.vectors import rotation_matrices
 
 if TYPE_CHECKING:
     from synergrip.equilibrium.setting import Setting
@@ -114,15 +115,13 @@ class Scenarios(ByContent):
         Raises:
             OffTheFaceError: a contact would be beyond the edge of its face.
         """
-        from scipy.spatial.transform import Rotation
-
         from synergrip.tasks.scenario_on_hand import Errors, sample_of
 
         rng = np.random.default_rng([self.seed, part, number])
         (across, size, around, tilt), factors = rng.random((4, grasp.n_c)), rng.uniform(-1, 1, 3)
         shifts = self.position * np.sqrt(size) * np.array([np.cos(2 * np.pi * across), np.sin(2 * np.pi * across)])
         axes = np.array([np.zeros(grasp.n_c), np.cos(2 * np.pi * around), np.sin(2 * np.pi * around)])
-        turns = Rotation.from_rotvec((self.normal * np.sqrt(tilt) * axes).T).as_matrix()
+        turns = rotation_matrices((self.normal * np.sqrt(tilt) * axes).T)
         return sample_of(grasp, Errors(shifts.T, turns, tuple(1 + self.compliance * factors)))
 
     def drawn(self, grasp: Grasp, count: int, first: int = 0) -> tuple[Response, ...]:
@@ -185,7 +184,5 @@ def _direction(rng: np.random.Generator) -> Array:
 
 def _tilt(rng: np.random.Generator, frame: Array, most: float) -> Array:
     """Return a rotation (3, 3) about a random axis across the normal."""
-    from scipy.spatial.transform import Rotation
-
     angle, size = rng.uniform(0, 2 * np.pi), most * np.sqrt(rng.random())
-    return np.asarray(Rotation.from_rotvec(size * (frame @ [0.0, np.cos(angle), np.sin(angle)])).as_matrix())
+    return rotation_matrices(size * (frame @ [0.0, np.cos(angle), np.sin(angle)]))

@@ -13,6 +13,7 @@ from synergrip.statics.analysis import Analysis
 from synergrip.statics.theorem1 import motion_coordinates
 from synergrip.statics.twists import describe_displacement
 from synergrip.tasks.timed_task import Target, TimedTask
+from synergrip.vectors import rotation_matrices, rotation_vectors
 
 RIGID_TOLERANCE = 1e-6
 """Share of the wanted motion that may lie outside Gamma_ucs and still counts as rounding of the data."""
@@ -73,11 +74,9 @@ def off_target(analysis: Analysis, task: TimedTask, du: Array) -> Array:
         task: what is wanted, on axes beside which nothing counts.
         du: (K, 6) displacement from the start at the first K knots: translation and rotation vector.
     """
-    from scipy.spatial.transform import Rotation
-
     wanted = np.array(target_displacement(analysis, task, task.target.values)[: len(du)])
-    turn = Rotation.from_rotvec(np.array(du[:, 3:])) * Rotation.from_rotvec(wanted[:, 3:]).inv()
-    whole = np.hstack([du[:, :3] - wanted[:, :3], turn.as_rotvec()])
+    turn = rotation_vectors(rotation_matrices(du[:, 3:]) @ rotation_matrices(wanted[:, 3:]).mT)
+    whole = np.hstack([du[:, :3] - wanted[:, :3], turn])
     return frozen(np.where([axis in task.axes for axis in AXES], whole, 0.0))
 
 

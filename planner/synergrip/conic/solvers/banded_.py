@@ -39,6 +39,8 @@ LATE = 1e-4
 """s'z of a cone from which on W is so uneven that solutions are refined."""
 STUCK = 1e-5
 """A step shorter than this leads nowhere any more."""
+BETTER = 0.98
+"""Share of what the best state so far leaves; one that leaves less is better."""
 NO_BETTER, PATIENCE = 4, 12
 """Iterations none of which is better than one that is good, or that is modest, after which none is waited for."""
 LEAST_VALUE, LEAST_SCALAR = 1e-10, 1e-4
@@ -144,9 +146,9 @@ def _iterated(posed: _Posed, settings: Settings) -> tuple[Claim, str, _State, in
         left = _left(posed, state, settings.tolerance)
         if left.proof:
             return Claim.INFEASIBLE, "infeasible", state, iteration
-        since += 1
+        since = 0 if left.finer < BETTER * least else since + 1
         if left.finer < least:
-            best, least, kept, since = state, left.finer, left.excess, 0
+            best, least, kept = state, left.finer, left.excess
         if least <= 1 or (since >= NO_BETTER and kept <= GOOD) or (since >= PATIENCE and kept <= MODEST):
             break
         try:

@@ -7,7 +7,10 @@ from dataclasses import replace
 from synergrip.conic.decide import judge, rank_of
 from synergrip.conic.program import Program
 from synergrip.conic.solution import Claim, Settings, Solution
-from synergrip.conic.solvers import banded_, clarabel_, some_cones
+from synergrip.conic.solvers import clarabel_, some_cones
+
+FEWEST = 100
+"""Knots below which no structure is looked for, and no method for it loaded."""
 
 
 def solve(program: Program, settings: Settings) -> Solution:
@@ -34,12 +37,18 @@ def solve(program: Program, settings: Settings) -> Solution:
 
 
 def _by_its_structure(program: Program, settings: Settings) -> Solution | None:
+    if program.knots < FEWEST:
+        return None
     if some_cones.suits(program):
         return some_cones.solve(program, settings, _small)
+    from synergrip.conic.solvers import banded_
+
     return banded_.solve(program, settings) if banded_.suits(program) else None
 
 
 def _small(program: Program, settings: Settings) -> Solution:
     """Solve a program that has no structure: one with thin room, of which Clarabel leaves more violated."""
+    from synergrip.conic.solvers import banded_
+
     found = banded_.solve(program, settings) if banded_.solvable(program) else None
     return clarabel_.solve(program, settings) if found is None or found.claim is Claim.NOTHING else found

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from synergrip.explain.synergies.missing_synergies import MissingSynergies
+if TYPE_CHECKING:
+    from synergrip.explain.synergies.missing_synergies import MissingSynergies
 
 
 def missing_document(missing: MissingSynergies) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from synergrip.conic.certificate import Certificate
 from synergrip.conic.decide import Decision
 from synergrip.documents.source import Source
 from synergrip.equilibrium.execution import Execution
-from synergrip.explain.explanation import Explanation
-from synergrip.explain.words import INTERRUPTED
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.arrays import ARRAYS, measures_of, names_of
 from synergrip.planning.digest import with_digest
@@ -35,8 +33,10 @@ from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
 from synergrip.reports.data.json_control import KEY as CONTROL
 from synergrip.reports.data.json_control import control_document
-from synergrip.reports.data.json_no import no_document
 from synergrip.tasks.scaling import units_of
+
+if TYPE_CHECKING:
+    from synergrip.explain.explanation import Explanation
 
 
 def outcome_document(
@@ -69,9 +69,13 @@ def outcome_document(
         document[EXECUTION] = execution
     if isinstance(outcome, Plan):
         return with_digest(plain(document | _plan(outcome)))
+    from synergrip.reports.data.json_no import no_document  # of plans nothing of this is needed, nor loaded
+
     known = known or outcome.explanation
     document["exit_code"] = known.exit_code(outcome.exit_code)
     if known.interrupted:
+        from synergrip.explain.words import INTERRUPTED
+
         document["notes"] = [*document["notes"], INTERRUPTED]
     if isinstance(outcome, Infeasible):
         return with_digest(plain(document | _infeasible(outcome) | no_document(known, outcome.task.times)))

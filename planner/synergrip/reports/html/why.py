@@ -13,7 +13,6 @@ from synergrip.explain.words import changed, values
 from synergrip.reports.html.tables import Cell, Table
 from synergrip.reports.text.text_no import (
     BEST,
-    HEADS,
     STOPS,
     again_words,
     clash_words,
@@ -21,6 +20,7 @@ from synergrip.reports.text.text_no import (
     share_words,
     when_words,
 )
+from synergrip.reports.text.text_plan import HEADS
 
 ANCHOR, TITLE = "why", "Why not"
 CHANGES = ("change", "from", "to", "planned again", "with")

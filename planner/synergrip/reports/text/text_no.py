@@ -13,11 +13,6 @@ from synergrip.explain.words import INTERRUPTED, changed, nearer, undone_share, 
 from synergrip.linalg import Array
 from synergrip.reports.text.tables import table, wrapped
 
-HEADS = {
-    "restraint": "the object is not held", "count": "too many motions for the synergies",
-    "direction": "out of reach of these synergies", "magnitude": "limits too tight",
-}  # fmt: skip
-"""Stage -> what it means."""
 FAR = {cause: " (up to 100 times)" for cause in ("friction", "duration")}
 """How far a number was turned of which no value helps, where it is not as far as it goes."""
 AT_START = "in the linear model of the start posture"

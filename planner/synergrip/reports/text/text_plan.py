@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import compress
 from pathlib import Path
 from shlex import quote
+from typing import TYPE_CHECKING
 
 from synergrip.documents.quantities import plain
 from synergrip.equilibrium.execution import Execution
 from synergrip.errors import Issue
-from synergrip.explain.explanation import Explanation
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.told import notes_together
 from synergrip.problems.in_short import many
@@ -20,15 +20,22 @@ from synergrip.reports.text.text_between import between_lines
 from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
 from synergrip.reports.text.text_moved import moved_lines
-from synergrip.reports.text.text_no import HEADS, more_lines, no_lines
 from synergrip.reports.text.text_problem import command_of, problem_lines
 from synergrip.reports.text.text_usages import on_bound, used_rows
 from synergrip.statics.twists import describe_kind
+
+if TYPE_CHECKING:
+    from synergrip.explain.explanation import Explanation
 
 _STYLES = {
     "feasible": "\x1b[1;32m", "infeasible": "\x1b[1;31m", "unknown": "\x1b[1;33m", "this plan fails": "\x1b[1;31m",
 }  # fmt: skip
 _END = "\x1b[0m"
+HEADS = {
+    "restraint": "the object is not held", "count": "too many motions for the synergies",
+    "direction": "out of reach of these synergies", "magnitude": "limits too tight",
+}  # fmt: skip
+"""Stage -> what it means."""
 STAY = "contacts stay where they are on link and object"
 
 
@@ -90,6 +97,8 @@ def verdict_lines(
             *_infeasible(problem, outcome, known or outcome.explanation, word),
         ]
     else:
+        from synergrip.reports.text.text_no import more_lines
+
         lines += ["", *wrapped(f"{word}  ", outcome.why), *_used(outcome)]
         lines += more_lines(
             known or outcome.explanation, outcome.task.times, placed(problem), command_of("explain", problem)
@@ -182,6 +191,8 @@ def _largest_of(plan: Plan) -> str:
 
 
 def _infeasible(problem: Problem, outcome: Infeasible, known: Explanation, word: str) -> Iterator[str]:
+    from synergrip.reports.text.text_no import no_lines
+
     yield f"{word}  {HEADS[outcome.stage]} (stage: {outcome.stage})"
     yield from no_lines(known, outcome.task.times, placed(problem), command_of("explain", problem))
     for hint in outcome.hints:
