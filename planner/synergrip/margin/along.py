@@ -110,7 +110,7 @@ class Search(Value):
             return "; nothing farther was tried" if abs(self.end - self.good) > NEAR * abs(self.good) else ""
         how = "" if self.sure else " in a few passes"
         far = f"no more was tried after {self.count} plans, {100 * self.gap:.2g} % away from it"
-        return f"; at {name(self.bad)} none was found{how}, which is no proof{f'; {far}' if self.gap > NEAR else ''}"
+        return f"; at {name(self.bad)} none was found{how}{f'; {far}' if self.gap > NEAR else ''}"
 
     def _next(self) -> float:
         """Return the value that is tried next: where the margin ends, if that can be told."""

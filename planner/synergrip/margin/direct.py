@@ -181,9 +181,9 @@ def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, search: Search |
     who = "a plan" if plan.executed is None else "a plan of the hand that moves"
     unit = f" {of.unit}" if of.unit else ""
     tried = "" if search is None else search.told(lambda value: f"{value / per:.4g}{unit}")
-    proof = (
-        "the other end is proven of the linear model of the start posture" if past is not None else "nothing is proven"
-    )
+    of_start = "the other end is proven of the linear model of the start posture"
+    at_end = f"that proves nothing, {of_start}" if search is not None and search.bad is not None else of_start
+    proof = at_end if past is not None else "nothing is proven"
     why = f"attained by {who}{tried}; {proof}"
     return DirectNumber(of.name, of.unit, scaled, ends[0], ends[1], past is not None, why, dial.set(value), plan)
 
