@@ -193,7 +193,8 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial, end = found.dial, found.value
     assert end is not None
     search = Search.of(dial, end, plan).over(of.tries)
+    closer = search.best is not plan or dial.cause not in OF_PLAN
+    search = (search.on(of.tries + CLOSER) if closer else search).surely(SURE)
     if search.best is plan and dial.cause in OF_PLAN:
         return _near(of, found, plan)
-    search = search.on(of.tries + CLOSER).surely(SURE)
     return _ends(of, found, search.good, search.best, search)
