@@ -84,6 +84,6 @@ def _by_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
         inverses = np.linalg.inv(squares)
     except np.linalg.LinAlgError:  # of one of them or more
         return np.zeros(matrices.mT.shape), np.zeros(len(matrices), dtype=bool)
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):  # where that is no number the squares do not
         ratio = (squares**2).sum(axis=(-2, -1)) * (inverses**2).sum(axis=(-2, -1))
     return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT**2)
