@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from synergrip.batch.lanes import all_of, kept_apart, load, root, store, where_less
 from synergrip.batch.lanes_algebra import compiled, larger
 from synergrip.batch.lanes_dense import Matrix, squares_of
