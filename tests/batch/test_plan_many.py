@@ -277,7 +277,7 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "wrenches of five": ({"wrenches": np.ones((2, 5))}, r"wrenches: .*shape \(N, 6\)"),
     "a wrench that is none": ({"wrenches": [[0, 0, np.nan, 0, 0, 0]]}, r"wrenches\[0\]: .*nan"),
     "no friction": ({"friction_factors": [1.0, 0.0]}, r"friction_factors\[1\]: .*greater than 0.*got 0"),
-    "a mass of matrices": ({"masses": [1.0]}, "masses: needs one grasp on an object"),
+    "a mass of matrices": ({"masses": [1.0]}, "masses: needs grasps on an object"),
     "no threads": ({"threads": 0}, "threads: expected a whole number of threads from 1 to 1024; got 0"),
     "half a thread": ({"threads": 1.5}, "threads: expected a whole number"),
     "a kernel of another name": ({"kernel": "fortran"}, "kernel: "),
