@@ -65,7 +65,7 @@ class Compiled:
     def _load(self, tell: Callable[[str, float], None]) -> None:
         kept, function, start = self.kept(), self._made(), time.perf_counter()
         told = f"loading the compiled {self.name}: a second or two" if kept else f"compiling the {self.name}{ONCE}"
-        told += "" if kept else self.takes
+        told += "" if kept else f"{self.takes} (an interrupt waits for its end)"
         LOG.log(logging.INFO if kept else logging.WARNING, "%s", told)
         tell(told, 0.0)
         with interruptible():  # an interrupt that falls into what the compiler calls back is lost
