@@ -13,8 +13,9 @@ from synergrip.batch.clashing import NAMES
 from synergrip.batch.decided import Decided
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, OF_HAND, UNKNOWN, ManyPlans
 from synergrip.conic.limits.friction_cone import FRICTION
-from synergrip.errors import InputError, RigidContactError
+from synergrip.errors import InputError, RigidContactError, SelfCheckError
 from synergrip.grasps.stack import GraspStack
+from synergrip.log import LOG
 from synergrip.planning.outcome import Infeasible, Plan
 from synergrip.planning.planning import plan_of_start_posture
 
@@ -37,7 +38,7 @@ class Unfinished:
             "dz_r": (count, like.n_z),
         }  # fmt: skip
         self.numbers = {name: np.full(shape, np.nan) for name, shape in shapes.items()}
-        self.refusals: dict[int, InputError] = {}
+        self.refusals: dict[int, InputError | SelfCheckError] = {}
 
     @property
     def finished(self) -> int:
@@ -86,6 +87,10 @@ class Unfinished:
             rigid = isinstance(error, RigidContactError) and isinstance(question.grasp, GraspStack)
             if not (refusing or rigid):
                 raise
+            self.refusals[place] = error
+            return
+        except SelfCheckError as error:  # of one task: the others keep their answers
+            LOG.warning("task %d: %s", place, error)
             self.refusals[place] = error
             return
         if isinstance(outcome, Plan) and outcome.interrupted:

@@ -50,9 +50,11 @@ def reason(count: int, kernel: str | None) -> str:
         return "Numba is not installed"
     if fast_kernel.compiled.loaded:
         return "Numba's is loaded already"
-    least = LOADED if fast_kernel.compiled.kept() else COMPILED
-    done = "load" if least == LOADED else "compile"
-    return f"{count:,} tasks are {'enough' if count >= least else 'too few'} to {done} Numba's, which takes {least:,}"
+    if count < LOADED:  # and Numba is not imported to know more
+        return f"it takes {LOADED:,} tasks to load Numba's, and {COMPILED:,} to compile it"
+    if fast_kernel.compiled.kept():
+        return f"{LOADED:,} tasks are enough to load Numba's"
+    return f"Numba's is not compiled yet on this machine, for which it takes {COMPILED:,} tasks"
 
 
 def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from synergrip.documents.naming import made_by
 from synergrip.documents.places import place_of
-from synergrip.errors import InputError
+from synergrip.errors import InputError, SelfCheckError
 from synergrip.linalg import Array
 from synergrip.values import Value
 
@@ -70,9 +70,9 @@ class ManyPlans(Value):
     """(N,) True where nothing verified of the batch and `plan` answered instead."""
     finished: NDArray[np.bool_]
     """(N,) False for tasks that were not through when somebody interrupted it."""
-    refusals: Mapping[int, InputError]
-    """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal): they
-    are "unknown" here."""
+    refusals: Mapping[int, InputError | SelfCheckError]
+    """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal; a
+    plan fails its own check): they are "unknown" here."""
     clashes: NDArray[np.str_]
     """(N,) of what is infeasible the key of the limit that its proof rests on most beside friction, such as
     "limits.normal_force"; "friction cone" where it rests on friction alone, the stage ("restraint") where no program
