@@ -54,7 +54,7 @@ def reason(count: int, kernel: str | None) -> str:
         return f"it takes {LOADED:,} tasks to load Numba's, and {COMPILED:,} to compile it"
     if fast_kernel.compiled.kept():
         return f"{LOADED:,} tasks are enough to load Numba's"
-    return f"Numba's is not compiled yet on this machine, for which it takes {COMPILED:,} tasks"
+    return f"Numba's is not compiled yet on this machine; {COMPILED:,} tasks are enough to do so"
 
 
 def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
