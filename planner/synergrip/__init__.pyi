@@ -103,7 +103,7 @@ from synergrip.planning.outcome import Unknown as Unknown
 from synergrip.batch.plan_many import plan_many as plan_many
 from synergrip.batch.many_plans import ManyPlans as ManyPlans
 from synergrip.batch.margins_many import margins_many as margins_many
-from synergrip.batch.margins_many import ManyMargins as ManyMargins
+from synergrip.batch.many_margins import ManyMargins as ManyMargins
 from synergrip.batch.place_object import place_object as place_object
 from synergrip.batch.placed_object import PlacedObject as PlacedObject
 from synergrip.explain.explanation import Explanation as Explanation

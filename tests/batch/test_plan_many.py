@@ -15,6 +15,7 @@ from random_cone_problems import grasp_like, random_wrenches
 from random_tasks import hand_like_grasp
 
 import synergrip as sg
+from synergrip.batch import keeping
 from synergrip.batch import plan_many as module
 from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status, Tolerance
 from synergrip.batch.many_plans import ManyPlans
@@ -122,7 +123,7 @@ def test_a_plan_that_fails_its_own_check_takes_no_answer_from_others(
             raise sg.SelfCheckError("the plan fails its own check")
         return plan_of_start_posture(grasp, task)
 
-    monkeypatch.setattr(module, "plan_of_start_posture", planned)
+    monkeypatch.setattr(keeping, "plan_of_start_posture", planned)
     goals = [sg.LargestMargin(), *[sg.LeastEffort()] * every]  # two goals: all are planned one by one
     task = sg.Task(knots=1, limits=[sg.NormalForce(upper=10.0)], goals=goals)
     many = sg.plan_many(GRASP, task, wrenches=wrenches, friction_factors=None if every else [1e12, 1.0, 1.0])
@@ -297,7 +298,7 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "wrenches of five": ({"wrenches": np.ones((2, 5))}, r"wrenches: .*shape \(N, 6\)"),
     "a wrench that is none": ({"wrenches": [[0, 0, np.nan, 0, 0, 0]]}, r"wrenches\[0\]: .*nan"),
     "no friction": ({"friction_factors": [1.0, 0.0]}, r"friction_factors\[1\]: .*greater than 0.*got 0"),
-    "a mass of matrices": ({"masses": [1.0]}, "masses: needs one grasp on an object"),
+    "a mass of matrices": ({"masses": [1.0]}, "masses: needs grasps on an object"),
     "no threads": ({"threads": 0}, "threads: expected a whole number of threads from 1 to 1024; got 0"),
     "half a thread": ({"threads": 1.5}, "threads: expected a whole number"),
     "a kernel of another name": ({"kernel": "fortran"}, "kernel: "),

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import synergrip as sg
+from synergrip.batch.many_plans import OF_HAND
 from synergrip.files import bundled
 from synergrip.grasps.plausible import edge_distance, mass_doubt
 from synergrip.hands.hand import Joint
@@ -146,8 +147,9 @@ def test_masses_in_another_unit_are_noted_of_a_no_and_of_many_plans() -> None:
     gravity, cap = sg.Gravity((0, 0, -9.81)), sg.NormalForce(upper=20.0)
     still = sg.Task(knots=1, loads=[gravity], limits=[cap], linearise="once")
     many = sg.plan_many(held.grasp, still, masses=[0.15, 200.0])
-    assert [note.split(" kg ")[0] for note in many.notes] == ["masses: 200"]
-    assert not sg.plan_many(held.grasp, still, masses=[0.15, 0.2]).notes
+    assert many.notes[0].startswith("masses: 200 kg ")
+    assert many.notes[1:] == (OF_HAND,)
+    assert sg.plan_many(held.grasp, still, masses=[0.15, 0.2]).notes == (OF_HAND,)
     bare = sg.Object(mass=0.2, position=(0, 0, 0.1))  # without a shape the mass that is stated says it
     assert "1000 times the object's own mass" in mass_doubt(bare, 200.0)
     assert mass_doubt(bare, 2.0) == mass_doubt(bare, 0.02) == ""

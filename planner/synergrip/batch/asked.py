@@ -18,6 +18,7 @@ from synergrip.conic.limits.normal_force import NormalForce
 from synergrip.conic.limits.object_error import AXES
 from synergrip.conic.limits.synergy_reference import SynergyReference
 from synergrip.documents.judging import as_numbers, described, is_list
+from synergrip.documents.validation import LARGEST_NUMBER
 from synergrip.errors import InputError, kind_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import mass_doubt
@@ -88,7 +89,7 @@ def _like(grasp: Grasp | Analysis | GraspStack) -> Grasp:
 
 def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: Any) -> Asked:
     """Return what is asked, or refuse it; arguments as of `plan_many`."""
-    whose = _grasps(grasp)
+    whose = grasps_asked(grasp)
     timed = _task(task, _like(whose))
     factors = (
         None
@@ -114,12 +115,14 @@ def asked(grasp: Any, task: Any, wrenches: Any, friction_factors: Any, masses: A
 
 def _doubts(whose: Grasp | Analysis | GraspStack, masses: Any) -> tuple[str, ...]:
     """Return what of some masses can hardly be meant: of the least and the largest of them."""
-    held = None if masses is None else _like(whose).held
+    bodies = {id(each.held) for each in whose.given} if isinstance(whose, GraspStack) else set()
+    held = None if masses is None or len(bodies) > 1 else _like(whose).held
     ends = [] if held is None else [float(np.min(masses)), float(np.max(masses))]
     return tuple(dict.fromkeys(f"masses: {said}" for each in ends if held and (said := mass_doubt(held.body, each))))
 
 
-def _grasps(grasp: Any) -> Grasp | Analysis | GraspStack:
+def grasps_asked(grasp: Any) -> Grasp | Analysis | GraspStack:
+    """Return the grasp, or the stack of grasps; or refuse what is neither."""
     if isinstance(grasp, Grasp | Analysis):
         return grasp
     if not isinstance(grasp, GraspStack) and (not is_list(grasp) or not isinstance(grasp, Sequence)):
@@ -172,10 +175,29 @@ def _loads(whose: Any, task: Any, timed: TimedTask, wrenches: Any, masses: Any) 
     if wrenches is not None:
         raise InputError.at("masses", "wrenches say the whole load already; give one of the two")
     found = _numbers("masses", masses, (), "masses [kg] greater than 0", above=True)
-    if isinstance(whose, GraspStack) or not isinstance(task, Task) or _like(whose).held is None:
-        raise InputError.at("masses", "needs one grasp on an object that has a mass, and a Task; give wrenches instead")
-    one, two = (task.timed(_like(whose).replace(mass=mass)).wrench[0] for mass in (1.0, 2.0))
-    return np.asarray(one + (found[:, None] - 1.0) * (two - one))  # the load is affine in the mass
+    if not isinstance(task, Task) or object_masses(whose) is None:
+        raise InputError.at("masses", "needs grasps on an object that has a mass, and a Task; give wrenches instead")
+    if isinstance(whose, GraspStack) and len(whose) == len(found):
+        if not task.loads:
+            return _own_loads(whose, task)
+        bodies = {id(each.held.body): _by_mass(task, each) for each in whose.given if each.held is not None}
+        if len(bodies) > 1:
+            ends = np.array([bodies[id(each.held.body)] for each in whose.given if each.held is not None])
+            return np.asarray(ends[:, 0] + (found[:, None] - 1.0) * (ends[:, 1] - ends[:, 0]))
+    one, two = _by_mass(task, _like(whose))
+    return np.asarray(one + (found[:, None] - 1.0) * (two - one))
+
+
+def object_masses(whose: Grasp | Analysis | GraspStack) -> Array | None:
+    """Return (N,), or (1,), the mass of the object of every grasp [kg]; None where some are given as matrices."""
+    given = (whose.given if isinstance(whose, GraspStack) else ()) or (_like(whose),)
+    found = [each.held.body.mass for each in given if each.held is not None]
+    return np.array(found) if len(found) == len(given) else None
+
+
+def _by_mass(task: Task, grasp: Grasp) -> Array:
+    """Return (2, 6) the loads of a task with an object of 1 kg and of 2 kg: they are affine in the mass."""
+    return np.array([task.timed(grasp.replace(mass=mass)).wrench[0] for mass in (1.0, 2.0)])
 
 
 def _own_loads(whose: GraspStack, task: Task) -> Array | None:
@@ -194,11 +216,16 @@ def _own_loads(whose: GraspStack, task: Task) -> Array | None:
 
 def _numbers(name: str, value: Any, shape: tuple[int, ...], what: str, *, above: bool = False) -> Array:
     found = as_numbers(value)
-    wanted = f"expected {what}, shape ({', '.join(map(str, ('N', *shape)))}{',' * (not shape)})"
+    wanted = f"expected {what} for at least one task, shape ({', '.join(map(str, ('N', *shape)))}{',' * (not shape)})"
     if found is None or found.ndim != 1 + len(shape) or found.shape[1:] != shape or not len(found):
         raise InputError.at(name, f"{wanted}; got {described(value)}")
-    wrong = ~np.isfinite(found) | (found <= 0 if above else False)
+    with np.errstate(invalid="ignore"):
+        wrong = ~(np.abs(found) <= LARGEST_NUMBER) | (found <= 0 if above else False)
     if np.any(wrong):
         place = int(np.flatnonzero(wrong.reshape(len(found), -1).any(axis=1))[0])
-        raise InputError.at(f"{name}[{place}]", f"{wanted}; got {float(found[wrong].ravel()[0]):g}")
+        worst = float(found[wrong].ravel()[0])
+        too_large = LARGEST_NUMBER < abs(worst) < np.inf
+        raise InputError.at(
+            f"{name}[{place}]", f"{worst:g} is too large" if too_large else f"{wanted}; got {worst:g}"
+        )  # fmt: skip
     return found

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from synergrip.batch.clashing import Row, of_cones, of_limit
 from synergrip.batch.cone_problems import ConeProblems
 from synergrip.batch.stacked_cones import StackedCones, most, stacked_cones
 from synergrip.batch.stated import Stated, lengths
@@ -41,6 +42,8 @@ class Assembled(Value):
     A: Array  # (N, m, n + 1)
     constant: Array  # (N, m)
     sizes: tuple[int, ...]
+    of: tuple[Row, ...]
+    """What each of the m rows is of."""
     pairs: int
     """Lower bounds, the first rows, whose rows of A are minus those of as many upper ones that come next."""
 
@@ -125,6 +128,7 @@ class _Part(NamedTuple):
     constant: Array
     takes: Array | float
     """What a margin of one unit takes."""
+    of: tuple[Row, ...]
 
 
 def assembled(stated: Stated) -> Assembled:
@@ -146,7 +150,7 @@ def assembled(stated: Stated) -> Assembled:
         np.multiply(part.matrix[..., alpha:], -part.times[..., None], out=A[:, rows, alpha:-1])
         A[:, rows, -1] = part.takes
     np.negative(A[:, :pairs], out=A[:, pairs : 2 * pairs])
-    return Assembled(stated, cones, unit, A, constant, sizes, pairs)
+    return Assembled(stated, cones, unit, A, constant, sizes, tuple(row for part in parts for row in part.of), pairs)
 
 
 def _parts(stated: Stated, cones: tuple[StackedCones, ...], unit: Array) -> Iterator[_Part]:
@@ -155,13 +159,14 @@ def _parts(stated: Stated, cones: tuple[StackedCones, ...], unit: Array) -> Iter
     for each in cones:
         (value, times), own = each.after(force), np.repeat(each.unit, each.size, axis=-1)
         first, divisor = np.tile(np.eye(each.size)[0], len(each.contacts)) / own, own * unit[:, None]
-        yield _Part(each.size, each.size, value.matrix, times / divisor, value.constant / divisor, first)
+        of = of_cones(divisor.shape[-1])
+        yield _Part(each.size, each.size, value.matrix, times / divisor, value.constant / divisor, first, of)
     for limit in stated.task.limits:
         every = _rows(stated, limit)
         orders = (LOWER, UPPER) if _opposite(limit, every) else (1,) * len(every)
         for rows, order in zip(every, orders, strict=True):
             divisor = _divisor(limit, rows, unit)
-            yield _Part(order, rows.dim, rows.matrix, 1 / divisor, rows.constant / divisor, 0.0)
+            yield _Part(order, rows.dim, rows.matrix, 1 / divisor, rows.constant / divisor, 0.0, of_limit(rows))
 
 
 def _opposite(limit: Limit, every: list[Rows]) -> bool:

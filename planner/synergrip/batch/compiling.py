@@ -1,7 +1,8 @@
-"""Functions that Numba compiles once on a machine, keeps on the disk, and loads from then on; told when they do."""
+"""Functions that Numba compiles once on a machine, keeps on the disk, and loads from then on; announced before."""
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -11,8 +12,11 @@ from zlib import crc32
 
 import numpy as np
 
+from synergrip.conic.solvers.interrupts import interruptible
 from synergrip.linalg import Array
 from synergrip.log import LOG
+
+ONCE = ", once on this machine: "
 
 
 @dataclass
@@ -27,14 +31,24 @@ class Compiled:
     """Returns the function for a stamp of its sources, not yet compiled."""
     prepare: Callable[[Any], None]
     """Calls it with nothing to do, so that it is compiled or loaded."""
+    takes: str
+    """How long it takes to compile it, in words."""
     loaded: bool = False
     _function: Any = field(default=None, repr=False)
 
     def __call__(self) -> Any:
         """Return the compiled function."""
-        if not self.loaded:
-            self._load()
+        self.ready()
         return self._function
+
+    def ready(self, tell: Callable[[str, float], None] = lambda what, share: None) -> None:
+        """Compile or load it, if that is still to be done, and tell which of the two before it begins.
+
+        Raises:
+            KeyboardInterrupt: somebody interrupted meanwhile; told when it is compiled or loaded, and kept.
+        """
+        if not self.loaded:
+            self._load(tell)
 
     def kept(self) -> bool:
         """Return whether its compiled form is kept on the disk."""
@@ -48,16 +62,21 @@ class Compiled:
             self._function = self.make(crc32(b"".join((folder / name).read_bytes() for name in self.sources)))
         return self._function
 
-    def _load(self) -> None:
-        function, start = self._made(), time.perf_counter()
-        LOG.info("loading the compiled %s; the first time on a machine it is compiled: about half a minute", self.name)
-        self.prepare(function)
+    def _load(self, tell: Callable[[str, float], None]) -> None:
+        kept, function, start = self.kept(), self._made(), time.perf_counter()
+        told = f"loading the compiled {self.name}: a second or two" if kept else f"compiling the {self.name}{ONCE}"
+        told += "" if kept else f"{self.takes} (an interrupt waits for its end)"
+        LOG.log(logging.INFO if kept else logging.WARNING, "%s", told)
+        tell(told, 0.0)
+        with interruptible():  # an interrupt that falls into what the compiler calls back is lost
+            self.prepare(function)
+            self.loaded = True
         hits = sum(function.stats.cache_hits.values())
         if not hits and not function.stats.cache_path:
             LOG.warning("the compiled %s cannot be kept: no folder for it can be written; it is compiled in every run",
                         self.name)  # fmt: skip
         LOG.info("the %s was %s in %.1f s", self.name, "loaded" if hits else "compiled", time.perf_counter() - start)
-        self.loaded = True
+        tell(told, 1.0)
 
 
 def as_rows(values: Array) -> Array:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from synergrip.batch import verifier
 from synergrip.batch.assembly import Assembled, assembled
+from synergrip.batch.clashing import NAMES, clashes
 from synergrip.batch.cone_problems import ConeProblems, ConeSolutions, Status, Tolerance
 from synergrip.batch.physical import Physical, judged
 from synergrip.batch.stated import Stated
@@ -40,6 +41,8 @@ class Decided(Value):
     dz_r: Array  # (N, n_z), nan where there is no plan
     forces: Array  # (N, n_l)
     margins: Array  # (N, n_c)
+    clashes: NDArray[np.str_]
+    """(N,) the key of the limit that clashes most beside friction where there is none; else empty."""
 
 
 def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
@@ -54,30 +57,31 @@ def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
     N = stated.count
     none = np.zeros(N, dtype=bool)
     if not stated.formulation.n_v:
-        return _told(stated, none, none, np.full(N, np.nan), None)
+        return _told(stated, none, np.full(N, "", dtype=NAMES), np.full(N, np.nan), None)
     every = isinstance(goal, LargestMargin)
-    x, largest, infeasible = _widest(programs, solver, every=every)
+    x, largest, clashing = _widest(programs, solver, every=every)
+    infeasible = clashing != ""
     if every:
         right, kept = largest >= task.margin - AT_LEAST * programs.unit, np.fmax(task.margin, largest)
     else:
         x, right = _best(programs, goal, np.flatnonzero(~infeasible), solver)
         kept, largest = np.full(N, task.margin), np.where(infeasible, largest, np.nan)
     plans = judged(programs, x, kept, wrench)
-    return _told(stated, right & plans.holds, infeasible, largest, plans)
+    return _told(stated, right & plans.holds, clashing, largest, plans)
 
 
-def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Return unknowns (N, n) of the largest margin, the margins (N,) [N] that verify, and what is proven infeasible.
+def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array, Array, NDArray[np.str_]]:
+    """Return unknowns (N, n) of the largest margin, the margins (N,) [N] that verify, and what proofs of a no rest on.
 
     A margin is nan that does not verify, or, but for `every`, that is known to be more than what is asked for.
     """
     margin, N = programs.stated.task.margin, programs.stated.count
     asked, widest = margin / programs.unit, programs.largest_margin()
     found = solver(widest, OF_MARGIN, np.full(N, -np.inf) if every else -asked - ENOUGH)
-    largest, infeasible = np.full(N, np.nan), np.zeros(N, dtype=bool)
+    largest, clashing = np.full(N, np.nan), np.full(N, "", dtype=NAMES)
     left = np.flatnonzero(found.status != Status.ENOUGH)
     if not len(left):
-        return found.x[:, :-1], largest, infeasible
+        return found.x[:, :-1], largest, clashing
     own, x, z = widest if len(left) == N else widest.taken(left), found.x[left], found.z[left]
     right = verifier.judge_optimal(own, x, z, programs.far).verified
     reached = x[:, -1]
@@ -85,16 +89,19 @@ def _widest(programs: Assembled, solver: Solver, *, every: bool) -> tuple[Array,
     # where limits clash without any friction, the multipliers grow into a proof of that by themselves
     far = ~(right & (reached >= asked[left] - AT_LEAST))
     if far.any():
-        infeasible[left[far]] = _proven(programs, left[far], z[far])
-    return found.x[:, :-1], largest, infeasible
+        clashing[left[far]] = _proven(programs, left[far], z[far])
+    return found.x[:, :-1], largest, clashing
 
 
-def _proven(programs: Assembled, places: NDArray[np.intp], z: Array) -> NDArray[np.bool_]:
-    """Return whether the multipliers of the largest margin prove that the one asked for is out of reach."""
+def _proven(programs: Assembled, places: NDArray[np.intp], z: Array) -> NDArray[np.str_]:
+    """Return what clashes where multipliers of the largest margin prove the one asked for out of reach; else empty."""
     A, b = programs.at_margin(programs.stated.task.margin, places)
     n = A.shape[-1]
     at_margin = ConeProblems(np.zeros((1, n, n)), np.zeros((1, n)), A, b, programs.sizes)
-    return verifier.judge_infeasible(at_margin, z, programs.bounds(places)).verified
+    verified = verifier.judge_infeasible(at_margin, z, programs.bounds(places)).verified
+    found = np.full(len(z), "", dtype=NAMES)
+    found[verified] = clashes(programs.of, programs.sizes, verifier.projected(at_margin, z)[verified])
+    return found
 
 
 def _best(
@@ -134,7 +141,7 @@ def _stated_goal(programs: Assembled, goal: Goal) -> tuple[ConeProblems, Array |
 
 
 def _told(
-    stated: Stated, feasible: NDArray[np.bool_], infeasible: NDArray[np.bool_], largest: Array, plans: Physical | None
+    stated: Stated, feasible: NDArray[np.bool_], clashing: NDArray[np.str_], largest: Array, plans: Physical | None
 ) -> Decided:
     """Return it with nan where there is no plan."""
     N, grasp = stated.count, stated.grasps[0]
@@ -143,4 +150,4 @@ def _told(
         name: np.where(feasible[:, None], np.nan if plans is None else getattr(plans, name), np.full((N, size), np.nan))
         for name, size in shapes.items()
     }
-    return Decided(feasible, infeasible, largest, **arrays)
+    return Decided(feasible, clashing != "", largest, **arrays, clashes=clashing)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from itertools import accumulate
 from typing import Any, NamedTuple
@@ -151,7 +152,7 @@ def _prepare(function: Any) -> None:
     function((as_rows(np.zeros((1, 1))),) * 8, layout, spans, numbers, numbers, np.zeros((0, 1)), False)
 
 
-compiled = Compiled("statics", SOURCES, _made, _prepare)
+compiled = Compiled("statics", SOURCES, _made, _prepare, "about a minute")
 
 
 class ClearStatics:
@@ -160,6 +161,12 @@ class ClearStatics:
     def __init__(self) -> None:
         """Make it, of grasps that nothing is known of."""
         self._like: dict[Layout, Analysis] = {}
+
+    @staticmethod
+    def ready(stack: GraspStack, tell: Callable[[str, float], None]) -> None:
+        """Compile or load it, where grasps of this form may be clear at all."""
+        if Layout.of(stack.like.n_l, *stack.like.S.shape) is not None:
+            compiled.ready(tell)
 
     def __call__(self, stack: GraspStack) -> Clear | None:
         """Return what is clear of the statics of many grasps, and confirmed; None where nothing is."""

@@ -18,7 +18,7 @@ COMPILED = 200_000
 """Problems for which it repays to compile it, once on a machine (half a minute)."""
 STATICS_COMPILED = 1_000_000
 """Grasps for which it repays to compile their statics, too (a minute)."""
-QuickStatics = Callable[[GraspStack], fast_statics.Clear | None]
+QuickStatics = fast_statics.ClearStatics
 KERNELS = ("numpy", "numba")
 
 
@@ -31,14 +31,48 @@ def chosen(count: int, kernel: str | None = None) -> Solver:
     if kernel is not None and not is_word(kernel, KERNELS):
         raise InputError.at("kernel", one_of(kernel, KERNELS))
     if kernel == "numba" and not _numba():
-        raise InputError.at("kernel", "'numba' needs Numba: pip install 'synergrip[fast]'")
+        raise InputError.at(
+            "kernel", "'numba' needs Numba, which is not installed: pip install 'synergrip[fast]' (or numba alone)"
+        )
     return fast_kernel.solve if _used(fast_kernel.compiled, count, COMPILED, kernel) else numpy_kernel.solve
+
+
+def name_of(solver: Solver) -> str:
+    """Return the name of a kernel."""
+    return "numba" if solver is fast_kernel.solve else "numpy"
+
+
+def reason(count: int, kernel: str | None) -> str:
+    """Return why that kernel is taken for so many problems."""
+    if kernel is not None:
+        return "asked for"
+    if not _numba():
+        return "Numba is not installed"
+    if fast_kernel.compiled.loaded:
+        return "Numba's is loaded already"
+    if count < LOADED:  # and Numba is not imported to know more
+        return f"it takes {LOADED:,} tasks to load Numba's, and {COMPILED:,} to compile it"
+    if fast_kernel.compiled.kept():
+        return f"{LOADED:,} tasks are enough to load Numba's"
+    return f"Numba's is not compiled yet on this machine; {COMPILED:,} tasks are enough to do so"
 
 
 def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
     """Return what works out the statics of many grasps by compiled lanes; None where that does not repay."""
     used = _used(fast_statics.compiled, count, STATICS_COMPILED, kernel)
     return fast_statics.ClearStatics() if used else None
+
+
+def ready(solver: Solver, quick: QuickStatics | None, whole: object, tell: Callable[[str, float], None]) -> None:
+    """Compile or load what is used, and tell that it is, before any task is looked at.
+
+    Raises:
+        KeyboardInterrupt: somebody interrupted meanwhile.
+    """
+    if solver is fast_kernel.solve:
+        fast_kernel.compiled.ready(tell)
+    if quick is not None and isinstance(whole, GraspStack):
+        quick.ready(whole, tell)
 
 
 def _numba() -> bool:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from synergrip.batch.best_place import Progress, best_place
 from synergrip.batch.placed_object import PlacedObject
-from synergrip.documents.judging import Arguments, described
+from synergrip.batch.telling import judge_progress
+from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.asked_grasp import Posture, Synergies, asked_grasp, grasp_of
 from synergrip.grasps.contact_at import ContactAt
@@ -74,9 +75,8 @@ def place_object(
     """
     judge = Arguments("")
     judge.one("task", task, Task, "Task(loads=[Gravity((0, 0, -9.81))])")
-    if progress is not None and not callable(progress):
-        judge.refuse("progress", f"expected a function of a text and a share, got {described(progress)}")
     judge.finish()
+    judge_progress(progress)
     asked = asked_grasp(
         hand, object, posture=posture, contacts=contacts, synergies=synergies, close=close, title=title,
         joint_compliance=joint_compliance, synergy_compliance=synergy_compliance, relative_to=relative_to,

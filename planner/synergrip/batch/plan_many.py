@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.batch.asked import Asked, asked
 from synergrip.batch.chunks import keep_memory, on_threads, threads_asked
-from synergrip.batch.decided import Decided, Solver, decided
-from synergrip.batch.kernel import QuickStatics, chosen, quick_statics
-from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
+from synergrip.batch.decided import Solver, decided
+from synergrip.batch.keeping import Answers, Unfinished
+from synergrip.batch.kernel import QuickStatics, chosen, name_of, quick_statics, ready, reason
+from synergrip.batch.many_plans import ManyPlans
 from synergrip.batch.stated import Stated, each_of, stated_each, stated_on
+from synergrip.batch.telling import Telling
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import InputError, Refusal, RigidContactError, SelfCheckError
+from synergrip.errors import Refusal
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array
 from synergrip.log import LOG
 from synergrip.planning.accuracy import SHOWN
-from synergrip.planning.outcome import Infeasible, Plan
-from synergrip.planning.planning import plan_of_start_posture
 from synergrip.statics.analyses import AnalysisGroup, analyses_for_plans
 from synergrip.statics.analysis import Analysis, analyse
 from synergrip.statics.each import Each
@@ -32,8 +32,6 @@ from synergrip.statics.response import shares
 from synergrip.tasks.task import Task
 from synergrip.tasks.timed_task import TimedTask
 
-Answers = tuple[NDArray[np.intp], Decided, NDArray[np.bool_]]
-"""Where among the places of a chunk tasks stand, what verified of them, and whose maps are known well enough."""
 Part = tuple[NDArray[np.intp], Stated, NDArray[np.bool_]]
 """Where among the places of a chunk tasks stand, the tasks, and whose maps are known well enough."""
 CHUNK = 2048
@@ -65,17 +63,18 @@ def plan_many(
             reference and joint range. With other limits or goals all are planned one by one, which is told.
         wrenches: (N, 6) load of each, in place of the task's own: force [N] and moment about B [N m] on the object.
         friction_factors: (N,) by which the friction of all contacts is multiplied.
-        masses: (N,) of the object [kg], for loads that go by it; for a grasp of an object with a mass.
+        masses: (N,) of the object [kg], for loads that go by it; for grasps of objects with a mass.
         kernel: what solves the programs: "numba", compiled, of the extra ``synergrip[fast]``; "numpy"; None for the
             first where it is installed and there are tasks enough to repay it: 200,000 to compile it, once on a
             machine (a million grasps for what it does of their statics); from then on 20,000 to load it, and any
             number when it is loaded.
         threads: how many chunks of 2,048 tasks are worked out at a time, on threads of their own; the answers are the
             same to the last digit. One if not told: who plans in several processes at once has no cores left.
-        progress: told what is under way and which share of it is done, after every 2,048 tasks.
+        progress: told what is under way and which share of it is done: that a kernel is compiled or loaded, then after
+            every 2,048 tasks, and every half second of what is planned one by one.
 
     Returns:
-        arrays with a row for each task. An interrupt (Ctrl-C) keeps the rows that are finished.
+        arrays with a row for each task (`ManyPlans`). An interrupt (Ctrl-C) keeps the rows that are finished.
 
     Raises:
         InputError: arguments that do not fit each other, or a task with what is not covered; nothing bounds the goal
@@ -90,27 +89,55 @@ def plan_many(
         >>> many.verdicts.tolist()
         ['feasible', 'feasible', 'feasible']
     """
+    tell = Telling(progress)
     question = asked(grasp, task, wrenches, friction_factors, masses)
-    like, found = question.like, Unfinished(question.count, question.like.n_c, question.like.n_l, question.like.n_z)
+    tell_beyond(question)
+    return answered(question, kernel=kernel, threads=threads, tell=tell)[0]
+
+
+def tell_beyond(question: Asked) -> None:
+    """Tell the logger what is planned one by one, and why."""
+    if question.beyond:
+        LOG.warning("%d tasks are planned one by one: %s is not for many at once", question.count, question.beyond)
+
+
+def answered(
+    question: Asked, *, kernel: str | None, threads: int, tell: Telling, level: int = logging.INFO
+) -> tuple[ManyPlans, bool]:
+    """Return the answers to N tasks, and whether somebody interrupted; arguments as of `plan_many`.
+
+    Args:
+        question: the tasks.
+        kernel: which one.
+        threads: how many.
+        tell: how far it is.
+        level: at which the logger is told.
+
+    Raises:
+        InputError: as of `plan_many`.
+    """
+    like, found = question.like, Unfinished(question)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else analysed(question.grasp)
     solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)
     quick = quick_statics(question.count, kernel) if isinstance(whole, GraspStack) else None
-    LOG.info("planning %d tasks of one knot on %d contacts with %d synergies", question.count, like.n_c, like.n_z)
+    LOG.log(level, "planning %d tasks of one knot on %d contacts with %d synergies by kernel '%s': %s",
+            question.count, like.n_c, like.n_z, name_of(solver), reason(question.count, kernel))  # fmt: skip
     chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
-    if question.beyond:
-        LOG.warning("%d tasks are planned one by one: %s is not for many at once", question.count, question.beyond)
     keep_memory()
+    interrupted = False
     work = partial(_answers, question, whole, solver=solver, quick=quick)
     try:
+        if not question.beyond:
+            ready(solver, quick, whole, tell)
         for places, answers in on_threads(chunks, work, many_at_a_time):  # in order, whatever is ready first
-            _keep(question, places, answers, found)
-            if progress is not None:
-                progress("planning", (int(places[-1]) + 1) / question.count)
+            found.keep(places, answers, lambda: tell.seldom("planning", found.finished / question.count))
+            tell("planning", (int(places[-1]) + 1) / question.count)
     except KeyboardInterrupt:
-        LOG.info("interrupted after %d tasks", int(found.flags["finished"].sum()))
-    many = replace(found.told(), notes=question.notes)
-    LOG.info("%r", many)
-    return many
+        interrupted = True
+        LOG.log(level, "interrupted after %d tasks", found.finished)
+    many = found.told(name_of(solver))
+    LOG.log(level, "%r", many)
+    return many, interrupted
 
 
 def analysed(grasp: Grasp) -> Analysis | None:
@@ -137,19 +164,6 @@ def _answers(
     )  # fmt: skip
     return [(within, decided(stated, question.wrench[places[within]], solver), known)
             for within, stated, known in stacked]  # fmt: skip
-
-
-def _keep(question: Asked, places: NDArray[np.intp], answers: list[Answers], found: Unfinished) -> None:
-    """Fill in the answers of a chunk, and plan one by one what has none."""
-    open_ = np.ones(len(places), dtype=bool)
-    for within, each, known in answers:
-        _fill(found, places[within], each, known)
-        open_[within] = ~(known & (each.feasible | each.infeasible))
-    alone = not open_.all()  # what is wrong with every task is raised
-    for place in places[open_].tolist():
-        _one_by_one(question, place, found, refusing=alone)
-        alone |= place in found.refusals or bool(found.flags["verified"][place])
-    found.flags["finished"][places] = True
 
 
 def _on_one(question: Asked, whole: Analysis | None, places: NDArray[np.intp]) -> Iterator[Part]:
@@ -189,37 +203,3 @@ def _known(group: AnalysisGroup) -> NDArray[np.bool_]:
     figures = group.response.figures
     clear = np.all(shares(figures[..., 2:].max(axis=-1), figures) <= SHOWN, axis=-1)
     return np.asarray(clear & (group.response.restraint.ranks == 6))
-
-
-def _fill(found: Unfinished, places: NDArray[np.intp], answers: Decided, known: NDArray[np.bool_]) -> None:
-    feasible, infeasible = answers.feasible & known, answers.infeasible & known
-    found.verdicts[places[feasible]], found.verdicts[places[infeasible]] = FEASIBLE, INFEASIBLE
-    right = feasible | infeasible
-    found.flags["verified"][places] = right
-    for name, values in found.numbers.items():
-        values[places[right]] = getattr(answers, name)[right]
-
-
-def _one_by_one(question: Asked, place: int, found: Unfinished, *, refusing: bool) -> None:
-    """Let `plan` answer a task: the same model, one program at a time; `refusing`, what it raises is kept."""
-    found.flags["one_by_one"][place] = True
-    try:
-        outcome: Any = plan_of_start_posture(question.grasp_at(place), question.task_at(place))
-    except InputError as error:
-        rigid = isinstance(error, RigidContactError) and isinstance(question.grasp, GraspStack)
-        if not (refusing or rigid):
-            raise
-        found.refusals[place] = error
-        return
-    except SelfCheckError as error:  # of one task: the others keep their answers
-        LOG.warning("task %d: %s", place, error)
-        found.refusals[place] = error
-        return
-    found.verdicts[place] = outcome.verdict
-    found.flags["verified"][place] = not isinstance(outcome, Plan) or outcome.decisions[-1].optimal
-    found.flags["verified"][place] &= isinstance(outcome, Plan | Infeasible)
-    if isinstance(outcome, Plan | Infeasible) and outcome.largest_margin is not None:
-        found.numbers["largest_margin"][place] = outcome.largest_margin
-    if isinstance(outcome, Plan):
-        for name in ("margins", "forces", "dz_r"):
-            found.numbers[name][place] = getattr(outcome, name)[0]
