@@ -40,8 +40,8 @@ def place_object(
     margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts,
     references and joint ranges (no others count); around the best ones it is looked again, as long as that gains, until
     places are 1 mm apart. A place at which the skeleton of the hand runs through the object, or a contact is at an edge
-    of it, goes after others, one at which the skeleton runs more than 3 mm deep through it after all others. Then `plan`
-    is asked: the first of up to 16 places, best first and far from each other, at which the whole task has a plan is
+    of it, goes after others, and one at which the skeleton is more than 3 mm inside after all others. Then `plan` is
+    asked: the first of up to 16 places, best first and far from each other, at which the whole task has a plan is
     taken, else the best one. The same question has the same answer, unless planning takes longer than a minute, after
     which no further place is planned at.
 

@@ -13,6 +13,7 @@ from synergrip.errors import InputError, Issue, one_of
 from synergrip.grasps.asked_hand import asked_hand
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand
+from synergrip.hands.synergies.matrix import stands_still
 from synergrip.problems.hand_table import HandTable
 from synergrip.problems.holding import in_file
 
@@ -39,6 +40,7 @@ def hand_issues(document: Document, known: Sequence[Issue]) -> list[Issue]:
     hand = None if wrong & set(OF_MODEL) else gathered(issues, lambda: _hand(table, document))
     if hand is None:
         return issues
+    wrong |= set() if table.posture else {"posture"}  # one that is missing is told when all else is in order
     posture = "rest" if "posture" in wrong else table.posture
     try:
         asked_hand(
@@ -49,7 +51,8 @@ def hand_issues(document: Document, known: Sequence[Issue]) -> list[Issue]:
     except InputError as error:
         told = map(in_file, error.issues)
         issues += [each for each in told if not any(_within(each.key, f"hand.{key}") for key in wrong)]
-    return [*issues, *_places(hand, document.data)]
+    places = [(key, name) for key, name in _places(document.data) if not _doubtful(key, known)]
+    return [*issues, *(issue for key, name in places for issue in _unknown(hand, key, name))]
 
 
 def _hand(table: HandTable, document: Document) -> Hand:
@@ -63,18 +66,28 @@ def _within(key: str, table: str) -> bool:
     return key == table or key.startswith((f"{table}.", f"{table}["))
 
 
-def _places(hand: Hand, data: dict[str, Any]) -> Iterator[Issue]:
-    """Yield which pads and links of contacts the hand has not."""
+def _places(data: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the keys at which contacts name pads and links, with the names."""
     shared, entries = data.get("contacts"), data.get("contact")
     at = shared.get("at") if isinstance(shared, dict) else None
-    named = [(f"contacts.at[{i}]", pad) for i, pad in enumerate(at if isinstance(at, list) else ())]
-    each = [(f"contact[{i}]", entry) for i, entry in enumerate(entries if isinstance(entries, list) else ())
-            if isinstance(entry, dict)]  # fmt: skip
-    for key, pad in [*named, *((f"{key}.at", entry.get("at")) for key, entry in each)]:
-        if isinstance(pad, str) and pad and pad not in hand.pads:
-            issues = list[Issue]()
-            gathered(issues, lambda pad=pad, key=key: hand.pad(pad, key))  # type: ignore[misc]
-            yield from issues
-    for key, entry in each:
-        if isinstance(link := entry.get("link"), str) and link and link not in hand.links:
-            yield Issue(f"link {one_of(link, hand.links)}", key=f"{key}.link")
+    yield from ((f"contacts.at[{i}]", pad) for i, pad in enumerate(at if isinstance(at, list) else ()))
+    for i, entry in enumerate(entries if isinstance(entries, list) else ()):
+        if isinstance(entry, dict):
+            yield from ((f"contact[{i}].{name}", entry[name]) for name in ("at", "link") if name in entry)
+
+
+def _doubtful(key: str, known: Sequence[Issue]) -> bool:
+    """Tell whether the pad in a list, or anything of the entry of a contact, is refused already."""
+    place = key if key.startswith("contacts") else key.rpartition(".")[0]
+    return any(_within(issue.key, place) for issue in known)
+
+
+def _unknown(hand: Hand, key: str, name: object) -> list[Issue]:
+    """Return what is wrong with the name of a pad or link: nothing where the hand has it."""
+    issues = list[Issue]()
+    if isinstance(name, str) and name:
+        if key.endswith(".link"):
+            known = name in hand.links
+            return [] if known else [Issue(stands_still(hand, name) or f"link {one_of(name, hand.links)}", key=key)]
+        gathered(issues, lambda: hand.pad(name, key))
+    return issues
