@@ -117,6 +117,13 @@ def test_one_hand_tells_where_its_pads_are(tmp_path: Path) -> None:
     places = {each["name"]: each["position_m"] for each in found["places"]}
     assert places["finger1/tip"] == pytest.approx([0, 0.04585, 0.17517], abs=1e-5)
     assert found["posture"]["finger2_inner"] == pytest.approx(1.2915, abs=1e-4)
+    table = document("hands", "barrett", "--posture", '{ spread = "10 deg", finger1 = "30 deg" }')
+    assert table["posture"]["finger2_spread"] == pytest.approx(0.1745, abs=1e-4)
+    for posture, told in (("{ spread = 10 }", "--posture.spread: 10 has no unit"),
+                          ("{ spread = 10 deg }", "--posture: '{ spread = 10 deg }' is no table"),
+                          ('{ spred = "1 deg" }', "--posture.spred: synergy or joint 'spred'")):  # fmt: skip
+        refused = run("hands", "barrett", "--posture", posture)
+        assert (refused.exit_code, told in " ".join(refused.stderr.split())) == (2, True), refused.stderr
     assert "finger3/pad (48.4, -13.5, 176.5)" in (tmp_path / "hand.svg").read_text(encoding="utf-8")
     assert "finger1/tip  finger1_tip" in run("hands", "barrett").stdout
     assert "is for one hand" in run("hands", "--posture", "ball").stderr

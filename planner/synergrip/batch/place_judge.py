@@ -186,13 +186,13 @@ def _first(positions: Array, made: Callable[[Array], tuple[Grasp, Task]]) -> tup
 
     What is asked wherever the object is, and refused alike at two places, is not tried at all others.
     """
-    refused: InputError | None = None
+    refused, said = list[InputError](), set[str]()
     for position in positions:
         try:
             return made(frozen(position))
         except InputError as error:
-            if refused is not None and _asked_anywhere(error) and str(error) == str(refused):
+            if _asked_anywhere(error) and str(error) in said:
                 raise
-            refused = refused or error
-    assert refused is not None
-    raise refused
+            refused.append(error)
+            said.add(str(error))
+    raise refused[0]

@@ -40,7 +40,7 @@ def hand_issues(document: Document, known: Sequence[Issue]) -> list[Issue]:
     hand = None if wrong & set(OF_MODEL) else gathered(issues, lambda: _hand(table, document))
     if hand is None:
         return issues
-    wrong |= set() if table.posture else {"posture"}  # one that is missing is told when all else is in order
+    wrong |= {"posture"} if table.posture is None else set()  # one that is missing is told when all else is in order
     posture = "rest" if "posture" in wrong else table.posture
     try:
         asked_hand(

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.reports.pictures.limits_drawn import halo
+from synergrip.reports.pictures.limits_drawn import on_paper
 from synergrip.reports.pictures.line_chart import HEAD, LABEL, Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines, lines_of
 from synergrip.reports.pictures.page import IN_PAPER, SPACE, Heading
@@ -66,7 +66,7 @@ def note_required(axes: Any, lines: Lines, scale: float) -> None:
     for bound in lines.bounds:
         axes.annotate(f"required {bound:.4g} N", (0.995, bound), xycoords=axes.get_yaxis_transform(), ha="right",
                       va="top", xytext=(0, -2 * scale), textcoords="offset points", fontsize=SIZE * scale,
-                      color=INK, path_effects=halo(scale))  # fmt: skip
+                      color=INK, **on_paper(scale))  # fmt: skip
 
 
 def _caption(document: Mapping[str, Any], lines: Lines) -> str:

@@ -70,19 +70,16 @@ def apart(
     return near, max(below, default=None), min(above, default=None)
 
 
-def halo(scale: float) -> list[Any]:
-    """Return what keeps letters clear of strokes that cross them: paper around each of them."""
-    from matplotlib.patheffects import withStroke
-
-    return [withStroke(linewidth=4.0 * scale, foreground="white")]
+def on_paper(scale: float) -> dict[str, Any]:
+    """Return what keeps words clear of the strokes that cross them: paper below them, and lines of values above."""
+    return {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.8 * scale}, "zorder": 2.9}
 
 
 def _beyond(axes: Any, unit: str, bound: float, end: float, edge: float, scale: float, upright: bool) -> None:
     """Draw one bound between the end of the axis and its edge before, where the axis is broken."""
     at, middle = edge + 0.55 * (end - edge), edge + 0.22 * (end - edge)
     word = f"limit {bound:.4g}{'%' if unit.startswith('%') else f' {unit}'.rstrip()}".replace("-", "−")
-    letters = {"textcoords": "offset points", "va": "bottom", "fontsize": SIZE * scale, "color": INK,
-               "path_effects": halo(scale)}  # fmt: skip
+    letters = {"textcoords": "offset points", "va": "bottom", "fontsize": SIZE * scale, "color": INK, **on_paper(scale)}
     if upright:
         across, where, mark = axes.get_yaxis_transform(), ([0.0], [middle]), (1.0, 0.45)
         axes.axhline(at, color=INK, lw=scale, ls=DASHED, zorder=1.5)
