@@ -17,6 +17,7 @@ from browser import browser_path, browsing
 from command_line import document, run
 
 from synergrip.batch import best_place, place_judge
+from synergrip.batch.placed_object import PlacedObject
 from synergrip.errors import InputError
 from synergrip.grasps import place_search
 from synergrip.problems.problem import load_problem
@@ -177,6 +178,11 @@ def test_an_object_without_a_place_gets_one_that_can_be_written_into_the_file(mo
     monkeypatch.setattr(place_judge, "JUDGED", 8)
     sets = ("hand.posture=open", "hand.close=close", "task.knots=2", "task.between=report")
     asked = ("barrett-ball-hold", *(part for each in sets for part in ("--set", each)))
+    monkeypatch.setattr(PlacedObject, "inside", 0.0176)
+    deep = "but links of the hand run up to 17.6 mm deep through the object: without that none was found"
+    (note,) = document("validate", *asked, "--set", "object.position=auto")["notes"]
+    assert f"(a plan holds there, {deep}; slip margin" in note
+    monkeypatch.setattr(PlacedObject, "inside", 0.002)
     auto = document("plan", *asked, "--set", "object.position=auto", "-o", "auto")
     (note,) = auto["notes"]
     line = re.search(
