@@ -154,6 +154,12 @@ def test_a_posture_is_written_as_the_file_takes_it(barrett: Hand) -> None:
     assert len(written) == sum(not dial.follows for dial in posing.joint_dials())
     q = posture_of(barrett, posing.synergies, HandTable(model="barrett", posture=written).posture, "posture")
     assert q == pytest.approx(posing.q, abs=1e-4)
+    tied = hand_of(
+        [slide(n, "palm", (0, 0, 0), (1, 0, 0)) for n in "ab"], couplings={"b": Coupling({"a": 1.0}, rigid=True)}
+    )
+    assert posture_line(Posing.at(tied, next(iter(tied.synergy_sets.values())), np.zeros(2), ORIGIN)) == (
+        'posture = { a = "0 mm" }'
+    )
     odd = hand_of([hinge("a b.c", "palm", (0, 0, 1))])
     assert '"a b.c" = "0 deg"' in posture_line(
         Posing.at(odd, next(iter(odd.synergy_sets.values())), np.zeros(1), ORIGIN)
