@@ -71,8 +71,8 @@ def apart(
 
 
 def on_paper(scale: float) -> dict[str, Any]:
-    """Return what keeps words clear of the strokes that cross them: paper below them, and lines of values above."""
-    return {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.8 * scale}, "zorder": 2.9}
+    """Return what keeps words clear of the strokes that cross them: paper below them, axes and lines of values above."""
+    return {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.8 * scale}, "zorder": 2.2}
 
 
 def _beyond(axes: Any, unit: str, bound: float, end: float, edge: float, scale: float, upright: bool) -> None:
