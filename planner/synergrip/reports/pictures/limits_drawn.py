@@ -71,7 +71,7 @@ def apart(
 
 
 def on_paper(scale: float) -> dict[str, Any]:
-    """Return what keeps words clear of the strokes that cross them: paper below them, axes and lines of values above."""
+    """Return what keeps words clear of the strokes that cross them: paper below, axes and lines above."""
     return {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.8 * scale}, "zorder": 2.2}
 
 
