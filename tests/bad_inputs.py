@@ -243,9 +243,9 @@ _hand(
 _hand(
     "link-names",
     "[task]\n",
-    "[[contact]]\nlink = 'a'\n[[contact]]\nlink = 'a'\n[task]\n",
+    "[[contact]]\nlink = 'palm'\n[[contact]]\nlink = 'palm'\n[task]\n",
     "contact[1]",
-    "two contacts have the name 'a'; give each of them a name",
+    "two contacts have the name 'palm'; give each of them a name",
 )
 _hand("contact-at", "[task]\n", "[[contact]]\nfriction = 1\n[task]\n", "contact[0].at", "missing key 'at'")
 

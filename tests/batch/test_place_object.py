@@ -13,7 +13,7 @@ from synergrip.batch import best_place, place_judge, planned_places
 from synergrip.batch.judged_places import JudgedPlaces
 from synergrip.batch.place_judge import PlaceJudge
 from synergrip.batch.placed_object import position_line
-from synergrip.batch.planned_places import Candidate, first_that_holds
+from synergrip.batch.planned_places import Candidate, first_clauses, first_that_holds
 from synergrip.grasps import place_search
 from synergrip.grasps.asked_grasp import asked_grasp, grasp_of
 from synergrip.grasps.closing_at_many import Closer
@@ -187,6 +187,43 @@ def test_contacts_at_edges_are_doubtful() -> None:
     for sound, taken in ((3, 3), (500, 100)):
         few = place_judge._some(np.array([1] * 500 + [0] * sound))
         assert (len(few), np.count_nonzero(few >= 500)) == (place_judge.JUDGED, taken)
+
+
+def test_places_deep_in_the_hand_come_after_all_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = asked_grasp("barrett", BALL, posture="open", close="close", contacts=CONTACTS, anywhere=True)
+    closer = Closer(asked)
+    found = closer.closed(np.tile([0.0, 0.0144, 0.1708], (3, 1)))
+    monkeypatch.setattr(place_search, "deepest", lambda *given: np.array([-0.01, 0.002, 0.004]))
+    monkeypatch.setattr(place_search, "_at_edges", lambda *given: np.array([True, True, False]))
+    assert touching_places(closer, found).doubts.tolist() == [1, 2, 3]
+
+
+def test_how_deep_the_hand_runs_through_the_object_is_told() -> None:
+    grasp = grasp_of(asked_grasp("barrett", BALL, posture="open", close="close", contacts=CONTACTS,
+                                 anywhere=True).at(np.array([0.0, 0.0144, 0.1708])))  # fmt: skip
+    assert grasp.held is not None
+    assert sg.PlacedObject(grasp, 1.0, 1, 1).inside == pytest.approx(0, abs=1e-4)  # its points touch
+    sunk = replace(grasp, held=replace(grasp.held, body=replace(BALL, position=np.array([0.0, 0.0, 0.04]))))
+    assert sg.PlacedObject(sunk, 1.0, 1, 1).inside == pytest.approx(0.05, abs=0.02)
+
+
+def test_limits_that_are_refused_anywhere_are_not_tried_at_every_place() -> None:
+    tried = list[float]()
+
+    def made(position: np.ndarray) -> None:
+        tried.append(position[0])
+        said = f"off by {position[0]} mm" if position[0] < 3 else "this hand states no such limit"
+        raise sg.InputError.at("contact[0]" if position[0] < 3 else "limits.joint_torque", said)
+
+    with pytest.raises(sg.InputError, match="no such limit"):
+        place_judge._first(np.arange(150.0).reshape(50, 3), made)  # type: ignore[arg-type]
+    assert tried == [0.0, 3.0, 6.0]
+
+
+def test_a_reason_is_told_in_whole_clauses() -> None:
+    long = f"the hand {'very ' * 50}moves; contact 'thumb' runs over. The finger that {'so ' * 60}ends"
+    assert first_clauses(long) == f"the hand {'very ' * 50}moves"
+    assert first_clauses("one; two. three") == "one; two. three"
 
 
 @pytest.fixture(scope="module")

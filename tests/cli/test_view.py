@@ -17,6 +17,7 @@ from browser import browser_path, browsing
 from command_line import document, run
 
 from synergrip.batch import best_place, place_judge
+from synergrip.batch.placed_object import PlacedObject
 from synergrip.errors import InputError
 from synergrip.grasps import place_search
 from synergrip.problems.problem import load_problem
@@ -117,6 +118,13 @@ def test_one_hand_tells_where_its_pads_are(tmp_path: Path) -> None:
     places = {each["name"]: each["position_m"] for each in found["places"]}
     assert places["finger1/tip"] == pytest.approx([0, 0.04585, 0.17517], abs=1e-5)
     assert found["posture"]["finger2_inner"] == pytest.approx(1.2915, abs=1e-4)
+    table = document("hands", "barrett", "--posture", '{ spread = "10 deg", finger1 = "30 deg" }')
+    assert table["posture"]["finger2_spread"] == pytest.approx(0.1745, abs=1e-4)
+    for posture, told in (("{ spread = 10 }", "--posture.spread: 10 has no unit"),
+                          ("{ spread = 10 deg }", "--posture: '{ spread = 10 deg }' is no table"),
+                          ('{ spred = "1 deg" }', "--posture.spred: synergy or joint 'spred'")):  # fmt: skip
+        refused = run("hands", "barrett", "--posture", posture)
+        assert (refused.exit_code, told in " ".join(refused.stderr.split())) == (2, True), refused.stderr
     assert "finger3/pad (48.4, -13.5, 176.5)" in (tmp_path / "hand.svg").read_text(encoding="utf-8")
     assert "finger1/tip  finger1_tip" in run("hands", "barrett").stdout
     assert "is for one hand" in run("hands", "--posture", "ball").stderr
@@ -170,6 +178,11 @@ def test_an_object_without_a_place_gets_one_that_can_be_written_into_the_file(mo
     monkeypatch.setattr(place_judge, "JUDGED", 8)
     sets = ("hand.posture=open", "hand.close=close", "task.knots=2", "task.between=report")
     asked = ("barrett-ball-hold", *(part for each in sets for part in ("--set", each)))
+    monkeypatch.setattr(PlacedObject, "inside", 0.0176)
+    deep = "but links of the hand run up to 17.6 mm deep through the object: without that none was found"
+    (note,) = document("validate", *asked, "--set", "object.position=auto")["notes"]
+    assert f"(a plan holds there, {deep}; slip margin" in note
+    monkeypatch.setattr(PlacedObject, "inside", 0.002)
     auto = document("plan", *asked, "--set", "object.position=auto", "-o", "auto")
     (note,) = auto["notes"]
     line = re.search(

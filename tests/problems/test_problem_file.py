@@ -151,8 +151,12 @@ def test_a_frictionless_contact_ignores_the_default_friction_but_has_none_of_its
 @pytest.mark.parametrize(
     ("contact", "key", "fragment"),
     [
-        ("{at='a'}, {at='a'}", "contact[1].at", "pad 'a' is named twice (first in contact[0])"),
-        ("{at='a', name='x'}, {at='b', name='x'}", "contact[1]", "two contacts have the name 'x'"),
+        (
+            "{at='finger1/pad'}, {at='finger1/pad'}",
+            "contact[1].at",
+            "pad 'finger1/pad' is named twice (first in contact[0])",
+        ),
+        ("{at='finger1/pad', name='x'}, {at='finger2/pad', name='x'}", "contact[1]", "two contacts have the name 'x'"),
         ("{at='a', model='soft', spin_stiffness='rigid'}", "contact[0].spin_friction", "a soft contact needs it"),
         ("{at='a', spin_friction='1 mm'}", "contact[0].spin_friction", "a hard contact has no spin friction"),
         ("{at='a', stiffness='rigit'}", "contact[0].stiffness", "did you mean 'rigid'?"),
@@ -180,9 +184,17 @@ def test_a_frictionless_contact_ignores_the_default_friction_but_has_none_of_its
         ("{at='a', point=['0 m', '0 m', '0 m']}", "contact[0].point", "'point' goes with 'link'; a pad has its own"),
         ("{at='a', normal='z'}", "contact[0].normal", "'normal' goes with 'link'; a pad has its own"),
         ("{at='a', radius='1 mm'}", "contact[0].radius", "'radius' goes with 'link'; a pad has its own"),
-        ("{link='a'}, {link='a'}", "contact[1]", "two contacts have the name 'a'; give each of them a name"),
-        ("{link='a', name='b'}, {at='b'}", "contact[1]", "two contacts have the name 'b'"),
-        ("{at='b'}, {link='a', name='b'}", "contact[1]", "two contacts have the name 'b'"),
+        ("{link='palm'}, {link='palm'}", "contact[1]", "two contacts have the name 'palm'; give each of them a name"),
+        (
+            "{link='palm', name='finger1/pad'}, {at='finger1/pad'}",
+            "contact[1]",
+            "two contacts have the name 'finger1/pad'",
+        ),
+        (
+            "{at='finger1/pad'}, {link='palm', name='finger1/pad'}",
+            "contact[1]",
+            "two contacts have the name 'finger1/pad'",
+        ),
         ("{link='a', name='finger1/tip'}", "contact[0]", "two contacts have the name 'finger1/tip'"),
         ("{link='a', point=['0 mm', '0 mm']}", "contact[0].point", "expected 3 lengths, got 2"),
         ("{link='a', point=['0 m', 0, '0 m']}", "contact[0].point[1]", "0 has no unit"),

@@ -121,6 +121,17 @@ def test_forces_in_their_cones_begin_at_rings_and_end_at_squares(
     assert len(drawn) == 12
     assert {"the force"} <= set(texts(tmp_path / "one.svg"))
     assert not [text for text in texts(tmp_path / "one.svg") if text.startswith(("start", "end"))]
+    figure("cones", "pinch-soft", tmp_path / "still.svg", overrides=["task.knots=2"])
+    assert sorted(drawn[12:]) == [False, True]  # of the key alone: what does not move is a dot
+
+
+def test_a_title_is_no_larger_than_its_figure_bears(saved: Path, tmp_path: Path) -> None:
+    long = "A hand that holds a glass of water and turns it over slowly"
+    for name, title in (("titled", long), ("plain", "")):
+        figure("margin", saved, tmp_path / f"{name}.svg", title=title, width_mm=84)
+    assert size(tmp_path / "titled.svg")[1] < size(tmp_path / "plain.svg")[1] + 17  # mm
+    lines = [text for text in texts(tmp_path / "titled.svg") if text and text in long]
+    assert len(lines) == 2
 
 
 def test_text_stays_text_in_a_pdf(saved: Path, tmp_path: Path) -> None:

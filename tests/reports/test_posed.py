@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,15 +17,21 @@ from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Coupling, Hand
 from synergrip.hands.models.urdf_balls import Ball, balls_of
 from synergrip.hands.spots import rest_posture, spots_of
+from synergrip.hands.synergies.matrix import posture as posture_of
 from synergrip.linalg import frozen
+from synergrip.problems.hand_table import HandTable
 from synergrip.problems.unplaced import unplaced_problem
+from synergrip.reports.pictures.view import axes_apart, best_view, view_from
 from synergrip.reports.text.text_grasp import _held_lines
 from synergrip.reports.text.text_spots import balls_lines, spots_table
+from synergrip.reports.view.labels import HIGH, apart
 from synergrip.reports.view.looks import plain, table_of
 from synergrip.reports.view.marks import axes_length, pad_axes
 from synergrip.reports.view.posed import Posed
-from synergrip.reports.view.posing import Posing
+from synergrip.reports.view.posing import Posing, posture_line
 from synergrip.reports.view.shown import hand_shown, problem_shown
+
+ORIGIN = np.zeros(3)
 
 
 @pytest.fixture(scope="module")
@@ -132,8 +139,52 @@ def test_fingers_without_pads_end_in_their_last_links(barrett: Hand) -> None:
     assert all(spot.normal is None for spot in spots)
     assert "no pads" in hand_shown(bare).notes[0]
     told = spots_table(spots).splitlines()
-    assert [line.split()[:2] for line in told[1:-1]] == [["(origin)", spot.link] for spot in spots]
+    assert [line.split()[:2] for line in told[1:-1]] == [["(frame)", spot.link] for spot in spots]
+    assert "often its tip" in told[-1]  # no joint moves it: a frame that the file puts there
+    hinged = hand_of([hinge("a", "palm", (0, 0, 1)), hinge("b", "a_link", (1, 0, 0))])
+    told = spots_table(spots_of(hinged, np.zeros(2))).splitlines()
+    assert told[1].startswith("(origin)")
     assert "not its tip" in told[-1]
+
+
+def test_a_posture_is_written_as_the_file_takes_it(barrett: Hand) -> None:
+    posing = begun(barrett).with_joint(0, 0.5).with_joint(1, 0.7)
+    line = posture_line(posing)
+    written = tomllib.loads(line)["posture"]
+    assert len(written) == sum(not dial.follows for dial in posing.joint_dials())
+    q = posture_of(barrett, posing.synergies, HandTable(model="barrett", posture=written).posture, "posture")
+    assert q == pytest.approx(posing.q, abs=1e-4)
+    tied = hand_of(
+        [slide(n, "palm", (0, 0, 0), (1, 0, 0)) for n in "ab"], couplings={"b": Coupling({"a": 1.0}, rigid=True)}
+    )
+    assert posture_line(Posing.at(tied, next(iter(tied.synergy_sets.values())), np.zeros(2), ORIGIN)) == (
+        'posture = { a = "0 mm" }'
+    )
+    odd = hand_of([hinge("a b.c", "palm", (0, 0, 1))])
+    assert '"a b.c" = "0 deg"' in posture_line(
+        Posing.at(odd, next(iter(odd.synergy_sets.values())), np.zeros(1), ORIGIN)
+    )
+
+
+def test_labels_are_not_over_each_other() -> None:
+    camera, up = (np.array([1.0, 0, 0]), np.zeros(3)), np.array([0.0, 0, 1])
+    places = np.array([[0.0, 0, 0], [0, 0.01, 0.001], [0, 0.8, 0], [0, 0, 0.5]])
+    found = apart(places, ["thumb 3 N", "index 3 N", "far", "high"], camera, up)
+    assert found[1:] == pytest.approx(places[1:])
+    assert found[0] == pytest.approx([0, 0, places[1, 2] - HIGH])
+
+
+def test_no_two_axes_of_the_palm_lie_on_each_other() -> None:
+    """Of a hand that is flat along y the view along x shows most, and there y would point down as z points up."""
+    for azimuth in range(0, 360, 5):
+        view = view_from(np.radians(azimuth), np.radians(28))
+        flat = view.flat(np.eye(3))
+        angles = np.degrees(np.arctan2(flat[:, 1], flat[:, 0]))
+        near = [abs((angles[i] - angles[j] + 180) % 360 - 180) for i, j in ((0, 1), (0, 2), (1, 2))]
+        assert axes_apart(view) == (min(near) > 15)
+    flat_hand = np.random.default_rng(1).normal(size=(40, 3)) * [1.0, 0.01, 1.0]
+    assert not axes_apart(best_view(flat_hand, ()))
+    assert axes_apart(best_view(flat_hand, (), clear=axes_apart))
 
 
 def test_a_last_link_with_a_contact_is_no_other_pad() -> None:

@@ -42,6 +42,8 @@ ALIKE = 0.02
 """Share of the largest margin within which places are as good as each other."""
 NEARLY = 0.05
 """Share of it that is given for joints that are away from their stops."""
+ASKED = ("limits", "task", "goal", "allow")
+"""Tables of a problem file that ask for something wherever the object is."""
 FORCES = (NormalForce, JointTorque, ActuatorEffort)
 """Limits of how hard a hand may press."""
 ENOUGH = 10.0
@@ -174,13 +176,23 @@ def _from_posture(limit: Limit) -> Limit:
     return replace(limit, start=None) if isinstance(limit, JointRange) else limit
 
 
+def _asked_anywhere(error: InputError) -> bool:
+    """Tell whether something is refused that is asked wherever the object is."""
+    return any(issue.key.split(".")[0] in ASKED for issue in error.issues)
+
+
 def _first(positions: Array, made: Callable[[Array], tuple[Grasp, Task]]) -> tuple[Grasp, Task]:
-    """Return what is made at the first of some positions (N, 3) that makes a grasp; else raise the first error."""
-    refused: InputError | None = None
+    """Return what is made at the first of some positions (N, 3) that makes a grasp; else raise the first error.
+
+    What is asked wherever the object is, and refused alike at two places, is not tried at all others.
+    """
+    refused, said = list[InputError](), set[str]()
     for position in positions:
         try:
             return made(frozen(position))
         except InputError as error:
-            refused = refused or error
-    assert refused is not None
-    raise refused
+            if _asked_anywhere(error) and str(error) in said:
+                raise
+            refused.append(error)
+            said.add(str(error))
+    raise refused[0]

@@ -10,7 +10,8 @@ from synergrip.batch.placed_object import PlacedObject
 from synergrip.batch.telling import judge_progress
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.asked_grasp import Posture, Synergies, asked_grasp, grasp_of
+from synergrip.grasps.asked_grasp import asked_grasp, grasp_of
+from synergrip.grasps.asked_hand import Posture, Synergies
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.objects import Object
 from synergrip.hands.hand import Hand
@@ -40,9 +41,10 @@ def place_object(
     margin at the task's load is worked out by `plan_many`, with the limits of the task on forces, torques, efforts,
     references and joint ranges (no others count); around the best ones it is looked again, as long as that gains, until
     places are 1 mm apart. A place at which the skeleton of the hand runs through the object, or a contact is at an edge
-    of it, goes after others. Then `plan` is asked: the first of up to 16 places, best first and far from each other, at
-    which the whole task has a plan is taken, else the best one. The same question has the same answer, unless planning
-    takes longer than a minute, after which no further place is planned at.
+    of it, goes after others, and one at which the skeleton is more than 3 mm inside after all others. Then `plan` is
+    asked: the first of up to 16 places, best first and far from each other, at which the whole task has a plan is
+    taken, else the best one. The same question has the same answer, unless planning takes longer than a minute, after
+    which no further place is planned at.
 
     Args:
         hand: as of `make_grasp`, and so are the other arguments that it has.

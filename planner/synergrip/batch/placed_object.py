@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from synergrip.documents.naming import made_by
+from synergrip.grasps.clearance import deepest
 from synergrip.grasps.grasp import Grasp
 from synergrip.linalg import Array
 from synergrip.planning.outcome import Outcome
@@ -43,6 +44,14 @@ class PlacedObject(Value):
         """(3,) centre of the object in the palm frame [m]."""
         assert self.grasp.held is not None
         return self.grasp.held.body.position
+
+    @property
+    def inside(self) -> float:
+        """How deep [m] the lines between links of the hand run inside the object; below 0 where they stay outside."""
+        held = self.grasp.held
+        assert held is not None
+        assert held.body.shape is not None
+        return float(deepest(held.hand, held.q[None], held.body.shape, self.position[None], held.touches)[0])
 
     @property
     def line(self) -> str:

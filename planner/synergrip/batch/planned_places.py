@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from synergrip.errors import SelfCheckError, SynergripError, shortened
+from synergrip.errors import SelfCheckError, SynergripError
 from synergrip.grasps.grasp import Grasp
 from synergrip.planning.outcome import Infeasible, Outcome, Plan, Unknown
 from synergrip.planning.planning import plan
@@ -16,7 +17,7 @@ from synergrip.tasks.task import Task
 LONG = 60.0
 """[s] after which it is planned at no further place."""
 LONG_WHY = 200
-"""Letters of a reason that are shown."""
+"""Letters of a reason beyond which no further clause of it is shown."""
 PLANNING = "planning at the best places of the object"
 MEANT = {
     "restraint": "the object is not held", "count": "too many motions for the synergies",
@@ -126,7 +127,17 @@ def _why(nos: list[Outcome | None]) -> str:
 def _of_the_best(nos: list[Outcome | None]) -> str:
     """Return what `plan` says at the first of some places."""
     no = nos[0]
-    return f". At the best one: {shortened(no.why, LONG_WHY)}" if isinstance(no, Infeasible | Unknown) else ""
+    return f". At the best one: {first_clauses(no.why)}" if isinstance(no, Infeasible | Unknown) else ""
+
+
+def first_clauses(text: str) -> str:
+    """Return the first clauses of a text, each whole: at least one, and no more than are short together."""
+    told = ""
+    for clause in re.split(r"(?<=[;.]) ", text):
+        if told and len(told) + len(clause) > LONG_WHY:
+            break
+        told = f"{told} {clause}".lstrip()
+    return told.rstrip(";.")
 
 
 def _words(no: Outcome | None) -> str:

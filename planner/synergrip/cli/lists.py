@@ -38,7 +38,12 @@ def hands(
         typer.Argument(metavar="HAND", help="One hand (bundled name, folder, .urdf, .xml, .mjcf), with its pads."),
     ] = None,
     posture: Annotated[
-        str | None, typer.Option("--posture", metavar="P", help="Posture of that hand; at rest when absent.")
+        str | None,
+        typer.Option(
+            "--posture",
+            metavar="P",
+            help="Posture of that hand: a name, or values such as '{ joint = \"60 deg\" }'; at rest when absent.",
+        ),
     ] = None,
     picture: PictureOption = None,
     form: FormatOption = Format.TEXT,
@@ -62,12 +67,13 @@ def _one(hand: Hand, posture: str | None, picture: Path | None, form: Format) ->
     """Tell of one hand, in a posture."""
     from synergrip.hands.models.urdf_balls import balls_of
     from synergrip.hands.spots import spots_of
+    from synergrip.problems.hand_table import posture_written
     from synergrip.reports.data.json_spots import posture_document
     from synergrip.reports.text.text_grasp import posture_lines
     from synergrip.reports.text.text_spots import balls_lines, spots_table
     from synergrip.reports.view.shown import hand_shown
 
-    shown = hand_shown(hand, posture)
+    shown = hand_shown(hand, posture and posture_written(posture, "--posture"))
     spots, q = spots_of(hand, shown.begin.q), shown.begin.q
     balls = balls_of(hand.file, [spot.link for spot in spots if not spot.pad])
     round_ = {link: {"radius_m": ball.radius, "point_m": list(ball.point)} for link, ball in balls.items()}

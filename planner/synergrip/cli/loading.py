@@ -55,7 +55,9 @@ def _placed(name: str, given: list[str]) -> tuple[Problem, Outcome | None]:
     from synergrip.batch.placed_object import found_override
     from synergrip.cli.beside import aside
     from synergrip.cli.progress import shares
+    from synergrip.documents.quantities import in_mm
     from synergrip.errors import InputError
+    from synergrip.grasps.clearance import FAR_INSIDE
     from synergrip.planning.outcome import Plan
     from synergrip.problems.problem import load_problem
     from synergrip.problems.unplaced import unplaced_problem
@@ -73,6 +75,9 @@ def _placed(name: str, given: list[str]) -> tuple[Problem, Outcome | None]:
     except InputError as error:
         raise problem.located(error) from None
     holds = "a plan holds there; " if isinstance(found.outcome, Plan) else ""
+    if found.inside > FAR_INSIDE:
+        deep = f"links of the hand run up to {in_mm(found.inside)} deep through the object"
+        holds = f"a plan holds there, but {deep}: without that none was found; " if holds else f"{deep}; "
     margin = f"slip margin up to {found.margin:.3g} N at the start posture; " if found.margin > 0 else ""
     touching = f"all contacts touch at {found.touching} of {found.tried} places"
     aside(f"placed   {found.line}  ({holds}{margin}{touching}; {WRITTEN})")

@@ -35,7 +35,12 @@ def view(
         ),
     ],
     posture: Annotated[
-        str | None, typer.Option("--posture", metavar="P", help="The posture with which a hand begins.")
+        str | None,
+        typer.Option(
+            "--posture",
+            metavar="P",
+            help="The posture with which a hand begins: a name, or values such as '{ joint = \"60 deg\" }'.",
+        ),
     ] = None,
     overrides: SetOption = None,
     port: Annotated[int, typer.Option("--port", metavar="N", min=0, max=65535, help="First port to try.")] = 8080,
@@ -100,9 +105,10 @@ def _page(what: str, posture: str | None, overrides: list[str]) -> Page:
 
 def _hand(what: str, posture: str | None) -> Page:
     from synergrip.hands.folder import load_hand
+    from synergrip.problems.hand_table import posture_written
     from synergrip.reports.view.shown import hand_shown
 
-    return _posed(hand_shown(load_hand(what, key="HAND"), posture))
+    return _posed(hand_shown(load_hand(what, key="HAND"), posture and posture_written(posture, "--posture")))
 
 
 def _problem(name: str, overrides: list[str]) -> Page:

@@ -8,29 +8,23 @@ from pathlib import Path
 
 import numpy as np
 
-from synergrip.documents.judging import Arguments, as_numbers, described
+from synergrip.documents.judging import Arguments, described
 from synergrip.errors import InputError, Issue, one_of, raise_issues
+from synergrip.grasps.asked_hand import Posture, Synergies, asked_hand
 from synergrip.grasps.closing import close as closed
 from synergrip.grasps.closing import unknown_surface
-from synergrip.grasps.closing_direction import closing_direction
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.held import Held
-from synergrip.grasps.matrix_reading import LARGEST_COMPLIANCE
 from synergrip.grasps.objects import Object
 from synergrip.grasps.placing import Touch, place
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand, Pad, SynergySet
 from synergrip.hands.posture_units import posture_doubt
-from synergrip.hands.synergies.matrix import outside_limits, stands_still
-from synergrip.hands.synergies.matrix import posture as posture_of
-from synergrip.hands.synergies.select import SetChoice, select
-from synergrip.hands.undriven import judge_undriven, with_springs
+from synergrip.hands.synergies.matrix import stands_still
 from synergrip.linalg import Array, frozen
 from synergrip.values import Value
 
-Posture = str | Mapping[str, float] | Sequence[float] | Array
-Synergies = int | str | Sequence[str] | SetChoice | SynergySet
 EXAMPLE = 'ContactAt("finger1/tip", HardFinger(friction=0.6), stiffness=8e3)'
 
 
@@ -110,98 +104,22 @@ def asked_grasp(
     touches, issues = _touches(hand, wanted, body)
     if close is not None:
         issues += [each for each in unknown_surface(body) if not (anywhere and each.key == "object.position")]
+    links = [touch.pad.link for touch in touches]
     try:
-        chosen = _synergies(hand, synergies, Path(relative_to or ""))
-        asked = not (synergies is None or isinstance(synergies, int))
-        yielding = as_numbers(joint_compliance)
-        links = [touch.pad.link for touch in touches]
-        each_yields = yielding is not None and yielding.ndim > 0
-        judge_undriven(hand, chosen, links, asked=asked, each_yields=each_yields, key="synergies")
-        q = _joint_values(hand, chosen, posture)
-        C_q = _joint_compliance(hand, joint_compliance)
-        C_z = diagonal(synergy_compliance, chosen.synergies, "synergy_compliance", "synergies")
-        direction = closing_direction(hand, chosen, _wish(close)) if close is not None else None
+        own = asked_hand(hand, posture=posture, synergies=synergies, close=close, joint_compliance=joint_compliance,
+                         synergy_compliance=synergy_compliance, links=links,
+                         folder=Path(relative_to or ""))  # fmt: skip
     except InputError as error:
         raise InputError([*error.issues, *issues]) from None
     raise_issues(issues)
-    return AskedGrasp(title=title, hand=hand, synergies=chosen, q=q, closing=direction, body=body,
-                      touches=tuple(touches), C_q=C_q, C_z=C_z)  # fmt: skip
+    return AskedGrasp(title=title, hand=hand, synergies=own.synergies, q=own.q, closing=own.closing, body=body,
+                      touches=tuple(touches), C_q=own.C_q, C_z=own.C_z)  # fmt: skip
 
 
 def _loaded(hand: object) -> Hand:
     if not isinstance(hand, str | Path):
         raise InputError.at("hand", f'expected a Hand such as load_hand("barrett"), got {described(hand)}')
     return load_hand(hand, key="hand")
-
-
-def _synergies(hand: Hand, wish: Synergies | None, folder: Path) -> SynergySet:
-    if isinstance(wish, SynergySet):
-        if wish.S.shape[0] != len(hand.joints):
-            message = f"'{wish.name}' has {wish.S.shape[0]} rows for the {len(hand.joints)} joints of the hand"
-            raise InputError.at("synergies", message)
-        return wish
-    if wish is not None and (isinstance(wish, bool) or not isinstance(wish, int | str | SetChoice | Sequence)):
-        message = f"expected a number of synergies, a name, a file, a list of names or a set, got {described(wish)}"
-        raise InputError.at("synergies", message)
-    return select(hand, wish, "synergies", folder)
-
-
-def _wish(close: object) -> str | Mapping[str, float]:
-    """Return what the hand closes along, when it is a name or weights by name."""
-    judge = Arguments("")
-    if not isinstance(close, str | Mapping) or not close:
-        message = "expected the name of a synergy or joint, with '-' in front for the opposite direction, or weights by"
-        raise InputError.at("close", f"{message} name such as {{'s1': -1, 's2': 0.2}}, got {described(close)}")
-    for name, weight in close.items() if isinstance(close, Mapping) else ():
-        judge.number(f"close.{name}", weight)
-    judge.finish()
-    return close
-
-
-def _joint_values(hand: Hand, synergies: SynergySet, wish: object) -> Array:
-    """Return the joint values (n_q,) of a posture by name, by values or as an array."""
-    if wish is None:
-        names = ", ".join(hand.postures)
-        raise InputError.at("posture", f"missing; name one of {names}, or give joint values", on_key=True)
-    if isinstance(wish, str):
-        return posture_of(hand, synergies, wish, "posture")
-    judge = Arguments("")
-    if isinstance(wish, Mapping):
-        for name, value in wish.items():
-            judge.number(f"posture.{name}", value, unit="rad or m")
-        judge.finish()
-        return posture_of(hand, synergies, wish, "posture")
-    q = judge.array("posture", wish, (len(hand.joints),), f": a value for each of {', '.join(hand.joint_names)}")
-    judge.finish()
-    raise_issues(outside_limits(hand.joints, q, "posture", hand.couplings))
-    return q
-
-
-def _joint_compliance(hand: Hand, wish: float | Sequence[float] | Array | None) -> Array:
-    if wish is None:
-        return hand.C_q
-    C_q = diagonal(wish, hand.joint_names, "joint_compliance", "joints")
-    return with_springs(hand, C_q) if hand.drives is not None and np.ndim(wish) == 0 else C_q
-
-
-def diagonal(value: float | Sequence[float] | Array, names: Sequence[str], key: str, what: str) -> Array:
-    """Return a compliance matrix of one value for all names, or of one for each.
-
-    Raises:
-        InputError: no numbers, negative ones or ones beyond all compliances, or not as many as names.
-    """
-    judge = Arguments("")
-    found = judge.numbers(key, value, f"a number, or one for each of the {what}")
-    judge.finish()
-    if found is None or found.ndim > 1:
-        raise InputError.at(key, f"expected a number or {len(names)} numbers, got {described(found)}")
-    if found.ndim and len(found) != len(names):
-        raise InputError.at(key, f"{len(found)} values for {len(names)} {what} ({', '.join(names)})")
-    if found.min(initial=0.0) < 0:
-        raise InputError.at(key, f"a compliance must not be negative, got {found.min():g}")
-    if found.max(initial=0.0) > LARGEST_COMPLIANCE:
-        raise InputError.at(key, f"a compliance of {found.max():g} is too large")
-    return frozen(np.diag(np.broadcast_to(found, (len(names),))))
 
 
 def _touches(hand: Hand, contacts: Sequence[ContactAt], body: Object) -> tuple[list[Touch], list[Issue]]:

@@ -16,6 +16,8 @@ from synergrip.linalg import Array
 
 DEEP = 0.5e-3
 """A line of the skeleton that runs deeper inside the object is told [m]."""
+FAR_INSIDE = 3e-3
+"""One that runs deeper than this [m] is no matter of where exactly a frame lies: the hand can hardly be there."""
 LOOKS = 9
 """Points of a line that are looked at where many are judged at once."""
 

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from synergrip.documents.naming import naming_arguments
-from synergrip.grasps.asked_grasp import Posture, Synergies, asked_grasp, grasp_of
+from synergrip.grasps.asked_grasp import asked_grasp, grasp_of
+from synergrip.grasps.asked_hand import Posture, Synergies
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object

@@ -10,7 +10,7 @@ from synergrip.documents.quantities import in_mm
 from synergrip.errors import Issue
 from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.ball import MEETS
-from synergrip.grasps.clearance import DEEP, deepest
+from synergrip.grasps.clearance import DEEP, FAR_INSIDE, deepest
 from synergrip.grasps.closing_at_many import ClosedAtMany, Closer
 from synergrip.grasps.pad_overlaps import overlaps
 from synergrip.grasps.placing import SAME_SPOT
@@ -40,8 +40,8 @@ class TouchingPlaces(Value):
     positions: Array  # (N, 3) [m]
     q: Array  # (N, n_q)
     doubts: Places
-    """(N,) what speaks against each: 1 where the skeleton of the hand runs through the object, 1 where a contact is at
-    an edge of it."""
+    """(N,) what speaks against each: 1 where the skeleton of the hand runs through the object, 2 more where it runs
+    deep through it, so that these come after all others; 1 where a contact is at an edge of it."""
 
     def taken(self, places: Places) -> TouchingPlaces:
         """Return some of them."""
@@ -106,9 +106,9 @@ def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
     positions, q = found.positions[all_touch], found.q[all_touch]
     if not len(q):
         return TouchingPlaces(positions, q, np.zeros(0, dtype=int))
-    inside = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches) > DEEP
+    depths = deepest(closer.asked.hand, q, closer.shape, positions, closer.asked.touches)
     edges = _at_edges(closer, positions, q)
-    return TouchingPlaces(positions, q, np.asarray(inside.astype(int) + edges))
+    return TouchingPlaces(positions, q, np.asarray((depths > DEEP) + 2 * (depths > FAR_INSIDE) + edges))
 
 
 def _at_edges(closer: Closer, positions: Array, q: Array) -> Flags:

@@ -21,6 +21,8 @@ class Spot(Value):
     link: str
     pad: bool
     """Whether it is a pad."""
+    held_fast: bool
+    """Whether it is a last link that no joint moves in the one before: a frame there, as files put at fingertips."""
     position: Array  # (3,) palm frame [m]
     normal: Array | None
     """(3,) unit vector in the palm frame in which the pad pushes; None where nothing says so."""
@@ -35,11 +37,15 @@ def spots_of(hand: Hand, q: Array, others: Sequence[Pad] = ()) -> tuple[Spot, ..
     asked = [*((pad.link, pad.point) for pad in pads), *((link, np.zeros(3)) for link in ends)]
     motions = hand.kinematics.at(q, asked)
     of_pads, bare = motions[: len(pads)], motions[len(pads) :]
+    moved = {joint.link for joint in hand.joints}
+    turned = ((at.rotation @ pad.normal, pad.normal) for pad, at in zip(pads, of_pads, strict=True))
+    pushing = [frozen(normal) if np.any(own) else None for normal, own in turned]
     found = (
-        Spot(pad.name, pad.link, True, at.position, frozen(at.rotation @ pad.normal) if np.any(pad.normal) else None)
-        for pad, at in zip(pads, of_pads, strict=True)
+        Spot(pad.name, pad.link, True, False, at.position, normal)
+        for pad, at, normal in zip(pads, of_pads, pushing, strict=True)
     )
-    return (*found, *(Spot(link, link, False, at.position, None) for link, at in zip(ends, bare, strict=True)))
+    last = (Spot(link, link, False, link not in moved, at.position, None) for link, at in zip(ends, bare, strict=True))
+    return (*found, *last)
 
 
 def rest_posture(hand: Hand, synergies: SynergySet | None = None) -> Array:

@@ -19,6 +19,7 @@ from synergrip.documents.fields import (
     unit_schema,
 )
 from synergrip.documents.numbers import number
+from synergrip.documents.overrides import parse_override
 from synergrip.documents.quantities import ratio
 from synergrip.documents.validation import shown
 from synergrip.errors import InputError, one_of
@@ -35,6 +36,24 @@ def _posture(value: object) -> str | dict[str, float]:
     raise InputError.at(
         "", f'expected the name of a posture or a table such as {{ close = "60 deg" }}, got {shown(value)}'
     )
+
+
+def posture_written(text: str, key: str) -> str | dict[str, float]:
+    """Return the posture of a command line: a name, or values as the inline table that a problem file takes.
+
+    Raises:
+        InputError: at `key`, a table that is none, and values without a unit.
+    """
+    if not text.lstrip().startswith("{"):
+        return text
+    try:
+        value = parse_override(f"posture={text}").value
+        if isinstance(value, dict):
+            return _posture(value)
+    except InputError as error:
+        raise error.under(key) from None
+    example = "'{ joint = \"60 deg\" }'"
+    raise InputError.at(key, f"{shown(text)} is no table; write values as in a problem file: {example}")
 
 
 def _close(value: object) -> str | dict[str, float]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from synergrip.conic.goals.registry import GOALS
 from synergrip.documents.documents import Document, read_document
+from synergrip.documents.gathering import gathered
 from synergrip.documents.naming import made_by, naming_arguments
 from synergrip.documents.source import Source
 from synergrip.documents.validation import shown
@@ -39,8 +40,6 @@ from synergrip.values import Value
 
 if TYPE_CHECKING:
     from synergrip.grasps.held import Held
-
-T = TypeVar("T")
 
 
 @made_by("load_problem(name_or_path)")
@@ -120,11 +119,11 @@ def load_problem(problem: str | Path | Mapping[str, Any], overrides: str | Seque
 def _problem(name: str, path: Path, file: ProblemFile, document: Document) -> Problem:
     """Return the problem that a file states, or everything that is wrong with it."""
     issues: list[Issue] = []
-    touching = _gather(issues, lambda: _touching(path, file))
-    asked = _gather(issues, lambda: _asked(file, path.parent, touching))
+    touching = gathered(issues, lambda: _touching(path, file))
+    asked = gathered(issues, lambda: _asked(file, path.parent, touching))
     if touching is None or asked is None or issues:
         if touching is not None:
-            _gather(issues, lambda: limits_of(file, touching.grasp))
+            gathered(issues, lambda: limits_of(file, touching.grasp))
         raise InputError([document.locate(issue) for issue in issues])
     task, keys = asked
     try:
@@ -171,15 +170,6 @@ def _read(path: Path, overrides: Sequence[str]) -> tuple[ProblemFile, Document]:
             bare = Document(path, {"schema": 1, "grasp": {"file": path.name}}).with_overrides(overrides)
             return parsed(bare), bare
     return read_problem_file(path, overrides)
-
-
-def _gather(issues: list[Issue], part: Callable[[], T]) -> T | None:
-    """Return what a part of the loading gives; keep its issues instead when it is refused."""
-    try:
-        return part()
-    except InputError as error:
-        issues += error.issues
-        return None
 
 
 def _touching(path: Path, file: ProblemFile) -> _Touching:

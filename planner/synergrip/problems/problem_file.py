@@ -13,7 +13,6 @@ from synergrip.documents.fields import Schema, Table, Version
 from synergrip.errors import InputError, Issue
 from synergrip.grasps.contact_at import ContactAt
 from synergrip.grasps.matrices import MOST_CONTACTS
-from synergrip.hands.folder import find_hand
 from synergrip.problems.allow_table import AllowTable
 from synergrip.problems.contact_list import contact_list
 from synergrip.problems.contact_tables import ContactEntry, ContactsTable
@@ -95,7 +94,7 @@ def read_problem_file(path: Path, overrides: Sequence[str] = ()) -> tuple[Proble
 
 
 def parsed(document: Document) -> ProblemFile:
-    """Return the checked values of a document; where some are wrong, a hand that there is not is told with them.
+    """Return the checked values of a document; where some are wrong, what is wrong with the hand is told with them.
 
     Raises:
         InputError: all the issues of the file, each with its place.
@@ -103,16 +102,14 @@ def parsed(document: Document) -> ProblemFile:
     try:
         return parse(document, ProblemFile)
     except InputError as error:
-        hand = document.data.get("hand")
-        model = hand.get("model") if isinstance(hand, dict) else None
-        if not (isinstance(model, str) and model):
-            raise
-        try:
-            find_hand(model, document.path.parent, "hand.model")
-        except InputError as unknown:
-            found = [*error.issues, *(document.locate(issue) for issue in unknown.issues)]
-            raise InputError(sorted(found, key=lambda issue: (issue.file, issue.line, issue.column))) from None
-        raise
+        from synergrip.problems.hand_beside import (
+            hand_issues,  # it reads hands, which a file in order does not need here
+        )
+
+        newer = any(issue.key == "schema" for issue in error.issues)
+        beside = [] if newer else [document.locate(issue) for issue in hand_issues(document, error.issues)]
+        found = [*error.issues, *(issue for issue in beside if issue not in error.issues)]
+        raise InputError(sorted(found, key=lambda issue: (issue.file, issue.line, issue.column))) from None
 
 
 def problem_schema() -> dict[str, Any]:

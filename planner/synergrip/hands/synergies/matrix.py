@@ -163,11 +163,11 @@ def set_named(hand: Hand, synergies: SynergySet, names: Mapping[str, str], key: 
         InputError: an unknown name, or names of different kinds.
     """
     known = names_known(hand, synergies)
-    for name, at in names.items():
-        if name not in known:
-            raise InputError.at(
-                at, stands_still(hand, name) or f"synergy or joint {one_of(name, known)}", on_key=at != key
-            )
+    unknown = {name: at for name, at in names.items() if name not in known}
+    raise_issues([
+        Issue(stands_still(hand, name) or f"synergy or joint {one_of(name, known)}", key=at, on_key=at != key)
+        for name, at in unknown.items()
+    ])  # fmt: skip
     for each in _sets(hand, synergies):
         if each.name != JOINTS and all(name in each.synergies for name in names):
             return each

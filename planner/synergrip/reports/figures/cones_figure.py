@@ -11,7 +11,7 @@ import numpy as np
 from synergrip.grasps.contacts.contact import Contact
 from synergrip.reports.figures.subject import Subject
 from synergrip.reports.pictures.cone_sections import Cones, cones_height, draw_cones
-from synergrip.reports.pictures.page import SPACE, Heading
+from synergrip.reports.pictures.page import IN_PAPER, SPACE, Heading
 from synergrip.reports.pictures.paper import Paper
 from synergrip.reports.pictures.sheet import Sheet, write_picture
 from synergrip.simulation.played_plan import pad_of
@@ -45,7 +45,7 @@ def draw_cones_figure(subject: Subject, path: Path, paper: Paper) -> str:
     parts = [forces[:, first:last] for first, last in pairwise(ends)]
     cones = Cones(contacts, parts, margins, np.array(document["time_s"]))
     width = paper.wide(WIDE_MM)
-    heading, wide = Heading.of(paper.title, "", width), width - 2 * BESIDE
+    heading, wide = Heading.of(paper.title, "", width, IN_PAPER), width - 2 * BESIDE
     top = heading.height + SPACE / 2 if paper.title else BESIDE / 2
 
     def fill(sheet: Sheet) -> None:

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from synergrip.reports.pictures.limits_drawn import on_paper
 from synergrip.reports.pictures.line_chart import HEAD, LABEL, Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines, lines_of
-from synergrip.reports.pictures.page import SPACE, Heading
+from synergrip.reports.pictures.page import IN_PAPER, SPACE, Heading
 from synergrip.reports.pictures.paper import Paper
 from synergrip.reports.pictures.sheet import INK, Sheet, write_picture
 
@@ -39,7 +40,7 @@ def draw_margin(document: Mapping[str, Any], path: Path, paper: Paper) -> str:
     """
     lines, times = lines_of(document)[0], np.array(document["time_s"])
     width = paper.wide(WIDE_MM)
-    heading, wide = Heading.of(paper.title, "", width), width - LEFT - RIGHT
+    heading, wide = Heading.of(paper.title, "", width, IN_PAPER), width - LEFT - RIGHT
     top = (heading.height + SPACE / 2 if paper.title else ABOVE) + head_of(lines, times, wide) - HEAD
     height = paper.high(top + HIGH + BELOW, top + LEAST + BELOW)
 
@@ -65,7 +66,7 @@ def note_required(axes: Any, lines: Lines, scale: float) -> None:
     for bound in lines.bounds:
         axes.annotate(f"required {bound:.4g} N", (0.995, bound), xycoords=axes.get_yaxis_transform(), ha="right",
                       va="top", xytext=(0, -2 * scale), textcoords="offset points", fontsize=SIZE * scale,
-                      color=INK)  # fmt: skip
+                      color=INK, **on_paper(scale))  # fmt: skip
 
 
 def _caption(document: Mapping[str, Any], lines: Lines) -> str:

@@ -13,7 +13,7 @@ from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.hand_scene import draw_hand
 from synergrip.reports.pictures.line_chart import Box, draw_chart, head_of
 from synergrip.reports.pictures.lines import Lines, lines_of
-from synergrip.reports.pictures.page import Heading
+from synergrip.reports.pictures.page import IN_PAPER, Heading
 from synergrip.reports.pictures.paper import Paper
 from synergrip.reports.pictures.sheet import INK, Sheet, write_picture
 from synergrip.reports.view.planned import scene_of
@@ -48,7 +48,7 @@ def draw_overview(document: Mapping[str, Any], folder: Path, path: Path, paper: 
     every = {lines.title: lines for lines in lines_of(document)}
     parts = [every[title] for title in ("slip margin", "normal force") if title in every]
     width, times = paper.wide(WIDE_MM), np.array(document["time_s"])
-    heading = Heading.of(paper.title, "", width)
+    heading = Heading.of(paper.title, "", width, IN_PAPER)
     top = heading.height if paper.title else 0.05
     beside = width >= NARROW
     height = paper.high((HIGH if beside else 2 * HIGH) + top, (LEAST if beside else 2 * LEAST) + top)

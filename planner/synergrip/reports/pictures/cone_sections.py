@@ -22,6 +22,8 @@ CAPTION, NAME, UNDER = 0.4, 8.0, 7.0
 """Room above a cross-section [inch], and sizes of the letters there [points]."""
 KEY_HIGH, KEY_APART = 0.2, 0.32
 """Height of the line below them that says what stands for which time, and room beside each of its texts [inch]."""
+STILL = 0.02
+"""A force that moves no farther in its cone is one dot: marks on each other could not be told apart."""
 OUTSIDE = 1.2
 """How far outside its cone a force is drawn at most."""
 
@@ -150,7 +152,7 @@ def _section(panel: Panel, contact: Contact, forces: Array, worst: int, color: s
         panel.note(np.array([0.0, -0.5]), "no friction")
         return
     panel.strokes([used], color, 0.9, near=4)
-    if len(used) > 1:
+    if np.ptp(used, axis=0).max() > STILL:
         _mark(panel, used[-1], "square", color, near=5)
         _mark(panel, used[0], "ring", color, near=6)
     _mark(panel, used[worst], "dot", color, near=7)

@@ -31,7 +31,7 @@ from synergrip.statics.analysis import Analysis
 TITLE, TITLES = 0.32, 0.5  # [inch]
 ARROW = 1.6
 """The longest arrow for each length of a normal."""
-OFF = 0.15
+OFF = 0.2
 """How far from its contact a number stands at least [inch]."""
 SCALE, WIDTH_MM = 1.05, 180.0
 """Room for a bar of length [inch], and the usual width of a picture in a paper [mm]."""
@@ -86,7 +86,17 @@ class _Picture:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is to be said of it."""
-        return tuple(grasp_notes(self.asked, self.analysis, any(e.forces.largest_spin > 0 for e in self.effects)))
+        spin = any(each.forces.largest_spin > 0 for each in self.effects)
+        gravity = self.gravity
+        upward = gravity is not None and self.view.flat(gravity)[1] > 0
+        downward = ("Drawn with z of the palm up: g points up because the palm looks down.",) if upward else ()
+        return (*grasp_notes(self.asked, self.analysis, spin), *downward)
+
+    @property
+    def gravity(self) -> Array | None:
+        """(3,) at the start, palm frame [m/s^2]; None where it is not known."""
+        held = self.asked.held
+        return surroundings(self.asked.timed, held.body.mass)[0] if held else None
 
     @property
     def view(self) -> View:
@@ -154,8 +164,7 @@ class _Picture:
 
     def _foot(self, view: View, above: Window | None, below: Window) -> Foot:
         """Return axes, gravity, lengths and the names of the contacts."""
-        columns, held = self.columns, self.asked.held
-        gravity = surroundings(self.asked.timed, held.body.mass)[0] if held else None
+        columns, gravity = self.columns, self.gravity
         names = [contact.name for contact in self.analysis.grasp.contacts]
         numbered = [(f"{k} {name}", contact_colors(names)[name]) for k, name in enumerate(names, start=1)]
         left = MARGIN + (2 if gravity is not None else 1) * WIDE

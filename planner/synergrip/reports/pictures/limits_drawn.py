@@ -70,11 +70,16 @@ def apart(
     return near, max(below, default=None), min(above, default=None)
 
 
+def on_paper(scale: float) -> dict[str, Any]:
+    """Return what keeps words clear of the strokes that cross them: paper below, axes and lines above."""
+    return {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.8 * scale}, "zorder": 2.2}
+
+
 def _beyond(axes: Any, unit: str, bound: float, end: float, edge: float, scale: float, upright: bool) -> None:
     """Draw one bound between the end of the axis and its edge before, where the axis is broken."""
     at, middle = edge + 0.55 * (end - edge), edge + 0.22 * (end - edge)
     word = f"limit {bound:.4g}{'%' if unit.startswith('%') else f' {unit}'.rstrip()}".replace("-", "−")
-    letters = {"textcoords": "offset points", "va": "bottom", "fontsize": SIZE * scale, "color": INK}
+    letters = {"textcoords": "offset points", "va": "bottom", "fontsize": SIZE * scale, "color": INK, **on_paper(scale)}
     if upright:
         across, where, mark = axes.get_yaxis_transform(), ([0.0], [middle]), (1.0, 0.45)
         axes.axhline(at, color=INK, lw=scale, ls=DASHED, zorder=1.5)

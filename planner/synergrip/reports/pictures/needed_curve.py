@@ -15,7 +15,7 @@ from synergrip.linalg import Array
 from synergrip.reports.pictures.key import SIZE as KEY
 from synergrip.reports.pictures.layout import MARGIN
 from synergrip.reports.pictures.line_chart import LABEL, OTHERS, TICKS
-from synergrip.reports.pictures.page import SPACE, Heading
+from synergrip.reports.pictures.page import IN_PAPER, SPACE, Heading
 from synergrip.reports.pictures.paper import Paper
 from synergrip.reports.pictures.sheet import GREY, USUAL, Sheet, write_picture
 
@@ -51,7 +51,7 @@ def draw_needed(needed: SynergiesNeeded, path: Path, title: str, paper: Paper | 
     model = {"start": "linear model of the start posture", "along": "the hand that moves"}[needed.model]
     under = f"{named}{len(needed.synergies)} synergies; best by {GOALS[needed.by].name}; {model}"
     width = WIDTH if paper is None else paper.wide(WIDTH_MM)
-    heading = Heading.of(title, under, width) if paper is None else Heading.of(paper.title, "", width)
+    heading = Heading.of(title, under, width) if paper is None else Heading.of(paper.title, "", width, IN_PAPER)
     top = heading.height + SPACE + 0.1 if heading.lines else SPACE
     usual = top + 2 * (HEIGHT + BETWEEN)
     high = usual if paper is None else paper.high(usual, top + 2 * (LOWEST + BETWEEN))

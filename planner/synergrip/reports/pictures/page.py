@@ -11,6 +11,8 @@ from synergrip.reports.pictures.layout import MARGIN, Columns, fitted
 from synergrip.reports.pictures.sheet import GREY, INK, USUAL, Letters, Sheet, write_picture
 
 HEADING, UNDER, NOTE = 13.0, 10.0, 9.0
+IN_PAPER = 9.5
+"""Size of the title of a picture for a paper [points]: there it is a line above a chart, not the head of a page."""
 """Sizes of the letters [points]."""
 LINE = 1.45 / 72
 """Distance of lines for each point of their letters [inch]."""
@@ -25,10 +27,13 @@ class Heading:
     """Each with the size of its letters."""
 
     @classmethod
-    def of(cls, title: str, subtitle: str, width: float) -> Heading:
-        """Return the heading of a picture of `width` [inch]; an empty subtitle takes no room."""
+    def of(cls, title: str, subtitle: str, width: float, size: float = HEADING) -> Heading:
+        """Return the heading of a picture of `width` [inch], its title in letters of a size [points].
+
+        An empty subtitle takes no room.
+        """
         room = width - 2 * MARGIN
-        lines = [(line, HEADING) for line in fitted(title, room * 0.9, HEADING)]  # bold letters are wider
+        lines = [(line, size) for line in fitted(title, room * 0.9, size)]  # bold letters are wider
         return cls((*lines, *((line, UNDER) for line in fitted(subtitle, room, UNDER))))
 
     @property
@@ -41,7 +46,7 @@ class Heading:
         top = SPACE
         for line, size in self.lines:
             top += LINE * size
-            title = size == HEADING
+            title = size != UNDER
             sheet.write(MARGIN, top, line, size, INK if title else GREY, bold=title)
 
 

@@ -19,7 +19,7 @@ from synergrip.reports.pictures.page import Page
 from synergrip.reports.pictures.scene import draw_solid
 from synergrip.reports.pictures.sheet import GREY, INK, Panel, Sheet
 from synergrip.reports.pictures.solids import outline
-from synergrip.reports.pictures.view import View, best_view
+from synergrip.reports.pictures.view import View, axes_apart, best_view
 from synergrip.reports.view.scene import Frame, Scene
 
 WIDE, FLATTEST, TALLEST = 4.3, 0.5, 1.1
@@ -64,9 +64,8 @@ class _Picture:
     def views(self) -> tuple[View, View]:
         """Return the view that shows most, and one from a quarter turn beside it; what is up stays up."""
         up = self.frame.up
-        first = best_view(self.points, (), up)
-        axes = (first.right, first.up, first.toward)
-        return first, View(*(frozen(np.cross(up, axis) + up * (up @ axis)) for axis in axes))
+        first = best_view(self.points, (), up, lambda view: axes_apart(view) and axes_apart(_beside(view, up)))
+        return first, _beside(first, up)
 
     @property
     def _names(self) -> list[Name]:
@@ -176,3 +175,9 @@ class _TwoPanels(Columns):
 
 def _numbers(place: Sequence[float] | Array) -> str:
     return ", ".join(f"{round(1e3 * float(value), 1) + 0.0:g}" for value in place)
+
+
+def _beside(view: View, up: Array) -> View:
+    """Return the view from a quarter turn about `up` (3,) beside one."""
+    axes = (view.right, view.up, view.toward)
+    return View(*(frozen(np.cross(up, axis) + up * (up @ axis)) for axis in axes))

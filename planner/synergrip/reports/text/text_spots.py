@@ -14,21 +14,23 @@ from synergrip.reports.text.tables import table, wrapped
 
 HEADER = ("pad", "link", "place [mm]", "pushes to")
 
-BARE = "(origin)"
-"""What stands for the name of a pad where a finger has none."""
+BARE, FRAME = "(origin)", "(frame)"
+"""What stands for the name of a pad where a finger has none: where its last link begins, or a frame fixed on it."""
 ORIGIN = f"{BARE} of the last link of a finger without a pad: not its tip"
+FIXED = f"{FRAME} that no joint moves, at the end of a finger without a pad: often its tip; look at the picture"
 
 
 def spots_table(spots: Sequence[Spot], name: str = HEADER[0]) -> str:
     """Return a line for each pad or last link, in the palm frame; `name` heads the first column."""
     rows = [
         (
-            spot.name if spot.pad else BARE, spot.link, triple(1e3 * spot.position, 4),
+            spot.name if spot.pad else FRAME if spot.held_fast else BARE, spot.link, triple(1e3 * spot.position, 4),
             "" if spot.normal is None else triple(spot.normal, 2),
         )
         for spot in spots
     ]  # fmt: skip
-    told = [ORIGIN] * any(not spot.pad for spot in spots)
+    bare = [spot.held_fast for spot in spots if not spot.pad]
+    told = [*[ORIGIN] * (False in bare), *[FIXED] * (True in bare)]
     return "\n".join([table((name, *HEADER[1:]), rows), *told])
 
 

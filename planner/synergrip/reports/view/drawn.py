@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from synergrip.linalg import Array
 from synergrip.reports.pictures.contact_colors import contact_colors
+from synergrip.reports.view.labels import apart
 from synergrip.reports.view.scene import Frame, Scene
 from synergrip.reports.view.serving import serving
 from synergrip.reports.view.solid import Solid, ball, cone, of_shape, ribs, rod
@@ -25,6 +27,8 @@ FAR = 1.6
 """How far the camera is, in radii of what is seen."""
 THREAD = 0.12
 """Radius of what joins a pad to where it would touch, in those of bones."""
+SCALE = 0.35
+"""How far to the left of the middle it is said how large squares of the ground are, in distances of the camera."""
 STILL = 1.0
 """[s] How long a single frame is shown."""
 
@@ -79,6 +83,8 @@ class Drawn:
         apart = len(scene.contacts) if scene.margins is None else 0  # from pads to where the object is nearest
         self._apart = _several(nodes, "/palm/apart", rod(), apart, np.array(colors))
         self._labels = [nodes.add_label(f"/palm/names/{i}", name) for i, name in enumerate(scene.contacts)]
+        self._g = nodes.add_label("/gravity_name", "g")
+        self._g.visible = scene.gravity
         self._time = nodes.add_label("/time", "", anchor="bottom-center")
         self._time.position = tuple(self._above)
         self._gravity.visible = scene.gravity
@@ -108,8 +114,14 @@ class Drawn:
 
     @property
     def _above(self) -> Array:
-        """(3,) where the time stands: above all that is held."""
-        return np.asarray(self.scene.middle + 1.9 * self.scene.size * self.scene.up[0])
+        """(3,) where the time stands: above hand, object and gravity."""
+        up, middle, size = self.scene.up[0], self.scene.middle, self.scene.size
+        return np.asarray(middle + (max(float(((self._around - middle) @ up).max()), 1.8 * size) + 0.3 * size) * up)
+
+    def _apart_from(self, places: Array, texts: Sequence[str]) -> Array:
+        """Return the places (m, 3) of labels, so that none is over another where the view begins."""
+        position, middle = self.camera
+        return apart(places, texts, (np.array(position), np.array(middle)), self.scene.up[0])
 
     def show(self, frame: Frame) -> None:
         """Move everything to where it is in a frame."""
@@ -129,9 +141,12 @@ class Drawn:
         if self._arrows is not None:
             self._arrows.points = forces.astype(np.float32)
         _lay(self._apart, np.stack([frame.tips, frame.places], axis=1), THREAD * scene.thickness)
-        for label, text, place in zip(self._labels, frame.labels, frame.places, strict=True):
-            label.text, away = text, place - frame.position
-            label.position = tuple(place + 0.25 * scene.size * away / max(float(np.linalg.norm(away)), 1e-9))
+        away = frame.places - frame.position
+        beside = frame.places + 0.25 * scene.size * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
+        texts, places = (*frame.labels, "g"), np.vstack([beside, self._gravity.points[0, 0]])
+        placed = self._apart_from(places, texts)
+        for label, text, place in zip([*self._labels, self._g], texts, placed, strict=True):
+            label.text, label.position = text, tuple(place)
         self._time.text = frame.caption
 
     def _ground(self, nodes: Any) -> None:
@@ -142,7 +157,10 @@ class Drawn:
         wide = float(np.ceil(2.2 * np.linalg.norm(points, axis=1).max() / CELL) * CELL)
         nodes.add_grid("/ground", width=wide, height=wide, cell_size=CELL, section_size=10 * CELL,
                        position=tuple(low), wxyz=tuple(_upright(up[None])[0]))  # fmt: skip
-        nodes.add_label("/ground/scale", "squares of 10 mm", position=(0.5 * wide, 0.0, 0.0))
+        position, middle = map(np.array, self.camera)
+        left = np.cross(up, middle - position)
+        left *= SCALE * np.linalg.norm(middle - position) / np.linalg.norm(left)
+        nodes.add_label("/scale", "squares of 10 mm", position=tuple(low + left), anchor="center-center")
 
     def _weight(self, up: Array) -> Array:
         """Return the arrow (1, 2, 3) of gravity, above what is held."""

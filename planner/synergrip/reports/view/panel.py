@@ -13,7 +13,7 @@ from synergrip.reports.view.drawn import Drawn
 from synergrip.reports.view.looks import headline, looks, notes_text, table_of
 from synergrip.reports.view.marks import Marks
 from synergrip.reports.view.posed import Posed
-from synergrip.reports.view.posing import Dial, Posing
+from synergrip.reports.view.posing import Dial, Posing, posture_line
 
 STEP = 0.1
 """[deg or mm] of a dial."""
@@ -57,6 +57,7 @@ class Panel:
                 self.synergies = self._synergies(gui)
         with gui.add_folder("Joints"):
             self.joints = [self._dial(gui, dial, Posing.with_joint, i) for i, dial in enumerate(posing.joint_dials())]
+            self.posture = gui.add_markdown("")
         self.axes: list[Any] = []
         self.line: Any = None
         if posed.body is not None:
@@ -86,6 +87,7 @@ class Panel:
             _turn(self.joints, posing.joint_dials())
             _turn(self.axes, self._axis_dials() if self.axes else [])
             self.table.content = table_of(self.drawn.scene, frame)
+            self.posture.content = f"`{posture_line(posing)}`"
             if self.line is not None:
                 self.line.content = f"`{_position(posing.position)}`"
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -15,6 +17,7 @@ from synergrip.hands.units import SI_UNITS, synergy_kinds
 from synergrip.linalg import Array
 from synergrip.values import Value
 
+BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 WIDE = {"hinge": math.pi, "slide": 0.1}
 """How far a joint without limits is moved [rad, m]."""
 
@@ -110,6 +113,18 @@ class Posing(Value):
             low, high = min(*ends, 0.0, float(value)), max(*ends, 0.0, float(value))
             dials.append(Dial(name, unit, factor, float(low), float(high), float(value)))
         return dials
+
+
+def posture_line(posing: Posing) -> str:
+    """Return a posture as it stands in a problem file; joints that follow others are left out, as they follow there."""
+    turned = (dial for dial in posing.joint_dials() if not dial.follows)
+    values = (f'{_key(dial.name)} = "{round(dial.factor * dial.value, 2) + 0.0:.10g} {dial.unit}"' for dial in turned)
+    return f"posture = {{ {', '.join(values)} }}"
+
+
+def _key(name: str) -> str:
+    """Return a name as a key of TOML."""
+    return name if BARE_KEY.fullmatch(name) else json.dumps(name, ensure_ascii=False)
 
 
 def only_joints(hand: Hand, synergies: SynergySet) -> bool:

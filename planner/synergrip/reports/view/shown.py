@@ -34,11 +34,11 @@ class Shown(Value):
     notes: tuple[str, ...] = ()
 
 
-def hand_shown(hand: Hand, posture: str | None = None) -> Shown:
-    """Return a hand by itself, at rest or in a named posture.
+def hand_shown(hand: Hand, posture: str | Mapping[str, float] | None = None) -> Shown:
+    """Return a hand by itself, at rest, in a named posture, or at values [rad or m] by synergy or joint.
 
     Raises:
-        InputError: a posture that it has not, at ``--posture``.
+        InputError: a posture that it has not or cannot take, at ``--posture``.
     """
     sets = _beside_joints(hand, hand.synergy_sets)
     synergies = next(iter((sets or hand.synergy_sets).values()))
