@@ -10,7 +10,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.problems.in_short import many
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.pictures.lines import plan_lines
-from synergrip.reports.text.text_usages import worst_of
+from synergrip.reports.text.text_usages import WITHIN, worst_of
 
 HEAD = ("limit", "worst", "where", "when", "bound")
 WIDE = "max-width: 34em"
@@ -31,7 +31,7 @@ def plan_html(plan: Plan) -> str:
 
 def _table(plan: Plan) -> str:
     """Return the value of every limit that is nearest to its bound, on each side that is bounded by itself."""
-    each = (row for usage in plan.usages for row in worst_of(usage))
+    each = (row for usage in plan.usages for row in worst_of(usage, mark=WITHIN))
     rows = [(title, shown, _short(item), f"{time:.3g} s", bound) for title, shown, item, time, bound in each]
     head = "".join(f"<th>{cell}</th>" for cell in HEAD)
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)

@@ -89,7 +89,8 @@ def report_text(
         files[MARGINS] = to_json(dict(found.document))
     return str(
         _template().render(
-            title=document["title"], under=_under(document), verdict=document["verdict"],
+            title=document["title"], under=_under(document), asked=" · ".join(document.get("asked") or ()),
+            verdict=document["verdict"],
             headline=_headline(document), contents=contents, no=no, playback=playback, charts=charts,
             tables=tables, overrides=[each for each in overrides if not each.endswith(FOUND)],
             found=[each.removesuffix(FOUND) for each in overrides if each.endswith(FOUND)], inputs=_inputs(problem),
