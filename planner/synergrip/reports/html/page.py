@@ -76,7 +76,7 @@ def report_text(
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document), end)
     found = margins if margins is not None or beside is None else saved_margins(beside, document)
     tables = in_order([
-        *tables_of(document), *synergies_of(document), margins_of(document, found),
+        *tables_of(document), *synergies_of(document), margins_of(document, found, beside),
         *physics_of(document, beside),
     ])  # fmt: skip
     no = why_of(document)

@@ -8,17 +8,14 @@ from typing import Any
 
 from synergrip.reports.data.saved_simulation import FILE, saved_simulation
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.tables import Cell, Table
+from synergrip.reports.html.tables import Cell, Table, in_folder
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.simulation_picture import simulation_lines
 from synergrip.reports.text.text_simulation import became, contact_cells, how_played, promised_word, sentences
 from synergrip.simulation.simulation import Simulation
 
 ANCHOR, TITLE = "physics", "In a physics engine"
-ADDED_BY = (
-    "`synergrip simulate FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how it holds in a physics engine; "
-    "FOLDER is that of plan.json"
-)
+ADDED_BY = "`synergrip simulate FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how it holds in a physics engine"
 DRAWN = ("slip margin", "slip")
 """Charts; what the object does is told by the largest distance from what was promised."""
 
@@ -37,7 +34,7 @@ def physics_of(document: Mapping[str, Any], beside: Path | None) -> Iterator[Tab
         yield _played(found)
     else:
         left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
-        yield Table(ANCHOR, TITLE, before=(*left_out, f"{ADDED_BY}."))
+        yield Table(ANCHOR, TITLE, before=(*left_out, f"{in_folder(ADDED_BY, beside)}."))
 
 
 def _playable(document: Mapping[str, Any]) -> bool:

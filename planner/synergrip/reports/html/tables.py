@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -51,6 +53,13 @@ def tables_of(document: Document) -> tuple[Table, ...]:
     """Return limits, contacts, promise against truth, and the independent check."""
     parts = (_limits, _allowed, _contacts, _truth, _checks, _notes)
     return tuple(table for part in parts for table in part(document))
+
+
+def in_folder(command: str, folder: Path | None) -> str:
+    """Return a sentence with a command, in which FOLDER is the folder of plan.json, or is said to be it."""
+    return (
+        f"{command}; FOLDER is that of plan.json" if folder is None else command.replace("FOLDER", quote(str(folder)))
+    )
 
 
 def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:

@@ -60,9 +60,7 @@ def used_rows(
     return rows
 
 
-def limit_rows(
-    usages: Sequence[Usage], task: TimedTask, grasp: Grasp, mark: str = ""
-) -> list[tuple[str, ...]]:
+def limit_rows(usages: Sequence[Usage], task: TimedTask, grasp: Grasp, mark: str = "") -> list[tuple[str, ...]]:
     """Return the rows of the limits of a task; what is of synergies has the unit of the joints that they move."""
     of_each = zip(task.all_limits, usages, strict=True)
     return [row for limit, usage in of_each for row in _usage_rows(usage, synergy_units(limit, grasp), mark)]
