@@ -55,14 +55,14 @@ MOST_ROWS = 12
 
 
 def margins_of(
-    document: Mapping[str, Any], found: KnownMargins | str | None = None, beside: Path | None = None
+    document: Mapping[str, Any], found: KnownMargins | str | None = None, folder: Path | None = None
 ) -> Table:
     """Return what is known of the margins of an answer, or why nothing is, and how it is added.
 
     Args:
         document: of the answer, as in plan.json.
         found: margins of this very plan, or why those that stand beside it are none; None without any.
-        beside: folder of plan.json, where it is known.
+        folder: of plan.json, where it is known.
     """
     if document["verdict"] != "feasible":
         known = UNTIL_THEN if document.get("true") else THERE_ARE_NONE
@@ -70,7 +70,7 @@ def margins_of(
     if isinstance(found, KnownMargins):
         return _told(found, document)
     left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
-    by = in_folder(ADDED_BY, beside) if (document.get("provenance") or {}).get("problem") else ADDED_IN_CODE
+    by = in_folder(ADDED_BY, folder) if (document.get("provenance") or {}).get("problem") else ADDED_IN_CODE
     return Table(ANCHOR, TITLE, before=(*left_out, f"{by}."))
 
 

@@ -10,7 +10,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.problems.in_short import many
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.pictures.lines import plan_lines
-from synergrip.reports.text.text_usages import WITHIN, worst_of
+from synergrip.reports.text.text_usages import WITHIN, as_little, worst_of
 
 HEAD = ("limit", "worst", "where", "when", "bound")
 WIDE = "max-width: 34em"
@@ -24,7 +24,8 @@ def plan_html(plan: Plan) -> str:
     told = ", ".join(many(*each) for each in ((plan.grasp.n_z, "synergy"), (plan.grasp.n_c, "contact"),
                                              (len(times), "knot")))  # fmt: skip
     least = f"least slip margin {read_as(float(worst.value[k, i]), 'N')} at {_short(worst.items[i])}"
-    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, t = {worst.times[k]:.3g} s · {escape(told + span)}</p>"
+    when = f"t = {worst.times[k]:.3g} s{as_little(worst.value)}"
+    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, {when} · {escape(told + span)}</p>"
     chart = charts_of(times, plan_lines(plan)[:1])[0].svg
     return f'{shown}{_table(plan)}<div style="{WIDE}">{chart}</div>'
 

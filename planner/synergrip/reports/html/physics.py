@@ -20,12 +20,13 @@ DRAWN = ("slip margin", "slip")
 """Charts; what the object does is told by the largest distance from what was promised."""
 
 
-def physics_of(document: Mapping[str, Any], beside: Path | None) -> Iterator[Table]:
+def physics_of(document: Mapping[str, Any], beside: Path | None, folder: Path | None = None) -> Iterator[Table]:
     """Yield what became of a plan that can be played, from the simulation of it that was saved.
 
     Args:
         document: of the answer, as in plan.json.
         beside: folder in which a simulation is looked for, if any.
+        folder: of plan.json, where it is known.
     """
     if not _playable(document):
         return
@@ -34,7 +35,7 @@ def physics_of(document: Mapping[str, Any], beside: Path | None) -> Iterator[Tab
         yield _played(found)
     else:
         left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
-        yield Table(ANCHOR, TITLE, before=(*left_out, f"{in_folder(ADDED_BY, beside)}."))
+        yield Table(ANCHOR, TITLE, before=(*left_out, f"{in_folder(ADDED_BY, folder)}."))
 
 
 def _playable(document: Mapping[str, Any]) -> bool:

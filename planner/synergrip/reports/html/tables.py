@@ -57,9 +57,9 @@ def tables_of(document: Document) -> tuple[Table, ...]:
 
 def in_folder(command: str, folder: Path | None) -> str:
     """Return a sentence with a command, in which FOLDER is the folder of plan.json, or is said to be it."""
-    return (
-        f"{command}; FOLDER is that of plan.json" if folder is None else command.replace("FOLDER", quote(str(folder)))
-    )
+    if folder is None:
+        return f"{command} (FOLDER is that of plan.json)"
+    return command.replace("FOLDER", quote(str(folder)))
 
 
 def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:

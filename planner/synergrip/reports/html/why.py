@@ -97,9 +97,9 @@ def _parts(document: Mapping[str, Any]) -> Iterator[Table]:
     helped = any(each["verified"] for each in (*repairs, *others, *(each for pair in pairs for each in pair)))
     if repairs:
         title = "What would help" if helped else NOT_YET
-        yield Table(
-            "", title, CHANGES, tuple(map(_change, repairs)), after=tuple(no_plan_words(repairs, helped=helped))
-        )
+        head = (*CHANGES[:-1], CHANGES[-1] * any(each["verified"] for each in repairs))
+        after = tuple(no_plan_words(repairs, helped=helped))
+        yield Table("", title, head, tuple(map(_change, repairs)), after=after)
     if (missing := document.get("missing_synergies")) is not None:
         yield _missing(missing)
     if others:

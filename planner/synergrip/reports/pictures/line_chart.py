@@ -135,7 +135,10 @@ def _from_zero(axes: Any, lines: Lines) -> None:
     if lines.of_contacts and lines.unit == "N":
         low, high = axes.get_ylim()
         room = BELOW_ZERO * max(high, -low)
-        axes.set_ylim(min(low, -room), max(high, room))
+        if low > -room:  # and as much at the other end, where autoscaling has left next to nothing
+            axes.set_ylim(-room, high + room)
+        elif high < room:
+            axes.set_ylim(low - room, room)
 
 
 def _own(lines: Lines, number: int) -> Iterator[float]:

@@ -137,6 +137,13 @@ def worst_of(
         yield title, shown, str(usage.items[i]), float(usage.times[k]), f"{sign}{limit}"
 
 
+def as_little(margins: np.ndarray) -> str:
+    """Return at how many contacts more the slip margins (T, n_c) get as small as the smallest, to the digits shown."""
+    least = [plain(value) for value in margins.min(axis=0)]
+    others = least.count(plain(margins.min())) - 1
+    return f", and as little at {others} other contact{'s' * (others > 1)}" if others else ""
+
+
 def side_title(usage: Usage, side: int) -> str:
     """Return what the worst value of the upper side, 1, or of the lower side, -1, of a limit is.
 
