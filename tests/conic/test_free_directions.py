@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from random_formulations import KNOTS, LIMITS, random_formulation
 from scipy import sparse
 
+from synergrip.conic.affine import Affine
 from synergrip.conic.build import build
 from synergrip.conic.goals.goal import Goal
 from synergrip.conic.goals.largest_margin import LargestMargin
@@ -20,6 +22,7 @@ from synergrip.conic.goals.least_reconfiguration import LeastReconfiguration
 from synergrip.conic.goals.steady_forces import SteadyForces
 from synergrip.conic.goals.weighted_sum import WeightedSum
 from synergrip.conic.program import Program
+from synergrip.conic.variable_bounds import _implied
 
 GOALS: tuple[Goal, ...] = (
     LargestMargin(), LeastPeak(), LeastEffort(), LeastEffort("torque"), LeastMotion(), LeastMotion("rates"),
@@ -94,3 +97,11 @@ def test_a_saved_program_keeps_its_basis(tmp_path: Path) -> None:
     again, x = Program.load(tmp_path / "program.npz"), rng.normal(size=len(part.q))
     assert again.objective(x) == part.objective(x)
     np.testing.assert_array_equal(again.unknowns(x), part.unknowns(x))
+
+
+def test_bounds_in_units_that_make_squares_overflow_are_found_without_a_warning() -> None:
+    rotated = np.array([[3.0, 4.0], [-4.0, 3.0]]) / 5
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = _implied(Affine(1e180 * rotated, np.zeros((1, 2))), np.array([2.0, 1.0]))
+    assert found == pytest.approx(np.array([10.0, 11.0]) / 5 * 1e-180, rel=1e-9)

@@ -23,7 +23,7 @@ from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.planning.digest import with_digest
 from synergrip.reports.data.json_margins import margins_document
 from synergrip.reports.data.json_plan import outcome_document
-from synergrip.reports.data.margins_files import write_margins
+from synergrip.reports.data.margins_files import told_before, write_margins
 from synergrip.reports.data.saved_margins import KnownMargins, saved_margins
 from synergrip.reports.data.saved_margins import margins_of as read_back
 from synergrip.reports.data.saved_problem import problem_of, refuse_another
@@ -196,6 +196,12 @@ def _without(told: dict[str, Any], **more: Any) -> dict[str, Any]:
     return with_digest({key: value for key, value in told.items() if key != "digest"} | more)
 
 
+def _twice(told: dict[str, Any]) -> dict[str, Any]:
+    """Return margins in which both contacts of a measure have one name."""
+    slip = told["measures"]["slip margin"]
+    return _without(told, measures=told["measures"] | {"slip margin": slip | {"items": slip["items"][:1] * 2}})
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -209,6 +215,8 @@ def _without(told: dict[str, Any], **more: Any) -> dict[str, Any]:
         (lambda told: _without(told, time_s=[0.0]), "cannot be read"),
         (lambda told: _without(told, sensitivities=[{}]), "cannot be read"),
         (lambda told: _without(told, quality={"epsilon": 1}), "cannot be read"),
+        (lambda told: _twice(told), "cannot be read: expected different names"),
+        (lambda told: _without(told, title="\ud800"), "cannot be read: a text in it is none"),
         (lambda told: [], "cannot be read"),
     ],
 )
@@ -248,6 +256,20 @@ def test_code_gives_margins_to_the_report_and_only_those_of_its_plan(
         other.report(tmp_path / "box.html", margins=found)
     with pytest.raises(sg.InputError, match="expected what margins"):
         made.report(tmp_path / "box.html", margins="margins.json")  # type: ignore[arg-type]
+
+
+def test_what_margins_had_more_of_the_plan_is_told_when_they_are_replaced(
+    tmp_path: Path, problem: sg.Problem, whole: Margins
+) -> None:
+    told = document_of(problem, whole)
+    few = told | {"covers": told["covers"] | {"found": ["quality"]}}
+    assert told_before(tmp_path, few) == []
+    write_margins(tmp_path, told)
+    assert told_before(tmp_path, told) == []
+    assert {"load_factor", "sensitivities"} <= set(told_before(tmp_path, few))
+    assert told_before(tmp_path, few | {"plan_sha256": "0" * 64}) == []
+    (tmp_path / "margins.json").write_text("[1", encoding="utf-8")
+    assert told_before(tmp_path, few) == []
 
 
 def test_hostile_names_stay_text(tmp_path: Path, problem: sg.Problem, whole: Margins, plan: dict[str, Any]) -> None:

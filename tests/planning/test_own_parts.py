@@ -292,6 +292,7 @@ def _row(matrix: Any, constant: Any, epigraph: Any = (0.0,)) -> Rows:
             lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((1, 4)))],
             r"Rows.constant: expected shape \(K, 1\)",
         ),
+        (lambda f: [_row(np.zeros((1, f.n_v)), 1.0)], r"Rows.constant: expected shape \(K, 1\)"),
         (lambda f: [_row(np.zeros((1, f.n_v)), np.full((3, 1), np.nan))], "expected finite numbers"),
         (
             lambda f: [_row(np.zeros((1, f.n_v)), np.zeros((3, 1)), (0.0, 1.0))],
@@ -303,6 +304,13 @@ def _row(matrix: Any, constant: Any, epigraph: Any = (0.0,)) -> Rows:
 def test_rows_and_usages_that_do_not_fit_are_refused_by_name(given: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         plan(tripod(), asked(Broken(given)))
+
+
+def test_squares_of_what_is_written_as_a_list_are_arrays_of_floats() -> None:
+    for matrix, constant in (([[1.0, 2.0]], np.zeros((1, 1))), (np.ones((1, 2), np.float32), np.ones((1, 1), int))):
+        made = squares_of(Affine(matrix, constant), 2.0)  # type: ignore[arg-type]
+        assert made.matrix.dtype == made.constant.dtype == np.float64
+        assert made.matrix.tolist() == (2 * np.array(matrix)).tolist()
 
 
 def test_rows_that_couple_knots_are_no_rows_of_a_limit_that_says_it_couples_none() -> None:

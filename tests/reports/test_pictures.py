@@ -35,7 +35,7 @@ from synergrip.reports.pictures.grasp_synergies import draw_grasp_synergies
 from synergrip.reports.pictures.layout import Columns, fitted, window
 from synergrip.reports.pictures.motions import motions
 from synergrip.reports.pictures.scene import arrows, spin_arcs
-from synergrip.reports.pictures.sheet import Sheet, write_picture
+from synergrip.reports.pictures.sheet import Sheet, svg_text, write_picture
 from synergrip.reports.pictures.skeleton import skeleton
 from synergrip.reports.pictures.solids import outline
 from synergrip.reports.pictures.steps import DEGREE, LARGEST_TURN, MILLIMETRE, PLAIN, SHARE, steps, unit_of
@@ -555,3 +555,12 @@ def test_an_error_while_drawing_leaves_what_was_there(tmp_path: Path) -> None:
     with pytest.raises(RuntimeError):
         write_picture(path, 2.0, 2.0, draw)
     assert [file.read_text(encoding="utf-8") for file in tmp_path.iterdir()] == ["kept"]
+
+
+def test_a_picture_in_a_page_does_not_repeat_what_nobody_sees_and_keeps_its_words() -> None:
+    word = "a \u202e  'DejaVu Sans', of my own, sans-serif"
+    text = svg_text(2.0, 1.0, lambda sheet: sheet.write(0.1, 0.5, word))
+    (family,) = re.findall(r"font-family: ([^;\"]*)", text)
+    assert family == "'DejaVu Sans', 'Verdana', sans-serif"
+    assert f">{word}<" in text
+    assert "\n <" not in text

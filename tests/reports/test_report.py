@@ -18,6 +18,7 @@ from browser import Page, browser_path, browsing
 from command_line import run
 
 from synergrip.errors import InputError
+from synergrip.planning.digest import with_digest
 from synergrip.planning.outcome import Plan
 from synergrip.planning.planning import plan
 from synergrip.problems.problem import load_problem
@@ -299,6 +300,47 @@ def test_an_answer_that_is_not_as_it_was_written_has_no_report(tmp_path: Path, c
     (tmp_path / "plan.json").write_text(json.dumps(told), encoding="utf-8")
     with pytest.raises(InputError, match=said):
         read_answer(tmp_path / "plan.json")
+
+
+@pytest.mark.parametrize(
+    ("provenance", "key"),
+    [
+        (3, "provenance"),
+        ([], "provenance"),
+        ({"overrides": 3}, "provenance.overrides"),
+        ({"overrides": [3]}, "provenance.overrides"),
+        ({"version": 3}, "provenance.version"),
+        ({"problem": "ball"}, "provenance.problem"),
+        ({"problem": {"sha256": True}}, "provenance.problem.sha256"),
+        ({"problem": {"dict": [3]}}, "provenance.problem.dict"),
+    ],
+)
+def test_where_an_answer_says_it_comes_from_is_judged_as_no_digest_guards_it(
+    tmp_path: Path, provenance: object, key: str
+) -> None:
+    told = dict(document_of("tripod")) | {"provenance": provenance}
+    (tmp_path / "plan.json").write_text(json.dumps(told), encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        read_answer(tmp_path / "plan.json")
+    assert refused.value.issues[0].key == key
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"title": None}, {"title": "\ud800"}, {"limits": 3}, {"time_s": []}, {"structure": 3}, {"margin": {}}],
+    ids=["no title", "half a letter", "limits", "times", "structure", "margin"],
+)
+def test_of_an_answer_with_something_else_in_it_a_page_is_refused_with_a_reason(
+    tmp_path: Path, change: dict[str, Any]
+) -> None:
+    told = {key: value for key, value in document_of("tripod").items() if change.get(key, key) is not None} | {
+        key: value for key, value in change.items() if value is not None
+    }
+    (tmp_path / "plan.json").write_text(json.dumps(with_digest(told)), encoding="utf-8")
+    done = run("report", str(tmp_path))
+    assert done.exit_code == 2
+    assert "or has something else in its place" in " ".join(done.output.split())
+    assert not (tmp_path / "report.html").exists()
 
 
 def test_what_is_not_installed_is_said_before_anything_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -50,11 +50,14 @@ def leave(number: int = 0, frame: FrameType | None = None) -> NoReturn:
 
 
 def end(code: object) -> None:
-    """Leave now when the program was interrupted and all is said.
+    """Leave now when the program was interrupted and all is said; all being said, an interrupt is none any more.
 
     The interpreter would go on to die of the signal when the interrupt passed through its own code in C.
     """
-    if code == INTERRUPTED and watching():
+    if not watching():
+        return
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if code == INTERRUPTED:
         os._exit(INTERRUPTED)
 
 

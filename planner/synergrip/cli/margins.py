@@ -94,7 +94,7 @@ def margins(
         from synergrip.planning.outcome import Plan
         from synergrip.planning.planning import plan
         from synergrip.reports.data.json_margins import margins_document
-        from synergrip.reports.data.margins_files import TIMED, refuse_margins_place, write_margins
+        from synergrip.reports.data.margins_files import FILE, TIMED, refuse_margins_place, told_before, write_margins
         from synergrip.reports.text.text_margins import margins_text
 
         loaded, saved = _asked(problem, overrides)
@@ -124,10 +124,13 @@ def margins(
 
         with shown_anyway(form, text, lambda: told):
             if output is not None:
+                fuller = told_before(output, told)
                 with writing("--output", output):
                     written += [output / name for name in write_margins(output, told, found.timing)]
                 ending.keep(*written)
                 _tell_of_another(output, told)
+                if fuller:
+                    aside(f"the '{FILE}' that was replaced had more of this plan: {', '.join(fuller)}")
             if picture is not None:
                 _draw(found, loaded.title, picture)
                 drawn.append(picture)

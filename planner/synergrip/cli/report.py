@@ -24,14 +24,14 @@ def report(
         from synergrip.planning.references import plan_file
         from synergrip.reports.data.plan_files import REPORT
         from synergrip.reports.html import page
-        from synergrip.reports.html.saved_answer import read_answer
+        from synergrip.reports.html.saved_answer import read_answer, shown
 
         page.refuse_without_libraries()
         file = plan_file(plan)
         document, csv = read_answer(file)
         place = output or file.parent / REPORT
         possible("--output", place, refuse_unwritable)
-        with writing("--output", place):
+        with shown(file), writing("--output", place):
             page.write_report(place, document, csv, file.parent, file.parent)
         ending.keep(place)
         told: dict[str, Any] = {"report": str(place), "verdict": document["verdict"], "exit_code": 0}

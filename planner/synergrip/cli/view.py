@@ -134,16 +134,17 @@ def _posed(shown: Shown) -> Page:
 
 
 def _plan(file: Path) -> Page:
-    from synergrip.reports.html.saved_answer import read_answer
+    from synergrip.reports.html.saved_answer import read_answer, shown
     from synergrip.reports.view.planned import scene_of
 
     document, _ = read_answer(file)
-    scene = scene_of(document, file.parent)
+    with shown(file):
+        scene = scene_of(document, file.parent)
+        notes = [document["title"], f"verdict: {document['verdict']}"]
 
     def page(server: Any) -> Callable[[float], None]:
         from synergrip.reports.view.player import Player
 
-        notes = [document["title"], f"verdict: {document['verdict']}"]
         return Player(server, scene, notes).tick
 
     return page

@@ -123,9 +123,11 @@ class Rows(Value):
         """Return whether all is as that of the library is; then nothing is looked at more closely."""
         known = type(self.kind) is Kind and type(self.dim) is int and type(self.limit) is str and self.limit
         arrays = self.matrix, self.constant, self.epigraph
-        if not known or type(self.items) is not tuple or not are_floats(arrays) or self.matrix.ndim < 2:
+        if not known or type(self.items) is not tuple or not are_floats(arrays):
             return False
-        heights = {self.matrix.shape[-2], *self.constant.shape[-1:], *self.epigraph.shape[-1:]}
+        if self.matrix.ndim < 2 or not self.constant.ndim or not self.epigraph.ndim:
+            return False
+        heights = {self.matrix.shape[-2], self.constant.shape[-1], self.epigraph.shape[-1]}
         return heights == {len(self.items) * self.dim} and all(type(item) is Item for item in self.items)
 
 

@@ -79,11 +79,11 @@ def _by_squares(matrices: Array) -> tuple[Array, NDArray[np.bool_]]:
     That is where columns are far from dependent; it is several times as fast as singular values. The ratio of the
     eigenvalues is at most the product of the sizes of the squares and of their inverse.
     """
-    squares = gram(matrices)
-    try:
-        inverses = np.linalg.inv(squares)
-    except np.linalg.LinAlgError:  # of one of them or more
-        return np.zeros(matrices.mT.shape), np.zeros(len(matrices), dtype=bool)
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):  # in tiny units squares are beyond all numbers: not clear
+        squares = gram(matrices)
+        try:
+            inverses = np.linalg.inv(squares)
+        except np.linalg.LinAlgError:  # of one of them or more
+            return np.zeros(matrices.mT.shape), np.zeros(len(matrices), dtype=bool)
         ratio = (squares**2).sum(axis=(-2, -1)) * (inverses**2).sum(axis=(-2, -1))
-    return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT**2)
+        return inverses @ matrices.mT, np.asarray(ratio < FAR_FROM_DEPENDENT**2)

@@ -29,6 +29,8 @@ SLACKS_ALONG = (1e-6,)
 """The same around a path, where promises are kept to less digits than that: the more room, the sooner it is solved."""
 MOST = 1e-6
 """How much of them it may give up at most, relative to the load, however hard the best plans squeeze."""
+NEXT_TO_NONE = 1e-4
+"""Sum of squares, in units in which it is near 1 where it matters, below which nobody minds whether it is the least."""
 LOOSE = 1e-7
 """How much limits are loosened, relatively, once earlier goals have fixed a part of the plan: a limit that the fixed
 part touches has no room for rounding."""
@@ -77,7 +79,7 @@ class Stage(Value):
 def begun(answered: Answered, limits: tuple[Limit, ...], goal: Goal) -> Stage:
     """Return the stage of the first goal, with a note where it did not verify that no plan is better."""
     decision = answered.decision
-    notes = () if decision.optimal else (not_the_best(decision),)
+    notes = () if decision.optimal else (not_the_best(decision, goal),)
     return Stage(answered.question.formulation, limits, goal, (decision,), notes)
 
 
@@ -133,7 +135,7 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
         if decision.optimal:
             return best
         if decision.acceptable:
-            acceptable = replace(best, notes=(*stage.notes, not_the_best(decision)))
+            acceptable = replace(best, notes=(*stage.notes, not_the_best(decision, goal)))
     if acceptable is not stage:
         last = acceptable.decisions[-1]
         told = replace(last, attempts=tried[-1].attempts, seconds=tried[-1].seconds)
@@ -145,9 +147,14 @@ def after(stage: Stage, goal: Goal, solver: Answerer, *, asked: bool = True) -> 
     return replace(stage, notes=(*stage.notes, note))
 
 
-def not_the_best(decision: Decision) -> str:
+def not_the_best(decision: Decision, goal: Goal) -> str:
     """Return the note on a plan that holds, and of which it did not verify that it is the best."""
     value = abs(decision.program.objective(decision.solution.x))
+    if goal.in_natural_units and not goal.has_scalar and value < NEXT_TO_NONE:
+        return (
+            f"what '{decision.goal}' makes small is next to nothing in this plan ({value:.0e}, where 1 would matter): "
+            "whether another plan has even less of it is hidden by rounding"
+        )
     apart = decision.certificate.gap * max(1.0, value)  # gaps are relative to the value, or to 1
     note = f"that no plan is better by '{decision.goal}' was not verified"
     return (

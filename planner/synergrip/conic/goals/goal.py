@@ -13,7 +13,7 @@ from synergrip.conic.affine import Affine, times
 from synergrip.conic.arguments import Complete
 from synergrip.conic.formulation import Formulation
 from synergrip.conic.rows import Earlier, Rows
-from synergrip.documents.judging import Arguments, described
+from synergrip.documents.judging import Arguments, are_floats, described
 from synergrip.documents.naming import naming_arguments
 from synergrip.errors import InputError
 from synergrip.linalg import Array, sealed
@@ -179,7 +179,8 @@ def squares_of(value: Affine, weights: Array | float = 1.0) -> Squares:
         >>> squares_of(formulation.force, 1 / formulation.force_unit).matrix.shape[0]
         9
     """
-    if type(value) is Affine and type(weights) is float and 0 <= weights < np.inf:  # as most are
+    plain = type(value) is Affine and are_floats((value.matrix, value.constant))
+    if plain and type(weights) is float and 0 <= weights < np.inf:  # as most are
         return Squares(sealed(weights * value.matrix), sealed(value.constant * weights))
     judge = Arguments("squares_of")
     judge.one("value", value, Affine, "formulation.force.after(matrix)")

@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from synergrip.documents.documents import read_document
+from synergrip.errors import InputError
 from synergrip.files import refuse_unwritable_folder
 from synergrip.margin.timing.fastest_timing import FastestTiming
 from synergrip.reports.data.plan_files import to_json
+from synergrip.simulation.told_values import Told
 from synergrip.together import refuse_others, replace_together
 
 FILE, TIMED = "margins.json", "palm.csv"
@@ -35,6 +38,20 @@ def write_margins(folder: Path, document: Mapping[str, Any], timing: FastestTimi
     names = [FILE, TIMED] if timed is not None else [FILE]
     replace_together(folder, names, write)
     return names
+
+
+def told_before(folder: Path, document: Mapping[str, Any]) -> list[str]:
+    """Return the figures that margins of the same plan in a folder have, and a document that is to replace them not."""
+    file = folder / FILE
+    if not file.is_file():
+        return []
+    try:
+        told = Told(read_document(file, "margins", numbers=True).data, "")
+        found = told.inside("covers").texts("found")
+    except InputError:  # they are no margins
+        return []
+    same = told.get("plan_sha256") == document["plan_sha256"]
+    return [name for name in found if name not in document["covers"]["found"]] if same else []
 
 
 def refuse_margins_place(folder: Path) -> None:

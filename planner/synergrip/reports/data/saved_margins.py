@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -69,6 +70,7 @@ def saved_margins(folder: Path, plan: Mapping[str, Any]) -> KnownMargins | str |
         return None
     try:
         data = read_document(file, "margins", numbers=True).data
+        json.dumps(data, ensure_ascii=False).encode()
         if not unchanged(data):
             return "is not as it was written" if stated_digest(data) else "does not say of which plan it is"
         if data.get("plan_sha256") is None or data["plan_sha256"] != stated_digest(plan):
@@ -76,6 +78,8 @@ def saved_margins(folder: Path, plan: Mapping[str, Any]) -> KnownMargins | str |
         return margins_of(data)
     except InputError as error:
         return f"cannot be read: {error.issues[0].message}"
+    except UnicodeEncodeError:  # half of a letter, which JSON can write and no page
+        return "cannot be read: a text in it is none"
 
 
 def margins_of(document: Mapping[str, Any]) -> KnownMargins:
@@ -110,6 +114,8 @@ def _measure(name: str, told: Told, times: Array) -> Measure:
     if not (isinstance(rows, list) and len(rows) == len(times) and all(isinstance(row, list) for row in rows)):
         raise told.refused(f"per_{of}", "expected a list for each of time_s")
     flat = [np.inf if value is None else value for row in rows for value in row]
+    if len(set(items)) < len(items):
+        raise told.refused("items", "expected different names")
     if not items or len(flat) != len(times) * len(items) or not all(isinstance(value, int | float) for value in flat):
         raise told.refused(f"per_{of}", "expected a number for each of the items, or null")
     values = frozen(np.array(flat, dtype=float).reshape(len(times), len(items)))
