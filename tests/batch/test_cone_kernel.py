@@ -82,6 +82,19 @@ def test_lower_and_upper_bounds_of_the_same_are_solved_as_any_others(solve: Solv
         assert np.abs(getattr(ours, name) - getattr(theirs, name))[right].max() < 1e-6
 
 
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e300])
+def test_a_problem_that_is_none_is_nothing_and_takes_nothing_from_its_neighbours(solve: Solver, wrong: float) -> None:
+    problems = random_problems(9, 4, [1] * 12 + [3] * 3, quadratic=True, seed=1)
+    b = problems.b.copy()
+    b[3, 14] = wrong
+    few = np.full(9, -np.inf)
+    right, found = (solve(replace(problems, b=each), SHARP, few) for each in (problems.b, b))
+    others = np.arange(9) != 3
+    assert found.status[3] == Status.NOTHING
+    assert np.array_equal(found.status[others], right.status[others])
+    assert np.allclose(found.x[others], right.x[others], rtol=0, atol=1e-9)
+
+
 def test_a_point_that_is_good_enough_is_taken_and_keeps_all_cones(solve: Solver) -> None:
     problems = random_problems(20, 4, [1] * 9 + [3] * 3, quadratic=False, seed=4)
     best = values(problems, solve(problems, SHARP, np.full(20, -np.inf)).x)

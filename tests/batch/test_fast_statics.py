@@ -122,7 +122,12 @@ def test_statics_that_are_wrong_are_not_confirmed(kinds: list[str], n_z: int) ->
         found = lanes(stack, layout, rows_of(altered(part, name), layout), known=True)
         assert not found[::2].any(), name
         assert found[1::2].all(), name
-    inverse = np.array(right.coordinates.inverse)
-    inverse[::2, 0, 0] += 1e-5 * np.abs(inverse).max(axis=(-2, -1))[::2]
-    other = replace(right, coordinates=replace(right.coordinates, inverse=inverse))
-    assert not lanes(stack, layout, rows_of(other, layout), known=True)[::2].any()
+    wrong = [("M", 0), ("M", -1), ("inverse", 0), ("inverse", -1)]
+    for name, last in wrong:  # rows of M, and columns of its inverse, are forces first and rigid motions last
+        values = np.array(getattr(right.coordinates, name))
+        row = values[::2, last] if name == "M" else values[::2, :, last]
+        row[:, 0] += 1e-5 * np.abs(row).max(axis=-1)
+        other = replace(right, coordinates=replace(right.coordinates, **{name: values}))
+        found = lanes(stack, layout, rows_of(other, layout), known=True)
+        assert not found[::2].any(), name
+        assert found[1::2].all(), name

@@ -22,6 +22,7 @@ from synergrip.grasps.grasp import grasp_matrix
 from synergrip.linalg import Array, frozen
 from synergrip.planning.outcome import Outcome
 from synergrip.planning.planning import plan_of_start_posture
+from synergrip.tasks.timed_task import TimedTask
 
 LIMITS = (sg.NormalForce(upper=6.0), sg.JointTorque(0.4), sg.SlipMargin(0.2))
 MOST = 1e-6
@@ -108,6 +109,25 @@ def test_what_nothing_bounds_for_one_task_is_told_of_that_task() -> None:
     assert many.verdicts.tolist() == ["feasible", "unknown", "feasible"]
     assert list(many.refusals) == [1]
     assert "nothing bounds the largest margin" in str(many.refusals[1])
+
+
+@pytest.mark.parametrize("every", [False, True])
+def test_a_plan_that_fails_its_own_check_takes_no_answer_from_others(
+    monkeypatch: pytest.MonkeyPatch, every: bool
+) -> None:
+    wrenches = random_wrenches(np.random.default_rng(0), 3)
+
+    def planned(grasp: sg.Grasp, task: TimedTask) -> Outcome:
+        if np.array_equal(task.wrench, wrenches[:1]):
+            raise sg.SelfCheckError("the plan fails its own check")
+        return plan_of_start_posture(grasp, task)
+
+    monkeypatch.setattr(module, "plan_of_start_posture", planned)
+    goals = [sg.LargestMargin(), *[sg.LeastEffort()] * every]  # two goals: all are planned one by one
+    task = sg.Task(knots=1, limits=[sg.NormalForce(upper=10.0)], goals=goals)
+    many = sg.plan_many(GRASP, task, wrenches=wrenches, friction_factors=None if every else [1e12, 1.0, 1.0])
+    assert many.verdicts.tolist() == ["unknown", "feasible", "feasible"]
+    assert {place: str(error) for place, error in many.refusals.items()} == {0: "the plan fails its own check"}
 
 
 @pytest.mark.parametrize(

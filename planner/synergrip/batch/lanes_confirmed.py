@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from synergrip.batch.lanes import all_of, kept_apart, load, root, store, where_less
 from synergrip.batch.lanes_algebra import compiled, larger
 from synergrip.batch.lanes_dense import Matrix, squares_of
@@ -125,6 +123,31 @@ def _held(w: Any, at: Any, forces: int, wrench: int, left: int) -> Any:
 
 
 @compiled
+def _regular(w: Any, at: Any, chances: Any) -> Any:
+    """Return 1 where M is far from singular and its inverse is that, else 0; and the squares of its longest row."""
+    kept_apart()
+    z = at.z
+    own, references, back = at.rest, at.rest + z, at.rest + 2 * z
+    right, beside, most = all_of(1.0), all_of(0.0), all_of(0.0)
+    for j in range(z):  # with rows made as long, the root of their number is the size of M
+        row, column = squares_of(w, at.M + j * z, z), all_of(0.0)
+        for i in range(z):
+            part = load(w, at.inverse + i * z + j)
+            column = column + part * part
+        beside, most = beside + row * column, larger(most, row)
+        right = where_less(all_of(0.0), row, right, all_of(0.0))
+        store(w, own + j, root(row) * all_of(chances[j]))
+    right = where_less(beside * all_of(float(z)), all_of(REGULAR * REGULAR), right, all_of(0.0))
+    _applied(w, references, Matrix(at.inverse, z, 1), own, z, z)
+    _applied(w, back, Matrix(at.M, z, 1), references, z, z)
+    rest = all_of(0.0)
+    for j in range(z):
+        part = (load(w, back + j) - load(w, own + j)) / root(squares_of(w, at.M + j * z, z))
+        rest = rest + part * part
+    return right * _nothing(rest, squares_of(w, references, z)), most
+
+
+@compiled
 def _controlled(w: Any, at: Any, chances: Any) -> Any:
     """Return 1 where bases and M are as Theorem 1 says: forces of E_s alone, and rigid motions; else 0."""
     kept_apart()
@@ -143,17 +166,8 @@ def _controlled(w: Any, at: Any, chances: Any) -> Any:
         size, part = load(w, at.force + i), load(w, forces + i)
         apart, part = (load(w, made + i) - part) * size, part * size
         rest, whole = rest + apart * apart, whole + part * part
-    right = _nothing(rest, whole)
-    beside, least, most = all_of(0.0), all_of(np.inf), all_of(0.0)
-    for j in range(z):  # with rows made as long, the root of their number is the size of M
-        row, column = squares_of(w, at.M + j * z, z), all_of(0.0)
-        for i in range(z):
-            part = load(w, at.inverse + i * z + j)
-            column = column + part * part
-        beside = beside + row * column
-        least, most = where_less(row, least, row, least), larger(most, row)
-    right = where_less(beside * all_of(float(z)), all_of(REGULAR * REGULAR), right, all_of(0.0))
-    right = where_less(all_of(0.0), least, right, all_of(0.0))
+    regular, most = _regular(w, at, chances)
+    right = regular * _nothing(rest, whole)
     if d == 0:
         return right
     _applied(w, made, Matrix(at.maps + l * k, k, 1), dz_r, 6, z)

@@ -117,7 +117,7 @@ def _judged(w: Any, at: Any, cones: Any, residual: float, most_gap: float) -> An
     right = where_less(of_x, all_of(residual) * size, kept, zero)
     right = where_less(gap, all_of(most_gap) * larger(one, magnitude(value)), right, zero)
     good = where_less(zero, _inside(w, at, cones), one, zero)
-    good = where_less(load(w, at.enough), value, zero, good)
+    good = where_less(value, load(w, at.enough), good, zero)  # not where the value is no number
     found = where_less(zero, right, all_of(SOLVED), where_less(zero, good, all_of(ENOUGH), all_of(NOTHING)))
     return found, gap
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.documents.naming import made_by
-from synergrip.errors import InputError
+from synergrip.errors import InputError, SelfCheckError
 from synergrip.linalg import Array
 from synergrip.values import Value
 
@@ -46,9 +46,9 @@ class ManyPlans(Value):
     """(N,) True where nothing verified of the batch and `plan` answered instead."""
     finished: NDArray[np.bool_]
     """(N,) False for tasks of the chunks that were not through when somebody interrupted it."""
-    refusals: Mapping[int, InputError]
-    """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal): they
-    are "unknown" here."""
+    refusals: Mapping[int, InputError | SelfCheckError]
+    """What `plan` raises for single tasks, by their place (a contact direction is rigid; nothing bounds the goal; a
+    plan fails its own check): they are "unknown" here."""
     notes: tuple[str, ...] = ()
     """What of what was asked can hardly be meant."""
 
@@ -87,7 +87,7 @@ class Unfinished:
             "largest_margin": (count,), "margins": (count, n_c), "forces": (count, n_l), "dz_r": (count, n_z),
         }  # fmt: skip
         self.numbers = {name: np.full(shape, np.nan) for name, shape in shapes.items()}
-        self.refusals: dict[int, InputError] = {}
+        self.refusals: dict[int, InputError | SelfCheckError] = {}
 
     def told(self) -> ManyPlans:
         """Return what is known of the tasks that are finished."""

@@ -78,8 +78,8 @@ def solve(problems: ConeProblems, tolerance: Tolerance, enough: Array) -> ConeSo
         np.zeros((N, n)), np.zeros((N, m)), np.zeros((N, m)),
         np.full(N, Status.NOTHING, dtype=np.int8), np.full(N, MOST, dtype=np.int32),
     )  # fmt: skip
-    state, active = _start(problems, enough), np.ones(N, dtype=bool)
     with np.errstate(all="ignore"):  # of problems that come to nothing: they are told by their status
+        state, active = _start(problems, enough), np.ones(N, dtype=bool)
         for iteration in range(MOST):
             left = _residuals(state, tolerance)
             through = active & (left.done != Status.NOTHING)
@@ -136,7 +136,7 @@ def _residuals(state: _State, tolerance: Tolerance) -> _Residuals:
     stationary = np.abs(of_x).max(axis=-1) <= tolerance.residual * size
     inside = state.W.least(s - of_s) > 0  # of b - A x: long before s is that to the last digits
     solved = kept & stationary & (gap <= tolerance.gap * np.maximum(1.0, np.abs(value)))
-    done = np.where(solved, Status.SOLVED, np.where(inside & (value <= state.enough), Status.ENOUGH, Status.NOTHING))
+    done = np.where(solved, Status.SOLVED, np.where(inside & (value < state.enough), Status.ENOUGH, Status.NOTHING))
     return _Residuals(of_x, of_s, gap, done.astype(np.int8))
 
 

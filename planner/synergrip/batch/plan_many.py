@@ -17,7 +17,7 @@ from synergrip.batch.kernel import QuickStatics, chosen, quick_statics
 from synergrip.batch.many_plans import FEASIBLE, INFEASIBLE, ManyPlans, Unfinished
 from synergrip.batch.stated import Stated, each_of, stated_each, stated_on
 from synergrip.documents.naming import naming_arguments
-from synergrip.errors import InputError, Refusal, RigidContactError
+from synergrip.errors import InputError, Refusal, RigidContactError, SelfCheckError
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stack import GraspStack
 from synergrip.linalg import Array
@@ -209,6 +209,10 @@ def _one_by_one(question: Asked, place: int, found: Unfinished, *, refusing: boo
         rigid = isinstance(error, RigidContactError) and isinstance(question.grasp, GraspStack)
         if not (refusing or rigid):
             raise
+        found.refusals[place] = error
+        return
+    except SelfCheckError as error:  # of one task: the others keep their answers
+        LOG.warning("task %d: %s", place, error)
         found.refusals[place] = error
         return
     found.verdicts[place] = outcome.verdict
