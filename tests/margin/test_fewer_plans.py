@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 
 import pytest
 
@@ -18,7 +18,7 @@ from synergrip.margin.found import Margins
 from synergrip.margin.margins import margins
 from synergrip.planning import beginning
 from synergrip.planning.outcome import Plan, Unknown
-from synergrip.planning.pace import BRIEF
+from synergrip.planning.pace import BRIEF, WHOLE, Effort
 from synergrip.planning.planning import planned_with
 from synergrip.planning.walk import Walker
 from synergrip.planning.walk_so_far import Walk
@@ -140,11 +140,16 @@ def test_a_motion_over_some_knots_that_does_not_arrive_is_not_begun_anew(monkeyp
     assert len(begun) == 1
 
 
+@cache
+def of_tripod() -> tuple[Asked, Plan]:
+    return asked_of("tripod")
+
+
 def tried(
     monkeypatch: pytest.MonkeyPatch, end: float, lack: Callable[[float], float] | None
 ) -> tuple[list[float], Search]:
     """Which values of a load are tried along a motion, and what is known then."""
-    asked, made = asked_of("tripod")
+    asked, made = of_tripod()
     dial, values = load_dial(asked, made.task), list[float]()
     assert dial is not None
 
@@ -175,6 +180,56 @@ def test_where_nothing_is_known_of_the_margin_it_lies_between(monkeypatch: pytes
     values, search = tried(monkeypatch, end, None)
     assert search.good <= end < (search.bad or 8.0)
     assert len(values) == len({*values}) == search.count <= 3
+
+
+@pytest.mark.parametrize("far", [8.0, 100.0])
+@pytest.mark.parametrize("few", [1.05, 1.6, 3.0, 5.0])
+@pytest.mark.parametrize("more", [1.0, 1.01, 1.3, 2.5])
+def test_where_a_few_passes_give_up_all_effort_decides(
+    monkeypatch: pytest.MonkeyPatch, few: float, more: float, far: float
+) -> None:
+    """Also where a few passes come a fraction as far as those of `plan`, and where they are right."""
+    end = few * more if few * more < far else 0.9985 * far
+    values, search = searched(monkeypatch, few, end, far)
+    assert search.good <= end < (search.bad or far)
+    assert search.sure
+    assert search.count == len(values) <= 13
+    told = search.told(lambda value: f"{value:.4g}")
+    assert "a few passes" not in told
+    assert search.good > 0.75 * end
+    assert (search.gap <= along.NEAR) == (f"no more was tried after {search.count} plans" not in told)
+
+
+def test_where_a_few_passes_are_right_one_value_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    values, search = searched(monkeypatch, 7.85, 7.85, 8.0)
+    assert [effort for _, effort in values].count(WHOLE) == 1
+    assert values[-1] == (search.bad, WHOLE)
+
+
+def test_where_no_value_is_left_without_a_plan_all_of_the_way_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    values, search = searched(monkeypatch, 6.0, 9.0, 8.0)
+    assert values[-1] == (search.good, WHOLE)
+    assert search.good == pytest.approx(7.993, rel=1e-3)
+    assert not search.told(str)
+
+
+def searched(
+    monkeypatch: pytest.MonkeyPatch, few: float, end: float, far: float
+) -> tuple[list[tuple[float, Effort]], Search]:
+    """What is tried of a load where a few passes find plans up to one value, and all effort up to another."""
+    asked, made = of_tripod()
+    dial, values = load_dial(asked, made.task), list[tuple[float, Effort]]()
+    assert dial is not None
+    unknown = Unknown(made.task, made.analysis, "given up", ())
+
+    def outcome(of: object, value: float, effort: Effort) -> Plan | Unknown:
+        values.append((value, effort))
+        return made if value <= (few if effort is BRIEF else end) else unknown
+
+    monkeypatch.setattr(along, "outcome_at", outcome)
+    monkeypatch.setattr(along, "_lacking", lambda value, _: ())
+    search = Search.of(dial, far, made).over(direct.TRIES).on(direct.TRIES + direct.CLOSER)
+    return values, search.surely(direct.SURE)
 
 
 def test_a_mass_does_not_stop_short_of_where_the_margin_ends() -> None:

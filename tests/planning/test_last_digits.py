@@ -43,4 +43,6 @@ def test_a_way_that_no_shorter_step_makes_true_is_made_shorter_itself() -> None:
     ])  # fmt: skip
     answer = plan(problem.grasp, problem.task)
     assert isinstance(answer, Plan), answer
-    assert any("near a straight posture the object stays up to" in note for note in answer.notes)
+    (note,) = (note for note in answer.notes if "near a straight posture the object stays up to" in note)
+    assert "'thumb_distal'" in note
+    assert "which thumb/tip is moved by" in note

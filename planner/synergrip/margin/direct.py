@@ -33,11 +33,11 @@ MORE = (1e-5, 2e-3, 2e-2, 1e-1)
 """Shares by which a bound is wider than what the plan uses that is there: the first with a plan is told."""
 OF_PLAN = ("force_cap", "effort")
 """What is bounded from the plan that is there on, which was not asked with that bound."""
-TRIES, WIDE = 3, 0.25
-"""How many values are tried along the motion, if nothing else is said, and one more where a value with a plan and one
-without are farther from each other than this share of the number; two more where no other value has had a plan.
-A bound is not looked for along the motion where a plan that was made without it is as near to its end as two values
-that are near each other."""
+TRIES, CLOSER, SURE = 3, 3, 7
+"""How many values are tried along the motion with a few passes, if nothing else is said; how many more where a value
+with a plan and one without are far from each other; and how many with all effort then, most often one: a few passes
+give up where more of them find a plan. A bound is not looked for along the motion where a plan that was made without it
+is as near to its end as two values that are near each other."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -163,7 +163,7 @@ def _near(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     return _ends(of, found, *attained)
 
 
-def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | None = None) -> DirectNumber:
+def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, search: Search | None = None) -> DirectNumber:
     """Return the number that a plan attains, and where it is proven to end.
 
     Args:
@@ -171,18 +171,19 @@ def _ends(of: Wanted, found: Extreme, value: float, plan: Plan, missed: float | 
         found: where the linear model of the start posture ends.
         value: that is attained.
         plan: that attains it.
-        missed: the nearest value of which no plan was found on the hand that moves.
+        search: that found it along the motion of a hand.
     """
     dial, per = found.dial, of.per
     past = found.past if found.past is not None and (found.past - value) * (found.past - dial.value) >= 0 else None
-    end = past if past is not None else missed
+    end = past if past is not None or search is None else search.bad
     scaled, other = value / per, None if end is None else end / per
     ends = (scaled, other) if dial.eased == "down" else (other, scaled)
     who = "a plan" if plan.executed is None else "a plan of the hand that moves"
-    tried = "" if missed is None else f"; at {missed / per:.4g}{f' {of.unit}' if of.unit else ''} none was found"
-    proof = (
-        "the other end is proven of the linear model of the start posture" if past is not None else "nothing is proven"
-    )
+    unit = f" {of.unit}" if of.unit else ""
+    tried = "" if search is None else search.told(lambda value: f"{value / per:.4g}{unit}")
+    of_start = "the other end is proven of the linear model of the start posture"
+    at_end = f"that proves nothing, {of_start}" if search is not None and search.bad is not None else of_start
+    proof = at_end if past is not None else "nothing is proven"
     why = f"attained by {who}{tried}; {proof}"
     return DirectNumber(of.name, of.unit, scaled, ends[0], ends[1], past is not None, why, dial.set(value), plan)
 
@@ -192,8 +193,8 @@ def _along(of: Wanted, found: Extreme, plan: Plan) -> DirectNumber:
     dial, end = found.dial, found.value
     assert end is not None
     search = Search.of(dial, end, plan).over(of.tries)
+    closer = search.best is not plan or dial.cause not in OF_PLAN
+    search = (search.on(of.tries + CLOSER) if closer else search).surely(SURE)
     if search.best is plan and dial.cause in OF_PLAN:
         return _near(of, found, plan)
-    search = search.on(of.tries + 1, WIDE)
-    search = search.on(of.tries + 2) if search.best is plan else search
-    return _ends(of, found, search.good, search.best, search.bad)
+    return _ends(of, found, search.good, search.best, search)

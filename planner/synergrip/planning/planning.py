@@ -13,6 +13,7 @@ from synergrip.errors import InputError, NotRestrainedError, Refusal, SelfCheckE
 from synergrip.grasps.chosen_tangents import tangent_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.plausible import grasp_doubts
+from synergrip.grasps.straight_fingers import straight_notes
 from synergrip.log import LOG
 from synergrip.planning.accuracy import InDoubtError, refuse_doubtful_response
 from synergrip.planning.first_goal import Planner
@@ -65,7 +66,7 @@ def plan(grasp: Grasp | Analysis, task: Task | TimedTask, solver: str | Answerer
     outcome = planned_with(WHOLE, grasp, task, solver)
     LOG.info("%r", outcome)
     asked = outcome.grasp
-    said = (*unbalanced_notes(asked), *tangent_notes(asked))
+    said = (*unbalanced_notes(asked), *tangent_notes(asked), *straight_notes(asked))
     doubts = (*said, *grasp_doubts(asked), *task_doubts(task, outcome.task, asked))
     if not isinstance(outcome, Plan):
         of_springs = limits_with_springs(outcome.grasp, outcome.task)

@@ -11,6 +11,7 @@ from synergrip.conic.conflicts import Conflict
 from synergrip.documents.quantities import in_mm
 from synergrip.documents.words import listed
 from synergrip.grasps.grasp import Grasp
+from synergrip.grasps.straight_fingers import named, straight_fingers
 from synergrip.hands.hand import Joint
 from synergrip.hands.units import SI_UNITS
 from synergrip.linalg import Array, frozen
@@ -30,6 +31,8 @@ FAR = {"rad": 0.05, "m": 2e-3}
 SUDDEN, FEWEST = 4.0, 5
 """How many times as far as before and after it, and how many pieces there are at least."""
 RANGES = "limits.joint_range"
+MOST_JOINTS = 3
+"""Joints that are named beside a posture."""
 DEAR = 3.0
 """Near a straight posture some rigid motion takes joint motions larger than at the start by this factor."""
 
@@ -96,10 +99,12 @@ def _hindrances(walk: Walk, walker: Walker) -> Iterator[str]:
     elif near:
         yield " and ".join(near)
     elif straight:
-        yield "the fingers are near a straight posture"
+        yield f"the fingers are near a straight posture: {_straight_there(walk, walker)}"
     elif not others:
         apart = f": what it promises and what the hand does differ by {walk.gap:.3g} N"
         yield f"no step however short comes nearer{'' if walk.true or np.isinf(walk.gap) else apart}"
+        if there := _in_line(walk, walker):
+            yield f"near a straight posture: {there}"
 
 
 def _at_ends(walk: Walk, ends: dict[str, tuple[Joint, float]], *, straight: bool) -> list[str]:
@@ -141,6 +146,24 @@ def _taking_part(grasp: Grasp) -> Array:
     return np.asarray(np.any(grasp.J, axis=0) | np.any(grasp.S[:, synergies], axis=1))
 
 
+def _straight_there(walk: Walk, walker: Walker) -> str:
+    """Return which fingers are straight where a walk ends; else which joints its dearest rigid motion takes most of."""
+    if (there := _in_line(walk, walker)) or walk.way is None:
+        return there
+    most = np.abs(np.linalg.svd(joints_of(walk.way.each[-1]))[0][:, 0])
+    grasp = walker.start.grasp
+    joints = [j for j in np.argsort(-most, kind="stable")[:MOST_JOINTS] if most[j] > most.max() / 2]
+    moved = [c.name for c, rows in zip(grasp.contacts, grasp.rows, strict=True) if grasp.J[rows][:, joints].any()]
+    names = listed([f"'{grasp.joints[j]}'" for j in joints])
+    return f"some motion of the object takes much of {names} there, which {listed(moved)} is moved by"
+
+
+def _in_line(walk: Walk, walker: Walker) -> str:
+    """Return the names of the fingers that are straight where a walk ends; empty where none is."""
+    states = walk.executed.states
+    return named(straight_fingers(walker.start.grasp, states.q[-1])) if len(states) else ""
+
+
 def _dear(walk: Walk, walker: Walker) -> float:
     """Return how much larger the joint motions of the dearest rigid motion are at the end of a walk than at start."""
     if walk.way is None or not walker.start.spaces.Gamma_ucs.shape[1]:
@@ -153,10 +176,11 @@ def notes(walk: Walk, walker: Walker) -> Iterator[str]:
     """Yield how far the plan is from what was wanted, where that is more than elastic motion, and ranges let go."""
     yield from ranges_left(walker.task, walker.start.grasp, walk.executed.joint)
     if walk.behind > FOLLOWED:
-        where = "near a straight posture " if _dear(walk, walker) > DEAR else ""
+        straight = _dear(walk, walker) > DEAR
+        where, names = ("near a straight posture ", f"; {_straight_there(walk, walker)}") if straight else ("", "")
         yield (
             f"{where}the object stays up to {in_mm(walk.behind, 2)} behind the wanted motion, "
-            f"within the {in_mm(walker.allowed, 2)} that count as followed{_apart(walk, walker, slice(None))}"
+            f"within the {in_mm(walker.allowed, 2)} that count as followed{_apart(walk, walker, slice(None))}{names}"
         )
     yield from _jumps(walk, walker)
 

@@ -20,6 +20,7 @@ from synergrip.grasps.contacts.kind import STIFFNESS_OF
 from synergrip.grasps.facing import frame_notes
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object
+from synergrip.grasps.straight_fingers import straight_notes
 from synergrip.linalg import frozen
 from synergrip.problems.contact_factors import with_factors
 from synergrip.problems.doubts import doubts_of, spot_notes
@@ -192,7 +193,7 @@ def _touching(path: Path, file: ProblemFile) -> _Touching:
 
     grasp = with_factors(hand_grasp(file, path.parent), file.contacts, "contacts")
     notes = grasp.held.notes if grasp.held else ()
-    notes = (*unbalanced_notes(grasp), *notes, *frame_notes(grasp), *tangent_notes(grasp))
+    notes = (*unbalanced_notes(grasp), *notes, *frame_notes(grasp), *tangent_notes(grasp), *straight_notes(grasp))
     return _Touching(grasp, notes, doubts_of(grasp, file, path.parent))
 
 
