@@ -30,6 +30,7 @@ from synergrip.reports.data.saved_problem import problem_of, refuse_another
 from synergrip.reports.html.margins import ADDED_BY, ADDED_IN_CODE, THERE_ARE_NONE, UNTIL_THEN
 from synergrip.reports.html.margins import margins_of as section_of
 from synergrip.reports.html.page import report_text
+from synergrip.reports.html.tables import in_folder
 from synergrip.reports.text.text_margins import margins_text
 from synergrip.reports.text.text_sensitivities import change_of
 
@@ -234,10 +235,13 @@ def test_what_are_no_margins_of_this_plan_is_left_out_and_told(
 def test_without_margins_it_is_said_what_adds_them_and_of_a_no_why_there_are_none(plan: dict[str, Any]) -> None:
     in_code = plan["provenance"] | {"problem": None}
     for document, said in (
-        (plan, ADDED_BY), (plan | {"provenance": in_code}, ADDED_IN_CODE),
+        (plan, in_folder(ADDED_BY, None)), (plan | {"provenance": in_code}, ADDED_IN_CODE),
         ({"verdict": "infeasible"}, THERE_ARE_NONE), (plan | {"verdict": "unknown"}, UNTIL_THEN),
     ):  # fmt: skip
         assert section_of(document).before == (f"{said}.",)
+    (known,) = section_of(plan, folder=Path("out/my box")).before
+    assert "`synergrip margins 'out/my box' -o 'out/my box'`" in known
+    assert "FOLDER" not in known
 
 
 def test_code_gives_margins_to_the_report_and_only_those_of_its_plan(

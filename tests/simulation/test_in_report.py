@@ -20,6 +20,7 @@ from synergrip.reports.data.saved_simulation import saved_simulation, simulation
 from synergrip.reports.data.simulation_files import simulation_document, write_simulation
 from synergrip.reports.html.page import report_text
 from synergrip.reports.html.physics import ADDED_BY, physics_of
+from synergrip.reports.html.tables import in_folder
 from synergrip.reports.text.text_simulation import contact_cells, how_played, sentences, simulation_text
 from synergrip.simulation.differences import Difference
 
@@ -123,7 +124,7 @@ def test_without_a_simulation_the_command_that_adds_it_is_told_where_a_plan_can_
     assert saved_simulation(tmp_path, plan) is None
     for beside in (tmp_path, None):
         (table,) = physics_of(plan, beside)
-        assert table.before == (f"{ADDED_BY}.",)
+        assert table.before == (f"{in_folder(ADDED_BY, None)}.",)
     bare = plan["execution"] | {"object": plan["execution"]["object"] | {"shape": None}}
     for other in (plan | {"verdict": "infeasible"}, plan | {"execution": bare}, {"verdict": "feasible"}):
         assert list(physics_of(other, tmp_path)) == []

@@ -9,6 +9,9 @@ import numpy as np
 
 from synergrip.documents.quantities import in_g, in_mm, plain
 from synergrip.grasps.grasp import Grasp
+from synergrip.tasks.gravity import Weight
+from synergrip.tasks.inertia import Inertia
+from synergrip.tasks.profiles import Profiles
 from synergrip.tasks.timed_task import TimedTask
 
 
@@ -25,10 +28,11 @@ def read_in_short(grasp: Grasp) -> Iterator[str]:
 
 
 def asked_in_short(task: TimedTask) -> Iterator[str]:
-    """Yield what is wanted, knots, load, margin and goals."""
+    """Yield what is wanted, what the palm does, knots, load, margin and goals."""
     knots = len(task.times)
     span = f" in {plain(task.times[-1], 3)} s" if knots > 1 else ""
     yield _wanted(task) + span
+    yield from _palm(task)
     yield many(knots, "knot")
     yield f"load up to {plain(_load(task), 3)} N"
     yield f"slip margin ≥ {plain(task.margin)} N"
@@ -44,6 +48,14 @@ def _load(task: TimedTask) -> float:
         load = task.course.load_at(inside)
         wrench = wrench if load is None else np.vstack([wrench, load])
     return float(np.linalg.norm(wrench[:, :3], axis=1).max(initial=0.0))
+
+
+def _palm(task: TimedTask) -> Iterator[str]:
+    """Yield what the palm does where it moves, and whether the object loads the grasp by its inertia then."""
+    parts = task.course.load if isinstance(task.course, Profiles) else ()
+    palms = [part.palm for part in parts if isinstance(part, Weight | Inertia) and part.palm is not None]
+    if palms:
+        yield f"the palm {palms[0].in_words}{', with inertia' * any(isinstance(part, Inertia) for part in parts)}"
 
 
 def _wanted(task: TimedTask) -> str:

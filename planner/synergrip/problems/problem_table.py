@@ -81,6 +81,9 @@ def _numbers(limit: object) -> str:
 
 
 def _contact(contact: Contact) -> str:
-    numbers = {each.name: getattr(contact.kind, each.name) for each in contact.kind.parameters}
-    told = "".join(f", {name.replace('_', ' ')} {value:.4g}" for name, value in numbers.items())
+    numbers = [
+        (each.name.replace("_", " "), read_as(getattr(contact.kind, each.name), "m" if each.length else "", 4))
+        for each in contact.kind.parameters
+    ]
+    told = "".join(f", {name} {value}" for name, value in numbers)
     return f"{contact.name}: {contact.kind.title}{told}"

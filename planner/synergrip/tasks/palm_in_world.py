@@ -17,6 +17,10 @@ class PalmInWorld(Protocol):
     def corners(self) -> Array:
         """Start and end of the motion (K,) [s], and between them the instants where its acceleration has a corner."""
 
+    @property
+    def in_words(self) -> str:
+        """What the palm does, such as "turns 90 deg about x"."""
+
     def seen(self, vectors: Array, times: Array) -> Array:
         """Return vectors (T, 3) that are given, (3,) or (T, 3), in the palm frame at the start."""
 

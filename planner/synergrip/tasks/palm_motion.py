@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, TaskArguments, keep
 from synergrip.tasks.inertia import Inertia, inertia
@@ -105,6 +106,14 @@ class PalmMotion:
     def corners(self) -> Array:
         """Start and end (2,) [s]; there are no corners on the way."""
         return np.array([self.profile.start, self.profile.end])
+
+    @property
+    def in_words(self) -> str:
+        """The whole turn and the whole shift."""
+        about = next((name for name, one in zip("xyz", np.eye(3), strict=True) if np.array_equal(self.axis, one)), "")
+        about = about or f"({', '.join(plain(each, 3) for each in self.axis)})"
+        turns = [f"turns {plain(np.degrees(self.turn), 3)} deg about {about}"] * bool(self.turn)
+        return " and ".join([*turns, *[f"shifts {in_mm(float(np.linalg.norm(self.shift)))}"] * bool(self.shift.any())])
 
     def seen(self, vectors: Array, times: Array) -> Array:
         """Return vectors of the world (3,) or (T, 3) in the palm frame (T, 3): ``R(axis, -angle) v`` (Rodrigues)."""

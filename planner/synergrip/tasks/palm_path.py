@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from synergrip.documents.naming import naming_arguments
+from synergrip.documents.quantities import in_mm, plain
 from synergrip.documents.time_table import MOTION, read_table
 from synergrip.linalg import Array, frozen
 from synergrip.tasks.arguments import Numbers, Rows, TaskArguments, keep
@@ -121,6 +122,17 @@ class PalmSpline:
     """(T, 7): position of the origin [m], and a quaternion (vector, scalar) whose direction is the rotation R."""
     corners: Array  # (K,) [s] start and end of the task, and the lines between them
     upright: Array  # (3, 3) R_0, the rotation at the start
+
+    @property
+    def in_words(self) -> str:
+        """How far from its start the palm gets at the lines of its path."""
+        from scipy.spatial.transform import Rotation
+
+        poses = self.poses(self.corners)
+        shift = np.linalg.norm(poses[:, :3] - poses[0, :3], axis=1).max()
+        turned = Rotation.from_quat(poses[:, 3:]) * Rotation.from_quat(poses[0, 3:]).inv()
+        turn = float(np.degrees(turned.magnitude().max()))
+        return f"goes up to {in_mm(float(shift))} and {plain(turn, 3)} deg from its start, on a path"
 
     def seen(self, vectors: Array, times: Array) -> Array:
         """Return vectors (3,) or (T, 3) of the palm frame at the start in the palm frame (T, 3): ``R' R_0 v``."""

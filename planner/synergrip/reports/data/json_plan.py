@@ -28,6 +28,7 @@ from synergrip.planning.told import (
     structure_document,
     true_document,
 )
+from synergrip.problems.in_short import asked_in_short
 from synergrip.reports.data.execution import KEY as EXECUTION
 from synergrip.reports.data.execution import execution_document
 from synergrip.reports.data.json_analysis import refusal_document
@@ -58,6 +59,7 @@ def outcome_document(
         "exit_code": outcome.exit_code,
         "structure": structure_document(grasp, outcome.analysis),
         **names_of(grasp),
+        "asked": [*asked_in_short(outcome.task)],
         "time_s": outcome.task.times.tolist(),
         PROVENANCE: provenance_document(outcome, source),
         "programs": [_program(decision) for decision in outcome.decisions],

@@ -58,10 +58,10 @@ def draw_margin(document: Mapping[str, Any], path: Path, paper: Paper) -> str:
 
 
 def note_required(axes: Any, lines: Lines, scale: float) -> None:
-    """Write at the dashed line what margin is required, and let the chart begin at 0."""
+    """Write at the dashed line what margin is required, with room below it for the words."""
     low, high = axes.get_ylim()
-    for bound in lines.bounds:  # with room below it for the words
-        low = min(low, -0.04 * high, bound - 0.2 * (high - bound))
+    for bound in lines.bounds:
+        low = min(low, bound - 0.2 * (high - bound))
     axes.set_ylim(low, high)
     for bound in lines.bounds:
         axes.annotate(f"required {bound:.4g} N", (0.995, bound), xycoords=axes.get_yaxis_transform(), ha="right",

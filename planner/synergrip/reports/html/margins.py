@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from synergrip.margin.sensitivity.sensitivity import HAND, NOTHING, START, Sensi
 from synergrip.reports.data.margins_files import FILE
 from synergrip.reports.data.saved_margins import KnownMargins
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.tables import Cell, Table
+from synergrip.reports.html.tables import Cell, Table, in_folder
 from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.lines import Lines
@@ -22,14 +23,14 @@ from synergrip.reports.text.part import Part
 from synergrip.reports.text.text_disturbances import disturbance_part, quality_part
 from synergrip.reports.text.text_margins import measures_part, numbers_part, told_value
 from synergrip.reports.text.text_on_request import several_part
-from synergrip.reports.text.text_sensitivities import HEADS, MEANT, WHOLE, cells_of, tangents
+from synergrip.reports.text.text_sensitivities import HEADS, MEANT, SIDES, WHOLE, cells_of, tangents
 from synergrip.reports.text.text_timing import how_fast
 
 ANCHOR, TITLE = "margins", "Margins and sensitivities"
 ADDED_BY = (
     "Not worked out yet: `synergrip margins FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how heavy, "
-    "slippery, hard and far the task may get, what is withstood, and which changes are worth most; FOLDER is that of "
-    "plan.json. It takes as long as some 10 to 30 plans"
+    "slippery, hard and far the task may get, what is withstood, and which changes are worth most. It takes as long as "
+    "some 10 to 30 plans"
 )
 ADDED_IN_CODE = (
     "Not worked out yet: in code `answer.report(path, margins=margins(grasp, task))` adds how heavy, slippery, hard "
@@ -53,12 +54,15 @@ MOST_ROWS = 12
 """Changes that are told of each margin; margins.json has all of them."""
 
 
-def margins_of(document: Mapping[str, Any], found: KnownMargins | str | None = None) -> Table:
+def margins_of(
+    document: Mapping[str, Any], found: KnownMargins | str | None = None, folder: Path | None = None
+) -> Table:
     """Return what is known of the margins of an answer, or why nothing is, and how it is added.
 
     Args:
         document: of the answer, as in plan.json.
         found: margins of this very plan, or why those that stand beside it are none; None without any.
+        folder: of plan.json, where it is known.
     """
     if document["verdict"] != "feasible":
         known = UNTIL_THEN if document.get("true") else THERE_ARE_NONE
@@ -66,7 +70,7 @@ def margins_of(document: Mapping[str, Any], found: KnownMargins | str | None = N
     if isinstance(found, KnownMargins):
         return _told(found, document)
     left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
-    by = ADDED_BY if (document.get("provenance") or {}).get("problem") else ADDED_IN_CODE
+    by = in_folder(ADDED_BY, folder) if (document.get("provenance") or {}).get("problem") else ADDED_IN_CODE
     return Table(ANCHOR, TITLE, before=(*left_out, f"{by}."))
 
 
@@ -145,7 +149,7 @@ def _worth(found: Sensitivities, document: Mapping[str, Any]) -> Table:
         named += shown
         tables.append(_changes(f"{under[0].upper()}{under[1:]}", shown, len(every) - len(shown)))
         drawn += [worth_svg(under, bars)] if (bars := worth_bars(found, kind)) else []
-    told = [*tangents(named, _frames(document))]
+    told = [f"{SIDES}."] * bool(named) + [*tangents(named, _frames(document))]
     told += [f"{name}: {why}" for name, why in found.left_out.items() if name not in HEADS]
     below = Table("", "", before=tuple(told))
     return Table("", f"What changes are worth, {MEANT}", drawn=tuple(drawn), parts=(*tables, below))

@@ -10,7 +10,7 @@ from synergrip.planning.outcome import Plan
 from synergrip.problems.in_short import many
 from synergrip.reports.html.charts import charts_of
 from synergrip.reports.pictures.lines import plan_lines
-from synergrip.reports.text.text_usages import worst_of
+from synergrip.reports.text.text_usages import WITHIN, as_little, worst_of
 
 HEAD = ("limit", "worst", "where", "when", "bound")
 WIDE = "max-width: 34em"
@@ -24,14 +24,15 @@ def plan_html(plan: Plan) -> str:
     told = ", ".join(many(*each) for each in ((plan.grasp.n_z, "synergy"), (plan.grasp.n_c, "contact"),
                                              (len(times), "knot")))  # fmt: skip
     least = f"least slip margin {read_as(float(worst.value[k, i]), 'N')} at {_short(worst.items[i])}"
-    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, t = {worst.times[k]:.3g} s · {escape(told + span)}</p>"
+    when = f"t = {worst.times[k]:.3g} s{as_little(worst.value)}"
+    shown = f"<p><b>{escape(plan.verdict)}</b>: {escape(least)}, {when} · {escape(told + span)}</p>"
     chart = charts_of(times, plan_lines(plan)[:1])[0].svg
     return f'{shown}{_table(plan)}<div style="{WIDE}">{chart}</div>'
 
 
 def _table(plan: Plan) -> str:
     """Return the value of every limit that is nearest to its bound, on each side that is bounded by itself."""
-    each = (row for usage in plan.usages for row in worst_of(usage))
+    each = (row for usage in plan.usages for row in worst_of(usage, mark=WITHIN))
     rows = [(title, shown, _short(item), f"{time:.3g} s", bound) for title, shown, item, time, bound in each]
     head = "".join(f"<th>{cell}</th>" for cell in HEAD)
     body = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows)

@@ -31,14 +31,14 @@ from synergrip.reports.html.tables import in_order, tables_of, usage_told
 from synergrip.reports.html.why import headline_of, missing_of, why_of
 from synergrip.reports.libraries import refuse_without
 from synergrip.reports.pictures.lines import lines_of
-from synergrip.reports.text.text_usages import worst_of
+from synergrip.reports.text.text_usages import as_little, worst_of
 
 LIBRARIES = {"jinja2": "Jinja2", "viser": "viser"}
 """What it takes beside synergrip itself: how it is imported, and how it is called."""
 
 
 def write_report(
-    path: Path, document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None,
+    path: Path, document: Mapping[str, Any], csv: str = "", folder: Path | None = None, beside: Path | None = None,
     margins: KnownMargins | None = None,
 ) -> None:  # fmt: skip
     """Write the report of an answer, whole or not at all.
@@ -47,7 +47,7 @@ def write_report(
         path: of the file.
         document: of the answer, as in plan.json.
         csv: of the plan, as in plan.csv, to be downloaded.
-        folder: where the hand file is looked for when it is not a bundled one.
+        folder: of plan.json, where the hand file is looked for when it is not a bundled one; None where nobody knows.
         beside: folder in which a simulation and the margins of the plan are looked for, if any.
         margins: of this very plan, where they are at hand.
 
@@ -66,18 +66,18 @@ def refuse_without_libraries() -> None:
 
 
 def report_text(
-    document: Mapping[str, Any], csv: str = "", folder: Path = Path(), beside: Path | None = None,
+    document: Mapping[str, Any], csv: str = "", folder: Path | None = None, beside: Path | None = None,
     margins: KnownMargins | None = None,
 ) -> str:  # fmt: skip
     """Return the report of an answer as `write_report` writes it."""
     refuse_without_libraries()
-    playback = playback_of(document, folder)
+    playback = playback_of(document, folder or Path())
     end = float(document["time_s"][-1])
     charts = charts_of(_known_times(document), lines_of(document), missing_of(document), end)
     found = margins if margins is not None or beside is None else saved_margins(beside, document)
     tables = in_order([
-        *tables_of(document), *synergies_of(document), margins_of(document, found),
-        *physics_of(document, beside),
+        *tables_of(document), *synergies_of(document), margins_of(document, found, folder),
+        *physics_of(document, beside, folder),
     ])  # fmt: skip
     no = why_of(document)
     proven = document.get("provenance") or {}
@@ -89,7 +89,8 @@ def report_text(
         files[MARGINS] = to_json(dict(found.document))
     return str(
         _template().render(
-            title=document["title"], under=_under(document), verdict=document["verdict"],
+            title=document["title"], under=_under(document), asked=" · ".join(document.get("asked") or ()),
+            verdict=document["verdict"],
             headline=_headline(document), contents=contents, no=no, playback=playback, charts=charts,
             tables=tables, overrides=[each for each in overrides if not each.endswith(FOUND)],
             found=[each.removesuffix(FOUND) for each in overrides if each.endswith(FOUND)], inputs=_inputs(problem),
@@ -147,7 +148,8 @@ def _headline(document: Mapping[str, Any]) -> list[str]:
     asked = next((each["lower"] for each in document["limits"] if each["name"] == "slip margin"), None)
     wanted = f" (asked: {read_as(asked, 'N')} or more)" if asked is not None else ""
     told.append(
-        f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s{wanted}"
+        f"least slip margin {margin['worst_N']:.4g} N at {margin['contact']}, t = {margin['time_s']:.3g} s"
+        f"{as_little(np.array(margin['per_contact_N']))}{wanted}"
     )
     if document.get("allowances"):
         least = read_as(document["allowances"]["worst_N"], "N")

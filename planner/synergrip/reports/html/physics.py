@@ -8,27 +8,25 @@ from typing import Any
 
 from synergrip.reports.data.saved_simulation import FILE, saved_simulation
 from synergrip.reports.html.charts import charts_of
-from synergrip.reports.html.tables import Cell, Table
+from synergrip.reports.html.tables import Cell, Table, in_folder
 from synergrip.reports.pictures.contact_colors import contact_colors
 from synergrip.reports.pictures.simulation_picture import simulation_lines
 from synergrip.reports.text.text_simulation import became, contact_cells, how_played, promised_word, sentences
 from synergrip.simulation.simulation import Simulation
 
 ANCHOR, TITLE = "physics", "In a physics engine"
-ADDED_BY = (
-    "`synergrip simulate FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how it holds in a physics engine; "
-    "FOLDER is that of plan.json"
-)
+ADDED_BY = "`synergrip simulate FOLDER -o FOLDER`, then `synergrip report FOLDER`, add how it holds in a physics engine"
 DRAWN = ("slip margin", "slip")
 """Charts; what the object does is told by the largest distance from what was promised."""
 
 
-def physics_of(document: Mapping[str, Any], beside: Path | None) -> Iterator[Table]:
+def physics_of(document: Mapping[str, Any], beside: Path | None, folder: Path | None = None) -> Iterator[Table]:
     """Yield what became of a plan that can be played, from the simulation of it that was saved.
 
     Args:
         document: of the answer, as in plan.json.
         beside: folder in which a simulation is looked for, if any.
+        folder: of plan.json, where it is known.
     """
     if not _playable(document):
         return
@@ -37,7 +35,7 @@ def physics_of(document: Mapping[str, Any], beside: Path | None) -> Iterator[Tab
         yield _played(found)
     else:
         left_out = (f"{FILE} beside it {found}; it is left out.",) if found else ()
-        yield Table(ANCHOR, TITLE, before=(*left_out, f"{ADDED_BY}."))
+        yield Table(ANCHOR, TITLE, before=(*left_out, f"{in_folder(ADDED_BY, folder)}."))
 
 
 def _playable(document: Mapping[str, Any]) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import numpy as np
@@ -12,7 +14,7 @@ from synergrip.conic.limits.limit import Usage
 from synergrip.documents.quantities import plain, read_as
 from synergrip.reports.pictures.cone_sections import when_worst
 from synergrip.reports.pictures.contact_colors import contact_colors
-from synergrip.reports.text.text_usages import worst_of
+from synergrip.reports.text.text_usages import WITHIN, side_title, worst_of
 
 Document = Mapping[str, Any]
 
@@ -53,6 +55,13 @@ def tables_of(document: Document) -> tuple[Table, ...]:
     return tuple(table for part in parts for table in part(document))
 
 
+def in_folder(command: str, folder: Path | None) -> str:
+    """Return a sentence with a command, in which FOLDER is the folder of plan.json, or is said to be it."""
+    if folder is None:
+        return f"{command} (FOLDER is that of plan.json)"
+    return command.replace("FOLDER", quote(str(folder)))
+
+
 def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:
     """Return tables as they follow each other on the page."""
     return tuple(sorted(tables, key=lambda table: ORDER.index(table.anchor)))
@@ -60,14 +69,14 @@ def in_order(tables: Iterable[Table]) -> tuple[Table, ...]:
 
 def _limits(document: Document) -> Iterator[Table]:
     """Yield the worst value of every limit at the knots, on each side that is bounded by itself, and between them."""
-    limits = document.get("limits") or ()
+    limits, mark = document.get("limits") or (), WITHIN * (document["verdict"] == "feasible")
     between = {each["name"]: each for each in (document.get("between") or {}).get("limits", ())}
     rows = []
     for each in limits:
-        other = between.get(each["name"])
-        for title, shown, item, time, bound in worst_of(usage_told(each, document)):
+        other, usage = between.get(each["name"]), usage_told(each, document)
+        for title, shown, item, time, bound in worst_of(usage, mark=mark):
             # between the knots the worst of both sides is known: it stands beside the side that it is on
-            there = other is not None and title in (each["name"], f"{_side(other)} {each['name']}")
+            there = other is not None and title in (each["name"], side_title(usage, _side(other)))
             rows.append((
                 Cell(title), _number(shown), Cell(item), _number(f"{time:.3g} s"), Cell(bound),
                 _number(read_as(other["value"], each["unit"]) if other and there else "–"),
@@ -92,10 +101,10 @@ def _allowed(document: Document) -> Iterator[Table]:
     yield Table("allowed", "What is allowed for", ("case", "smallest slip margin"), rows, after=tuple(after))
 
 
-def _side(told: Mapping[str, Any]) -> str:
-    """Return which bound the worst value of a limit is nearer to."""
+def _side(told: Mapping[str, Any]) -> int:
+    """Return which bound the worst value of a limit is nearer to: the upper one, 1, or the lower one, -1."""
     lower, value, upper = told["lower"], told["value"], told["upper"]
-    return "smallest" if upper is None or (lower is not None and value - lower < upper - value) else "largest"
+    return -1 if upper is None or (lower is not None and value - lower < upper - value) else 1
 
 
 def usage_told(told: Mapping[str, Any], document: Document) -> Usage:

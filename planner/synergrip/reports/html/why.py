@@ -23,6 +23,12 @@ from synergrip.reports.text.text_no import (
 from synergrip.reports.text.text_plan import HEADS
 
 ANCHOR, TITLE = "why", "Why not"
+UNKNOWN_HEADS = {
+    "solver": "nothing that was solved could be verified",
+    "execution": "the hand that moves does not keep what was planned",
+}  # fmt: skip
+"""Stage of an answer that is unknown -> what it means."""
+NOT_YET = "No change that was tried has a plan yet"
 CHANGES = ("change", "from", "to", "planned again", "with")
 
 
@@ -38,18 +44,29 @@ def headline_of(document: Mapping[str, Any]) -> list[str]:
     """Return what stands beside the verdict of an answer without a plan."""
     stage, reached = str(document.get("stage") or ""), document.get("reached")
     if document["verdict"] == "infeasible":
-        return [f"{HEADS.get(stage, stage)} (stage: {stage})", *_least(document, "")]
+        return [HEADS.get(stage, stage), *_least(document, "")]
     if reached:
         until = f"t = {reached['until_s']:.3g} s"
-        return [f"not reached from {until} on (stage: {stage})", *_least(document, "until then ")]
-    return [f"stage: {stage}", *_least(document, "")]
+        return [f"not reached from {until} on", *_least(document, "until then ")]
+    followed = known_until(document)
+    told = UNKNOWN_HEADS.get(stage, stage)
+    if followed is not None:
+        return [f"{told}; followed until t = {followed:.3g} s", *_least(document, "until then ")]
+    return [told, *_least(document, "")]
+
+
+def known_until(document: Mapping[str, Any]) -> float | None:
+    """Return the last instant whose true state is known [s], where that is before the end."""
+    known = (document.get("true") or {}).get("time_s") or document["time_s"]
+    return float(known[-1]) if known[-1] < document["time_s"][-1] else None
 
 
 def missing_of(document: Mapping[str, Any]) -> Sequence[tuple[float, float]]:
-    """Return the stretches of time without a plan [s]."""
-    reached = document.get("reached")
-    if reached:
-        return ((float(reached["until_s"]), float(document["time_s"][-1])),)
+    """Return the stretches of time without a plan, or until which nothing is known [s]."""
+    reached, followed = document.get("reached"), known_until(document)
+    if reached or followed is not None:
+        begin = float(reached["until_s"]) if reached else followed or 0.0
+        return ((begin, float(document["time_s"][-1])),)
     spans = (document.get("when") or {}).get("intervals_s") or ()
     return tuple((float(begin), float(end)) for begin, end in spans)
 
@@ -77,12 +94,17 @@ def _parts(document: Mapping[str, Any]) -> Iterator[Table]:
     if conflicts := document.get("conflicts"):
         yield Table("", "What clashes", ("limit", "share of the proof", "at"), tuple(map(_conflict, conflicts)))
     repairs, others, pairs = (document.get(name) or [] for name in ("repairs", "others", "pairs"))
+    helped = any(each["verified"] for each in (*repairs, *others, *(each for pair in pairs for each in pair)))
     if repairs:
-        yield Table("", "What would help", CHANGES, tuple(map(_change, repairs)))
+        title = "What would help" if helped else NOT_YET
+        head = (*CHANGES[:-1], CHANGES[-1] * any(each["verified"] for each in repairs))
+        after = tuple(no_plan_words(repairs, helped=helped))
+        yield Table("", title, head, tuple(map(_change, repairs)), after=after)
     if (missing := document.get("missing_synergies")) is not None:
         yield _missing(missing)
     if others:
-        title = "Also tried and planned, and not the least there is"
+        too = ", too" if repairs or missing is not None else ""
+        title = f"What would help{too}, tried and planned, and not the least there is"
         yield Table("", title, CHANGES, tuple(map(_change, others)))
     if pairs:
         rows = [_change(each, "and " * (k > 0)) for pair in pairs for k, each in enumerate(pair)]
@@ -90,6 +112,15 @@ def _parts(document: Mapping[str, Any]) -> Iterator[Table]:
     told = [*_told([*repairs, *others, *(each for pair in pairs for each in pair)], document)]
     if told:
         yield Table("", "", before=tuple(told))
+
+
+def no_plan_words(repairs: Sequence[Mapping[str, Any]], *, helped: bool) -> Iterator[str]:
+    """Yield what is known of changes that no plan was found with, and where more are looked for."""
+    if any(each.get("tried", True) and not each["verified"] for each in repairs):
+        told = "the linear model of the start posture has a plan with that value"
+        yield f"Where no plan is found, {told}, and the hand that moves was tried with more."
+    if not helped:
+        yield "`synergrip explain PROBLEM` tries more."
 
 
 def _told(changes: Sequence[Mapping[str, Any]], document: Mapping[str, Any]) -> Iterator[str]:

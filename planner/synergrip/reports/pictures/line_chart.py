@@ -25,6 +25,8 @@ HEAD = 0.2
 """Height of a title [inch]."""
 WIDEST, THINNEST = 3.4, 1.2
 """Of the first line and of the last [points]: of lines on each other all are seen."""
+BELOW_ZERO = 0.04
+"""Room beyond 0 where a chart shows it, as a share of the rest: lines on 0 are seen."""
 DASHED = (0, (4, 3))
 
 
@@ -84,6 +86,7 @@ def draw_chart(
     axes.set_xlim(times[0], times[-1])
     axes.set_xlabel("time [s]", fontsize=LABEL * sheet.scale, labelpad=1)
     _finish(axes, lines, sheet)
+    _from_zero(axes, lines)
     draw_bounds(axes, lines, sheet.scale, upright=True)
     return axes
 
@@ -125,6 +128,17 @@ def _finish(axes: Any, lines: Lines, sheet: Sheet) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=TICKS * sheet.scale)
     no_noise(axes, lines.values, lines.unit)
+
+
+def _from_zero(axes: Any, lines: Lines) -> None:
+    """Let a chart of margins or forces of contacts show 0: a change of a thousandth of them must not fill it."""
+    if lines.of_contacts and lines.unit == "N":
+        low, high = axes.get_ylim()
+        room = BELOW_ZERO * max(high, -low)
+        if low > -room:  # and as much at the other end, where autoscaling has left next to nothing
+            axes.set_ylim(-room, high + room)
+        elif high < room:
+            axes.set_ylim(low - room, room)
 
 
 def _own(lines: Lines, number: int) -> Iterator[float]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from synergrip.documents.quantities import SHOWN_IN
 from synergrip.linalg import Array
+from synergrip.planning.arrays import measures_of
 from synergrip.planning.outcome import Plan
 from synergrip.planning.told import series_document, true_document
 
@@ -62,7 +63,7 @@ def plan_lines(plan: Plan) -> tuple[Lines, ...]:
     document: dict[str, Any] = {
         "contacts": [contact.name for contact in grasp.contacts], "synergies": grasp.synergies,
         "limits": [series_document(usage) for usage in plan.usages], "dz_r": motion.dz_r, "du": motion.du,
-        "lambda": motion.forces, "components": [contact.kind.components for contact in grasp.contacts],
+        "lambda": motion.forces, **measures_of(grasp),
     }  # fmt: skip
     if plan.executed is not None:
         document["true"] = {"force_N": true_document(plan.executed, plan.usages[0])["force_N"]}
@@ -132,7 +133,9 @@ def _references(document: Mapping[str, Any]) -> Iterator[Lines]:
     if references is not None and "synergy reference" not in {limit["name"] for limit in document.get("limits", ())}:
         values = np.array(references)
         order = np.argsort(-np.abs(values).max(axis=0), kind="stable")
-        yield Lines("synergy reference", "", tuple(document["synergies"][i] for i in order), values[:, order])
+        units = {*(document.get("units") or {}).get("synergies", ())}
+        unit = next(iter(units)) if len(units) == 1 else None  # as different units have no axis in common
+        yield Lines("synergy reference", unit or "", tuple(document["synergies"][i] for i in order), values[:, order])
 
 
 def _motion(document: Mapping[str, Any], wanted: Array | None) -> Iterator[Lines]:

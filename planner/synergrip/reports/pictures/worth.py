@@ -17,6 +17,8 @@ BARS, BAR = 6, 0.21
 """How many are drawn of a margin, and the height of each [inch]."""
 MOST_LETTERS = 48
 """Of a name beside a bar; what is longer is cut."""
+TICK = 0.65
+"""Least distance of two numbers below the axis [inch]."""
 WIDE, ABOVE, BELOW, RIGHT = 5.6, 0.3, 0.42, 0.15
 """Of a picture inside a page, and the room around its axes, that for its title above them [inch]."""
 
@@ -34,6 +36,7 @@ def draw_worth(sheet: Sheet, box: Box, bars: Sequence[Sensitivity], colors: str 
     axes.set_yticks(places, [_shortened(change_of(each)) for each in bars])
     axes.set_ylim(-0.6, len(bars) - 0.4)
     plain(axes, "adds to the slip margin [N]", "")
+    axes.locator_params(axis="x", nbins=max(2, int(box.width / TICK)))
     axes.tick_params(axis="y", length=0)
     return axes
 

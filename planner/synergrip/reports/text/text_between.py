@@ -94,9 +94,22 @@ def to_within(usages: Sequence[Usage]) -> str:
     return f" ({', '.join(f'{usage.title} to within {_size(usage)}' for usage in missed.values())})"
 
 
+def tolerated(plan: Plan) -> str:
+    """Return by how much limits may be missed that count as kept, of those whose values are beyond their bounds."""
+    tolerances = {check.name: check.tolerance for check in plan.checks}
+    beyond = [usage for usage in plan.usages if usage.violation > LIMIT]
+    told = (f"{_fine(tolerances[usage.title], usage.unit)} for the {usage.title}" for usage in beyond)
+    return f"beyond the limit by less than the tolerance: {', '.join(told)}"
+
+
 def _size(usage: Usage) -> str:
-    factor, unit = FINE.get(usage.unit, SHOWN_IN.get(usage.unit, (1.0, usage.unit)))
-    return f"{plain(_rounded_up(factor * float(usage.excess.max())), 2)} {unit}".rstrip()
+    return _fine(float(usage.excess.max()), usage.unit)
+
+
+def _fine(value: float, unit: str) -> str:
+    """Return a small value [`unit`] above 0, rounded up to two digits."""
+    factor, name = FINE.get(unit, SHOWN_IN.get(unit, (1.0, unit)))
+    return f"{plain(_rounded_up(factor * value), 2)} {name}".rstrip()
 
 
 def _rounded_up(value: float) -> float:

@@ -16,12 +16,12 @@ from synergrip.planning.told import notes_together
 from synergrip.problems.in_short import many
 from synergrip.problems.problem import Problem
 from synergrip.reports.text.tables import table, wrapped
-from synergrip.reports.text.text_between import between_lines
+from synergrip.reports.text.text_between import between_lines, tolerated
 from synergrip.reports.text.text_cases import case_lines, guaranteed_margin
 from synergrip.reports.text.text_checked import checked_lines, proof_lines, solved_lines
 from synergrip.reports.text.text_moved import moved_lines
 from synergrip.reports.text.text_problem import command_of, problem_lines
-from synergrip.reports.text.text_usages import on_bound, used_rows
+from synergrip.reports.text.text_usages import STAR, on_bound, used_rows
 from synergrip.statics.twists import describe_kind
 
 if TYPE_CHECKING:
@@ -175,8 +175,10 @@ def _feasible(plan: Plan, word: str, *, details: bool) -> Iterator[str]:
     worst = on_bound(plan.usages[0], k, i, plan.task.margin)
     head = f"{word}  smallest slip margin {plain(worst)} N ({contact}, t = {time:.2f} s){guaranteed_margin(plan)}"
     yield f"{head}{best}"
-    rows = used_rows(plan.usages, plan.motion, plan.task, plan.analysis)
+    rows = used_rows(plan.usages, plan.motion, plan.task, plan.analysis, STAR)
     yield table(("", "worst", "at", "limit"), rows)
+    if any(row[-1].endswith(STAR) for row in rows):
+        yield from wrapped("*        ", tolerated(plan))
     yield from moved_lines(plan, details=details)
 
 

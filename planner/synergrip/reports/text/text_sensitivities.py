@@ -16,6 +16,10 @@ HEADS = {
 }  # fmt: skip
 MEANT = "each by 1 % of a number, 1 mm of a contact or 1 deg of its normal"
 
+SIDES = (
+    "toward less, toward more: what that much more of the number does to the margin, as it is below its value and "
+    "above it; where less of it is better both are negative"
+)
 WHOLE = ("change", "adds", "toward less", "toward more", "in", "")
 """Columns where all is told."""
 
@@ -38,6 +42,8 @@ def sensitivity_lines(found: Sensitivities, grasp: Grasp, *, whole: bool = False
         named += chosen
         yield of
         yield table(columns, [cells_of(each, whole=whole) for each in chosen])
+    if whole and named:
+        yield from wrapped("         ", SIDES)
     if grasp.held is not None:
         frames = {contact.name: contact.frame.T for contact in grasp.contacts}
         yield from (line for told in tangents(named, frames) for line in wrapped("         ", told))
