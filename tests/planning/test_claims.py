@@ -23,7 +23,7 @@ from synergrip.problems.problem import Problem, load_problem
 from synergrip.reports.data.json_plan import outcome_document
 from synergrip.reports.data.plan_files import write_outcome
 
-BY_DIGEST = ("programs", "execution")
+BY_DIGEST = ("programs", "execution", "control")
 """Keys that do not follow from the references, so that the digest alone guards them."""
 
 
