@@ -14,6 +14,8 @@ from synergrip.batch.cone_problems import ConeProblems, Status, Tolerance
 from synergrip.batch.decided import Solver
 from synergrip.batch.scaling import Scaling
 from synergrip.errors import InputError
+from synergrip.grasps.stack import GraspStack
+from synergrip.problems.problem import load_problem
 
 SHARP = Tolerance(5e-9, 2e-9)
 SHAPES = [
@@ -187,14 +189,14 @@ def test_arrays_that_do_not_fit_are_refused_by_name() -> None:
 
 
 def test_what_is_compiled_is_chosen_where_that_repays(monkeypatch: pytest.MonkeyPatch) -> None:
-    there, kept = [True], [False]
+    there, kept, stack = [True], [False], GraspStack.of([load_problem("tripod").grasp])
     monkeypatch.setattr(kernel, "find_spec", lambda name: object() if there[0] else None)
     monkeypatch.setattr(Compiled, "kept", lambda self: kept[0])
     for each in (fast_kernel.compiled, fast_statics.compiled):
         monkeypatch.setattr(each, "loaded", False)
 
     def fast(count: int, name: str | None = None) -> tuple[bool, bool]:
-        return kernel.chosen(count, name) is fast_kernel.solve, kernel.quick_statics(count, name) is not None
+        return kernel.chosen(count, name) is fast_kernel.solve, kernel.quick_statics(stack, count, name) is not None
 
     every = [fast(count) for count in (10, 20_000, 199_999, 200_000, 1_000_000)]
     assert every == [(False, False)] * 3 + [(True, False), (True, True)]

@@ -28,7 +28,7 @@ def quick(stack: sg.GraspStack) -> object:
     pytest.importorskip("numba")
     from synergrip.batch.fast_statics import ClearStatics
 
-    return ClearStatics()(stack)
+    return ClearStatics(stack)(stack)
 
 
 def largest(values: Array) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from itertools import accumulate
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,12 +156,16 @@ def _prepare(function: Any) -> None:
 compiled = Compiled("statics", SOURCES, _made, _prepare, "about a minute")
 
 
+_KNOWN: WeakKeyDictionary[GraspStack, dict[Layout, Analysis]] = WeakKeyDictionary()
+"""What NumPy says of one grasp of each stack that there is: a millisecond, which a few hundred grasps take together."""
+
+
 class ClearStatics:
     """The statics of the chunks of one stack."""
 
-    def __init__(self) -> None:
-        """Make it, of grasps that nothing is known of."""
-        self._like: dict[Layout, Analysis] = {}
+    def __init__(self, stack: GraspStack) -> None:
+        """Make that of a stack."""
+        self._like = _KNOWN.setdefault(stack, {})
 
     @staticmethod
     def ready(stack: GraspStack, tell: Callable[[str, float], None]) -> None:

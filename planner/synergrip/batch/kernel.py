@@ -57,10 +57,10 @@ def reason(count: int, kernel: str | None) -> str:
     return f"Numba's is not compiled yet on this machine; {COMPILED:,} tasks are enough to do so"
 
 
-def quick_statics(count: int, kernel: str | None = None) -> QuickStatics | None:
+def quick_statics(stack: GraspStack, count: int, kernel: str | None = None) -> QuickStatics | None:
     """Return what works out the statics of many grasps by compiled lanes; None where that does not repay."""
     used = _used(fast_statics.compiled, count, STATICS_COMPILED, kernel)
-    return fast_statics.ClearStatics() if used else None
+    return fast_statics.ClearStatics(stack) if used else None
 
 
 def ready(solver: Solver, quick: QuickStatics | None, whole: object, tell: Callable[[str, float], None]) -> None:

@@ -119,7 +119,7 @@ def answered(
     like, found = question.like, Unfinished(question)
     whole = question.grasp if isinstance(question.grasp, Analysis | GraspStack) else analysed(question.grasp)
     solver, many_at_a_time = chosen(question.count, kernel), threads_asked(threads)
-    quick = quick_statics(question.count, kernel) if isinstance(whole, GraspStack) else None
+    quick = quick_statics(whole, question.count, kernel) if isinstance(whole, GraspStack) else None
     LOG.log(level, "planning %d tasks of one knot on %d contacts with %d synergies by kernel '%s': %s",
             question.count, like.n_c, like.n_z, name_of(solver), reason(question.count, kernel))  # fmt: skip
     chunks = np.split(np.arange(question.count), range(CHUNK, question.count, CHUNK))
