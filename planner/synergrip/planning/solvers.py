@@ -177,10 +177,9 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     best = found = _decided(question, solver)
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
-        known = best.decision.optimal and best.small  # verified, but not beside its own value
-        hidden = best.decision.certificate.rounded or (
-            known and rounding_hides(best.decision.program, best.decision.solution.x, best.value)
-        )
+        known, program = best.decision.optimal and best.small, best.decision.program  # verified, not beside its value
+        doubt = known and rounding_hides(program, best.decision.solution.x, best.value)
+        hidden = best.decision.certificate.rounded or doubt
         if best.settled or (hidden and best.question.goal.rescaled is not None):
             break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)

@@ -13,7 +13,7 @@ from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.placing import same_spots
 from synergrip.grasps.plausible import MOST_FRICTION, grasp_doubts
 from synergrip.problems.contact_list import stated_in
-from synergrip.problems.holding import in_file
+from synergrip.problems.file_keys import in_file
 from synergrip.problems.problem_file import ProblemFile
 
 

@@ -14,8 +14,8 @@ from synergrip.grasps.asked_hand import asked_hand
 from synergrip.hands.folder import load_hand
 from synergrip.hands.hand import Hand
 from synergrip.hands.synergies.matrix import stands_still
+from synergrip.problems.file_keys import in_file
 from synergrip.problems.hand_table import HandTable
-from synergrip.problems.holding import in_file
 
 OF_MODEL = ("model", "palm", "coupling", "follower_ranges")
 """Keys of [hand] that say which hand it is: nothing is judged on another one."""

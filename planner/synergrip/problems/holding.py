@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
-from synergrip.errors import InputError, Issue, raise_issues
+from synergrip.errors import InputError, raise_issues
 from synergrip.grasps.asked_grasp import AskedGrasp, asked_grasp, grasp_of
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.objects import Object, Turned, turn
@@ -13,6 +12,7 @@ from synergrip.grasps.shapes.sphere import Sphere
 from synergrip.hands.folder import load_hand
 from synergrip.hands.units import joint_kinds, list_misfits
 from synergrip.linalg import frozen
+from synergrip.problems.file_keys import in_file
 from synergrip.problems.object_table import AUTO, ObjectTable
 from synergrip.problems.problem_file import ProblemFile
 
@@ -75,25 +75,6 @@ def asked_of(file: ProblemFile, folder: Path) -> AskedGrasp:
         )  # fmt: skip
     except InputError as error:
         raise error.located(in_file) from None
-
-
-KEYS = {
-    "posture": "hand.posture", "synergies": "hand.synergies", "close": "hand.close",
-    "joint_compliance": "hand.compliance.joint", "synergy_compliance": "hand.compliance.synergy",
-    "object.shape.radius": "object.shape.sphere.radius",
-}  # fmt: skip
-"""Argument of `make_grasp` -> key of the problem file."""
-
-
-def in_file(issue: Issue) -> Issue:
-    """Return an issue with the key of the file in the place of the argument; one that has its place keeps it."""
-    if issue.file:
-        return issue
-    for argument, key in KEYS.items():
-        rest = issue.key.removeprefix(argument)
-        if rest != issue.key and rest[:1] in ("", ".", "["):
-            return replace(issue, key=key + rest)
-    return issue
 
 
 def _object(table: ObjectTable | None) -> Object:

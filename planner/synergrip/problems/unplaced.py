@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from synergrip.documents.documents import Document
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
+from synergrip.problems.file_keys import in_file
 from synergrip.problems.finding import find_problem
-from synergrip.problems.holding import asked_of, in_file
+from synergrip.problems.holding import asked_of
 from synergrip.problems.problem_file import ProblemFile, read_problem_file
 from synergrip.values import Value
 
