@@ -26,6 +26,8 @@ FORMULAS = (
     ("lift-off margin", "N", "n - n_min"),
 )
 """Name, unit and formula of every measure."""
+MOST_IS_WORST = "required friction"
+"""The one measure of which the most is worst."""
 
 
 @made_by("margins(grasp, task).measures")
@@ -86,6 +88,6 @@ def measures(grasp: Grasp, times: Array, forces: Array, least: Sequence[float] |
     narrow = np.where(shears | (mu > 0), np.degrees(np.arctan(mu) - np.arctan(needed)), np.inf)
     values = (slip, slip / np.sqrt(1 + mu**2), narrow, ratio, needed, normal - least)
     return {
-        name: Measure(name, unit, formula, frozen(value), names, times, name == "required friction")
+        name: Measure(name, unit, formula, frozen(value), names, times, name == MOST_IS_WORST)
         for (name, unit, formula), value in zip(FORMULAS, values, strict=True)
     }

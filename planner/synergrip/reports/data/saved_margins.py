@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,25 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.documents import read_document
-from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
 from synergrip.margin.direct import NUMBERS
 from synergrip.margin.direct_number import DirectNumber
 from synergrip.margin.disturbance.disturbances import Disturbances
 from synergrip.margin.found import Margins
-from synergrip.margin.measures import Measure, Worst
+from synergrip.margin.measures import MOST_IS_WORST, Measure, Worst
 from synergrip.margin.on_request import ON_REQUEST
 from synergrip.margin.sensitivity.sensitivity import KINDS, Sensitivities, Sensitivity
 from synergrip.margin.timing.fastest_timing import TIMING, FastestTiming
 from synergrip.margin.wrench_space.quality import WrenchSpaceQuality
-from synergrip.planning.digest import stated_digest, unchanged
+from synergrip.reports.data.beside_plan import found_beside
 from synergrip.reports.data.margins_files import FILE
 from synergrip.reports.data.saved_disturbances import disturbances_of, quality_of
 from synergrip.simulation.told_values import Told
-
-LEAST_IS_WORST = "required friction"
-"""The one measure of which the most is worst."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,21 +59,7 @@ def saved_margins(folder: Path, plan: Mapping[str, Any]) -> KnownMargins | str |
         folder: where margins.json is looked for.
         plan: document of the plan, as in plan.json, whose digest has been judged.
     """
-    file = folder / FILE
-    if not file.is_file():
-        return None
-    try:
-        data = read_document(file, "margins", numbers=True).data
-        json.dumps(data, ensure_ascii=False).encode()
-        if not unchanged(data):
-            return "is not as it was written" if stated_digest(data) else "does not say of which plan it is"
-        if data.get("plan_sha256") is None or data["plan_sha256"] != stated_digest(plan):
-            return "is of another plan"
-        return margins_of(data)
-    except InputError as error:
-        return f"cannot be read: {error.issues[0].message}"
-    except UnicodeEncodeError:  # half of a letter, which JSON can write and no page
-        return "cannot be read: a text in it is none"
+    return found_beside(folder / FILE, "margins", plan, margins_of)
 
 
 def margins_of(document: Mapping[str, Any]) -> KnownMargins:
@@ -119,7 +99,7 @@ def _measure(name: str, told: Told, times: Array) -> Measure:
     if not items or len(flat) != len(times) * len(items) or not all(isinstance(value, int | float) for value in flat):
         raise told.refused(f"per_{of}", "expected a number for each of the items, or null")
     values = frozen(np.array(flat, dtype=float).reshape(len(times), len(items)))
-    return Measure(name, told.text("unit"), told.text("formula"), values, items, times, name == LEAST_IS_WORST, of)  # type: ignore[arg-type]
+    return Measure(name, told.text("unit"), told.text("formula"), values, items, times, name == MOST_IS_WORST, of)  # type: ignore[arg-type]
 
 
 def _worst(told: Told) -> Worst:
@@ -138,7 +118,7 @@ def _numbers(told: Told, names: tuple[str, ...] | None = None) -> dict[str, Dire
 def _number(name: str, told: Told) -> DirectNumber:
     if told.get("value") is None:
         return DirectNumber.none(name, "", told.text("why"))
-    value, lower, upper = told.number("value"), perhaps(told, "lower"), perhaps(told, "upper")
+    value, lower, upper = told.number("value"), _perhaps(told, "lower"), _perhaps(told, "upper")
     moved = None if told.get("displacement") is None else tuple(told.array("displacement", (6,)).tolist())
     return DirectNumber(
         name, told.text("unit"), value, lower, upper, told.get("proven") is True, told.text("why"), told.text("set"),
@@ -150,16 +130,16 @@ def _sensitivities(told: Told) -> Sensitivities:
     margins, left_out = told.inside("sensitivities_of"), told.inside("sensitivities_left_out")
     rows = told.several("sensitivities") if told.get("sensitivities") else []
     return Sensitivities(
-        {kind: perhaps(margins, kind) for kind in KINDS}, tuple(_sensitivity(each) for each in rows),
+        {kind: _perhaps(margins, kind) for kind in KINDS}, tuple(_sensitivity(each) for each in rows),
         {name: left_out.text(name) for name in left_out.values}, told.get("interrupted") is True,
     )  # fmt: skip
 
 
 def _sensitivity(told: Told) -> Sensitivity:
     texts = {name: told.text(name) for name in ("kind", "model", "name", "of", "direction", "per", "why", "unit")}
-    left, right = perhaps(told, "left"), perhaps(told, "right")
+    left, right = _perhaps(told, "left"), _perhaps(told, "right")
     return Sensitivity(
-        **texts, at=perhaps(told, "at"), step=1.0, left=left, right=right,
+        **texts, at=_perhaps(told, "at"), step=1.0, left=left, right=right,
         differentiable=told.get("differentiable") is True,
     )  # fmt: skip
 
@@ -167,11 +147,11 @@ def _sensitivity(told: Told) -> Sensitivity:
 def _timing(told: Told) -> FastestTiming:
     given = 0.0 if told.get("value") is None else told.number("given_s")
     return FastestTiming(
-        perhaps(told, "value"), perhaps(told, "lower"), perhaps(told, "upper"), told.get("proven") is True,
+        _perhaps(told, "value"), _perhaps(told, "lower"), _perhaps(told, "upper"), told.get("proven") is True,
         told.get("local") is True, given, told.text("why"),
     )  # fmt: skip
 
 
-def perhaps(told: Told, name: str) -> float | None:
+def _perhaps(told: Told, name: str) -> float | None:
     """Return a number, or None where the document has none."""
     return None if told.get(name) is None else told.number(name)

@@ -8,10 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from synergrip.documents.documents import read_document
-from synergrip.errors import InputError
 from synergrip.linalg import Array, frozen
-from synergrip.planning.digest import stated_digest, unchanged
+from synergrip.reports.data.beside_plan import found_beside
 from synergrip.reports.data.simulation_files import NAMES
 from synergrip.simulation.differences import Difference
 from synergrip.simulation.simulation import Simulation
@@ -27,18 +25,7 @@ def saved_simulation(folder: Path, plan: Mapping[str, Any]) -> Simulation | str 
         folder: where simulation.json is looked for.
         plan: document of the plan, as in plan.json, whose digest has been judged.
     """
-    file = folder / FILE
-    if not file.is_file():
-        return None
-    try:
-        data = read_document(file, "simulation", numbers=True).data
-        if not unchanged(data):
-            return "is not as it was written" if stated_digest(data) else "does not say of which plan it is"
-        if data.get("plan_sha256") is None or data["plan_sha256"] != stated_digest(plan):
-            return "is of another plan"
-        return simulation_of(data, plan)
-    except InputError as error:
-        return f"cannot be read: {error.issues[0].message}"
+    return found_beside(folder / FILE, "simulation", plan, lambda data: simulation_of(data, plan))
 
 
 def simulation_of(document: Mapping[str, Any], plan: Mapping[str, Any]) -> Simulation:
