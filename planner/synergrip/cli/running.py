@@ -79,11 +79,18 @@ def heard() -> Iterator[None]:
     if not ending.watching() or outside == signal.SIG_IGN:
         yield
         return
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+    with as_interrupt(signal.SIGINT):
+        yield
+
+
+@contextmanager
+def as_interrupt(number: signal.Signals) -> Iterator[None]:
+    """Let a signal be a KeyboardInterrupt in this block, whoever hears it outside."""
+    outside = signal.signal(number, signal.default_int_handler)
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, outside)
+        signal.signal(number, outside)
 
 
 @contextmanager

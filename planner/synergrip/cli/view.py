@@ -14,7 +14,7 @@ import typer
 
 from synergrip.cli.beside import tell
 from synergrip.cli.loading import load_placed
-from synergrip.cli.running import Format, SetOption, answering, heard, say
+from synergrip.cli.running import Format, SetOption, answering, as_interrupt, heard, say
 
 if TYPE_CHECKING:
     from synergrip.reports.view.shown import Shown
@@ -68,15 +68,11 @@ def view(
 @contextmanager
 def _heard_to_the_end() -> Iterator[None]:
     """Let what ends a program from outside end the view as Ctrl-C does, with its last word."""
-    outside = signal.getsignal(signal.SIGTERM)
-    if outside is not signal.SIG_DFL:  # whoever handles it has a reason
+    if signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL:  # whoever handles it has a reason
         yield
         return
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
+    with as_interrupt(signal.SIGTERM):
         yield
-    finally:
-        signal.signal(signal.SIGTERM, outside)
 
 
 def _page(what: str, posture: str | None, overrides: list[str]) -> Page:

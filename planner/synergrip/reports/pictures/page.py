@@ -11,9 +11,9 @@ from synergrip.reports.pictures.layout import MARGIN, Columns, fitted
 from synergrip.reports.pictures.sheet import GREY, INK, USUAL, Letters, Sheet, write_picture
 
 HEADING, UNDER, NOTE = 13.0, 10.0, 9.0
+"""Sizes of the letters [points]."""
 IN_PAPER = 9.5
 """Size of the title of a picture for a paper [points]: there it is a line above a chart, not the head of a page."""
-"""Sizes of the letters [points]."""
 LINE = 1.45 / 72
 """Distance of lines for each point of their letters [inch]."""
 SPACE = 0.2  # [inch]
