@@ -103,6 +103,7 @@ def _without(told: dict[str, Any]) -> dict[str, Any]:
         (lambda told: with_digest(_without(told) | {"slip_m": "none"}), "cannot be read"),
         (lambda told: with_digest(_without(told) | {"lost_at_s": [None]}), "cannot be read"),
         (lambda told: with_digest(_without(told) | {"contacts": [*told["contacts"], "one more"]}), "cannot be read"),
+        (lambda told: told | {"title": "\ud800"}, "cannot be read: a text in it is none"),
         (lambda told: [], "cannot be read"),
     ],
 )
