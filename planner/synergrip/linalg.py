@@ -45,6 +45,11 @@ def sealed(made: Array) -> Array:
     return made
 
 
+def largest_size(values: Array) -> float:
+    """Return the largest absolute value of an array; 0 of an empty one."""
+    return float(np.abs(values).max(initial=0.0))
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Decision(Value):
     """A rank decision together with what it was based on."""

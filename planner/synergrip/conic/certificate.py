@@ -17,7 +17,7 @@ from synergrip.conic.basis import transposed_product
 from synergrip.conic.cones import distance_to_cones, project_on_dual, row_sizes
 from synergrip.conic.program import Program
 from synergrip.documents.naming import naming_arguments
-from synergrip.linalg import Array, frozen
+from synergrip.linalg import Array, frozen, largest_size
 from synergrip.values import Value
 
 PRIMAL_TOLERANCE = 5e-7
@@ -90,13 +90,13 @@ def judge_optimal(program: Program, x: Array, z: Array) -> Certificate:
     moved = project_on_dual(program, z)
     Px = program.P @ x
     stationarity = Px + program.q + transposed_product(program.A, moved)
-    size = max(1.0, _largest(program.q), _largest(Px))
-    dual = _largest(stationarity) / size
+    size = max(1.0, largest_size(program.q), largest_size(Px))
+    dual = largest_size(stationarity) / size
     half, constant = float(x @ Px) / 2, program.constant
     value, bound = half + float(program.q @ x), -half - float(program.b @ moved)
     # relative to the goal's value, or to the terms that cancel in it
     # what is left of the stationarity, times unknowns far from 1, may be missing from the bound
-    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0)) if _largest(x) > FAR else 0.0
+    missing = float(np.abs(stationarity) @ np.where(np.abs(x) > FAR, np.abs(x), 0.0)) if largest_size(x) > FAR else 0.0
     terms = max(1.0, abs(value), abs(bound), abs(value + constant), abs(bound + constant))
     gap = (abs(value - bound) + missing) / terms
     verified = primal <= PRIMAL_TOLERANCE and dual <= DUAL_TOLERANCE and gap <= GAP_TOLERANCE
@@ -112,10 +112,6 @@ def rounding_of(program: Program, x: Array) -> float:
 def rounding_hides(program: Program, x: Array, value: float) -> bool:
     """Return whether so much of a small value of the objective at x (n,) is rounding that no other units help."""
     return rounding_of(program, x) > HIDDEN * value
-
-
-def _largest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))
 
 
 @np.errstate(over="ignore", invalid="ignore")

@@ -128,7 +128,7 @@ class Execution(Value):
     @cached_property
     def margins(self) -> Array:
         """(K, n_c) slip margins [N]; contacts stick here whatever it is, and would slip where it is negative."""
-        return frozen(self.setting.slip_margins(self.states.forces))
+        return frozen(self.setting.grasp.slip_margins(self.states.forces))
 
     @cached_property
     def residual(self) -> float:

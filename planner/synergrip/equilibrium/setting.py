@@ -66,10 +66,6 @@ class Setting(Value):
         """Return (1) the load at the start, with the points of other loads."""
         return Loads(np.array(self.grasp.w_0)[None], loads.points, np.zeros((1, *loads.at_points.shape[1:])))
 
-    def slip_margins(self, forces: Array) -> Array:
-        """Return the slip margins (T, n_c) of contact forces (T, n_l) [N]."""
-        return self.grasp.slip_margins(forces)
-
     @cached_property
     def compliance(self) -> Array:
         """(n_q, n_q) of the joints with the synergies behind them: C_q + S C_z S'."""

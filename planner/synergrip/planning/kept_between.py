@@ -107,7 +107,7 @@ class _MarginAtKnots(FrictionCone):
 def margins_at(executed: Execution, looks: Looks) -> Array:
     """Return the slip margins (M, n_c) that a hand has about at some instants (M) of an execution [N]."""
     there = executed.interpolated(looks.times, looks.wrench)
-    return executed.setting.slip_margins(there.forces[-len(looks.times) :])
+    return executed.setting.grasp.slip_margins(there.forces[-len(looks.times) :])
 
 
 def _beside(knots: Array, times: Array, missing: Array) -> Array:

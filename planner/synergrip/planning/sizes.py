@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from synergrip.conic.limits.limit import Usage
-from synergrip.linalg import Array
+from synergrip.linalg import largest_size
 from synergrip.planning.arrays import ARRAYS, Size, columns_of
 from synergrip.planning.between import Between
 from synergrip.statics.analysis import Analysis
@@ -48,20 +48,20 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
     loaded = np.abs(scale.force[:, None] * response.dlambda_dw) @ dw
     known = (scale.largest_force(motion.forces), scale.largest_force(forces_at_start(response)))
     unsure = max(1.0, max(each.error for each in response.accuracy.values()) / EXACT)  # of the maps themselves
-    force = unsure * max(*known, _largest(against_a_fixed_object), _largest(loaded))
+    force = unsure * max(*known, largest_size(against_a_fixed_object), largest_size(loaded))
     forces = force / scale.force
-    torque = _largest(np.abs(grasp.J.T) @ forces)
-    effort = _largest(np.abs(grasp.S.T) @ np.abs(grasp.J.T) @ forces)
+    torque = largest_size(np.abs(grasp.J.T) @ forces)
+    effort = largest_size(np.abs(grasp.S.T) @ np.abs(grasp.J.T) @ forces)
     moves = np.abs(response.du_dzr) @ dz_r + np.abs(response.du_dw) @ dw
-    path = unsure * max(_largest(moves[:3]), scale.length * _largest(moves[3:]))
+    path = unsure * max(largest_size(moves[:3]), scale.length * largest_size(moves[3:]))
     du = path / np.repeat([1.0, scale.length], 3)
-    dq = unsure * _largest(np.abs(response.dq_dzr) @ dz_r + np.abs(response.dq_dw) @ dw)
-    references = _largest(dz_r)
-    load = max(_largest(motion.wrench[:, :3]), _largest(motion.wrench[:, 3:]) / scale.length)
+    dq = unsure * largest_size(np.abs(response.dq_dzr) @ dz_r + np.abs(response.dq_dw) @ dw)
+    references = largest_size(dz_r)
+    load = max(largest_size(motion.wrench[:, :3]), largest_size(motion.wrench[:, 3:]) / scale.length)
     wrench = load * np.repeat([1.0, scale.length], 3)
     of_unit = {"N": force, "N m": max(torque, effort), "m": path}
     limits, there = (
-        [max(_largest(each.value), of_unit.get(each.unit, max(dq, references))) for each in of]
+        [max(largest_size(each.value), of_unit.get(each.unit, max(dq, references))) for each in of]
         for of in (usages, between.usages if between is not None else ())
     )
     looks = {"load_departure_N": force, "path_departure_m": path, "worst_margin_N": force, "limits": there}
@@ -88,7 +88,3 @@ def sizes_of(analysis: Analysis, motion: Motion, usages: Sequence[Usage], betwee
 def _of_columns(size: Any) -> Any:
     """Return the size of the columns of plan.csv that belong to a key: one, or one for each."""
     return size["per_contact_N"] if isinstance(size, Mapping) else size
-
-
-def _largest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))

@@ -19,7 +19,7 @@ from synergrip.conic.solution import Claim, Settings, Solution
 from synergrip.conic.solvers import by_structure
 from synergrip.documents.judging import described
 from synergrip.errors import InputError, SynergripError, one_of
-from synergrip.linalg import Array
+from synergrip.linalg import Array, largest_size
 from synergrip.log import LOG
 from synergrip.planning.worth import weighed
 from synergrip.values import Value
@@ -147,6 +147,13 @@ class Answered(Value):
         """True for a verified answer; when it is an optimum, for one that is neither small beside 1 nor coarse."""
         return self.decision.certificate.verified and not (self.decision.optimal and (self.small or self.coarse))
 
+    @property
+    def hidden(self) -> bool:
+        """True where rounding hides in any units what is least of a goal that can be looked at less closely."""
+        decision = self.decision
+        doubt = decision.optimal and self.small and rounding_hides(decision.program, decision.solution.x, self.value)
+        return self.question.goal.rescaled is not None and (decision.certificate.rounded or doubt)
+
     def with_all(self, *others: Decision) -> Answered:
         """Return it with what other attempts at the same cost, too, told in its decision."""
         if not others:
@@ -177,10 +184,7 @@ def ask(question: Question, solver: Answerer, sizes: Sequence[float] = ()) -> An
     best = found = _decided(question, solver)
     tried, left = [best], list(sizes)
     for _ in range(AGAIN + len(left)):
-        known, program = best.decision.optimal and best.small, best.decision.program  # verified, not beside its value
-        doubt = known and rounding_hides(program, best.decision.solution.x, best.value)
-        hidden = best.decision.certificate.rounded or doubt
-        if best.settled or (hidden and best.question.goal.rescaled is not None):
+        if best.settled or best.hidden:
             break
         other = _in_its_units(found) or (_in_units_of(question, left.pop(0)) if left else None)
         if other is None:
@@ -211,7 +215,7 @@ def _in_its_units(found: Answered) -> Question | None:
     if formulation.unreduced is None:
         motion = formulation.beta.at(v) - formulation.beta.constant
         force = formulation.response.scale.largest_force(formulation.force.at(v))
-        sizes = (force, _largest(formulation.reference.at(v)), _largest(motion))
+        sizes = (force, largest_size(formulation.reference.at(v)), largest_size(motion))
         units = Units(*(size if 0 < size < np.inf else was for size, was in zip(sizes, astuple(old), strict=True)))
         formulation, v = (
             formulation.in_units(units),
@@ -232,10 +236,6 @@ def _in_units_of(question: Question, force: float) -> Question | None:
     if formulation.unreduced is not None:
         return None
     return replace(question, formulation=formulation.in_units(replace(formulation.units, force=force)))
-
-
-def _largest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))
 
 
 def _less_closely(best: Answered, solver: Answerer) -> Answered:

@@ -24,14 +24,14 @@ LIMITS = "write for example limits=(SlipMargin(0.5), NormalForce(upper=20.0))"
 
 def times_of(judge: Judge, times: Any) -> Array:
     """Return the knots (T,), after noting that they are none, or do not increase."""
-    known = type(times) is np.ndarray and times.dtype == np.float64 and times.ndim == 1 and times.size
-    if known and abs(times[0]) <= LARGEST_NUMBER and times[-1] <= LARGEST_NUMBER and (times[1:] > times[:-1]).all():
-        return times if not times.flags.writeable and times.flags.owndata else frozen(times)
-    count = np.size(np.asarray(times, dtype=object)) if not isinstance(times, str) else 0
+    given = times if isinstance(times, np.ndarray) else np.asarray(times, dtype=object)
+    count = given.size if not isinstance(times, str) else 0
     found = judge.array("times", times, (count,), ": one or more instants in seconds")
     if not count:
         judge.refuse("times", "expected one or more instants in seconds, got none; write for example [0.0]")
-    for earlier, later in pairwise(found if not judge.issues else ()):
+    if judge.issues or (found[1:] > found[:-1]).all():
+        return found
+    for earlier, later in pairwise(found):
         if later <= earlier:
             what = "is repeated" if later == earlier else f"comes after {earlier:g} s"
             judge.refuse("times", f"times must increase: {later:g} s {what}; sort them, with the lines of wrench")
