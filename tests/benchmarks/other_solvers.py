@@ -1,7 +1,7 @@
 """Small cone programs by other solvers, one after the other or as a batch: for `many_against.py`.
 
 Each takes `ConeProblems` and returns x (N, n) and multipliers z (N, m), rows of NaN where there is no answer; z is None
-where the interface gives none. All are asked for `TOLERANCE`.
+where the interface gives none. All are asked for `TOLERANCE`, but OSQP, which stops at its own 1e-3.
 """
 
 from __future__ import annotations
