@@ -38,8 +38,8 @@ def spots_of(hand: Hand, q: Array, others: Sequence[Pad] = ()) -> tuple[Spot, ..
     motions = hand.kinematics.at(q, asked)
     of_pads, bare = motions[: len(pads)], motions[len(pads) :]
     moved = {joint.link for joint in hand.joints}
-    turned = ((at.rotation @ pad.normal, pad.normal) for pad, at in zip(pads, of_pads, strict=True))
-    pushing = [frozen(normal) if np.any(own) else None for normal, own in turned]
+    turned = zip(pads, of_pads, strict=True)
+    pushing = (frozen(at.rotation @ pad.normal) if pad.normal.any() else None for pad, at in turned)
     found = (
         Spot(pad.name, pad.link, True, False, at.position, normal)
         for pad, at, normal in zip(pads, of_pads, pushing, strict=True)

@@ -102,9 +102,8 @@ def parsed(document: Document) -> ProblemFile:
     try:
         return parse(document, ProblemFile)
     except InputError as error:
-        from synergrip.problems.hand_beside import (
-            hand_issues,  # it reads hands, which a file in order does not need here
-        )
+        # it reads hands, which a file in order does not need here
+        from synergrip.problems.hand_beside import hand_issues
 
         newer = any(issue.key == "schema" for issue in error.issues)
         beside = [] if newer else [document.locate(issue) for issue in hand_issues(document, error.issues)]
