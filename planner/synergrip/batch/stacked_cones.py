@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.conic.affine import Affine, times
-from synergrip.grasps.friction_cones import SLIPPERY
+from synergrip.grasps.friction_cones import cone_units
 from synergrip.grasps.grasp import Grasp
 from synergrip.grasps.stacked_kinds import StackedKinds
 from synergrip.linalg import Array, Places
@@ -41,10 +41,10 @@ class StackedCones(Value):
 
     @cached_property
     def unit(self) -> Array:
-        """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
-        largest = np.abs(self.entries[..., :: self.size] if self.columns is not None else self.W[..., :: self.size, :])
-        largest = largest if self.columns is not None else largest.max(axis=-1)
-        return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
+        """(cones,) or (N, cones): what rows are divided by where there is little friction."""
+        if self.columns is not None:
+            return cone_units(np.abs(self.entries[..., :: self.size]))
+        return cone_units(np.abs(self.W[..., :: self.size, :]).max(axis=-1))
 
     def taken(self, places: Places) -> StackedCones:
         """Return those of the problems at some places."""

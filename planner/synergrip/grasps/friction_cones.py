@@ -1,4 +1,4 @@
-"""Friction cones of all contacts, those of one size together: ``W lambda`` of a whole grasp, or of each of many."""
+"""Friction cones of all contacts of a grasp, those of one size together, and the slip margins that they say."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synergrip.grasps.contacts.contact import Contact
-from synergrip.linalg import Array, Places, sealed
+from synergrip.linalg import Array, sealed
 from synergrip.values import Value
 
 SLIPPERY = 0.1
@@ -20,50 +20,48 @@ SLIPPERY = 0.1
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cones(Value):
-    """The cones of one size of all contacts: ``W lambda``, cones below one another."""
+    """The cones of one size of all contacts of a grasp: ``W lambda``, cones below one another."""
 
     size: int
     contacts: NDArray[np.intp]
     """(cones,) which contact each belongs to."""
-    W: Array
-    """(cones * size, n_l), or (N, ...) with one for each grasp."""
-    names: tuple[tuple[str, str], ...] = ()
-    """Contact and side of each, where they are those of one grasp."""
+    W: Array  # (cones * size, n_l)
+    names: tuple[tuple[str, str], ...]
+    """Contact and side of each."""
 
     @cached_property
     def unit(self) -> Array:
-        """(cones,) or (N, cones): what rows are divided by where there is little friction (see `cone_unit`)."""
-        largest = np.abs(self.W[..., :: self.size, :]).max(axis=-1)
-        return np.where((largest > 0) & (largest < SLIPPERY), largest, 1.0)
+        """(cones,) what rows are divided by where there is little friction."""
+        return cone_units(np.abs(self.W[:: self.size]).max(axis=-1))
 
     @cached_property
     def heads(self) -> Array:
-        """(cones * size,) 1 over its unit at the first row of each cone of one grasp, 0 elsewhere."""
+        """(cones * size,) 1 over its unit at the first row of each cone, 0 elsewhere."""
         found = np.zeros((len(self.contacts), self.size))
         found[:, 0] = 1.0 / self.unit
         return sealed(found.ravel())
 
     @cached_property
     def in_units(self) -> Array:
-        """(cones * size, n_l) the rows W of each cone of one grasp over its unit."""
+        """(cones * size, n_l) the rows W of each cone over its unit."""
         return sealed(self.W / np.repeat(self.unit, self.size)[:, None])
-
-    def taken(self, places: Places) -> Cones:
-        """Return those of the grasps at some places."""
-        return Cones(self.size, self.contacts, self.W[places]) if self.W.ndim > 2 else self
 
     def images(self, forces: Array) -> Array:
         """Return ``W lambda`` (N, cones, size) [N] of contact forces (N, n_l)."""
-        image = forces @ self.W.T if self.W.ndim == 2 else (self.W @ forces[:, :, None])[:, :, 0]
-        return image.reshape(len(forces), len(self.contacts), self.size)
+        return (forces @ self.W.T).reshape(len(forces), len(self.contacts), self.size)
 
 
-def cone_unit(friction: float) -> float:
-    """Return what a cone of friction (its factor of the normal force) is divided by: this, where there is little.
+def cone_units(friction: Array) -> Array:
+    """Return what cones of friction (...) are divided by: this factor of the normal force, where there is little.
 
     The first row is then the normal force itself, so that the contact pushes to the same tolerance as others.
     """
-    return float(friction) if 0 < friction < SLIPPERY else 1.0
+    return np.where((friction > 0) & (friction < SLIPPERY), friction, 1.0)
+
+
+def cone_unit(friction: float) -> float:
+    """Return what one cone of friction is divided by, as of `cone_units`."""
+    return float(cone_units(np.asarray(friction)))
 
 
 def cones_of(contacts: Sequence[Contact], rows: Sequence[slice]) -> tuple[Cones, ...]:
