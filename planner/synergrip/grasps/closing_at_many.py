@@ -75,16 +75,18 @@ class Closer:
 
     def gaps(self, positions: Array, q: Array) -> Array:
         """Return how far pads are from the surface (N, n_c) [m], of what `seen` sees."""
-        places = self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
-        return np.asarray(self.shape.surface(places - positions[:, None])[0] - self.radii)
+        return np.asarray(self.shape.surface(self.centres(q) - positions[:, None])[0] - self.radii)
+
+    def centres(self, q: Array) -> Array:
+        """Return where the pads are (N, n_c, 3) [m] at joint values (N, n_q)."""
+        return self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
 
     def path(self, looks: int = 24) -> Array:
         """Return where each pad comes (looks, n_c, 3) [m] as the hand closes on nothing."""
         joints, along = self.joints, self.joints.direction
         far = np.where(np.isfinite(joints.limit), joints.limit, self.begin + np.pi * np.sign(along))
         share = np.where(joints.closing, (far - self.begin) / np.where(joints.closing, along, 1.0), 0.0)
-        q = joints.inside(self.begin + np.linspace(0.0, float(share.max()), looks)[:, None] * along)
-        return self.asked.hand.kinematics.along(q, [(pad.link, pad.point) for pad in self.pads]).position
+        return self.centres(joints.inside(self.begin + np.linspace(0.0, float(share.max()), looks)[:, None] * along))
 
     def closed(self, positions: Array) -> ClosedAtMany:
         """Return the hand closed on the object at each of `positions` (N, 3) where no pad begins inside it."""

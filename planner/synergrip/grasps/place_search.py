@@ -113,8 +113,7 @@ def touching_places(closer: Closer, found: ClosedAtMany) -> TouchingPlaces:
 
 def _at_edges(closer: Closer, positions: Array, q: Array) -> Flags:
     """Tell at which places (N, 3) a contact is at an edge: a little inside the object, another face is nearer."""
-    pads = [(pad.link, pad.point) for pad in closer.pads]
-    centres = closer.asked.hand.kinematics.along(q, pads).position - positions[:, None]
+    centres = closer.centres(q) - positions[:, None]
     off, outward = closer.shape.surface(centres)
     deep = min(EDGE, EDGE_SHARE * float(_half_size(closer.shape).min()))
     _, below = closer.shape.surface(centres - (off[..., None] + deep) * outward)
@@ -123,9 +122,8 @@ def _at_edges(closer: Closer, positions: Array, q: Array) -> Flags:
 
 def _on_one_spot(closer: Closer, q: Array, outward: Array) -> Flags:
     """Tell in which postures (N, n_q) two contacts are on the same spot, with the normals outward (N, n_c, 3)."""
-    pads = [(pad.link, pad.point) for pad in closer.pads]
-    spots = closer.asked.hand.kinematics.along(q, pads).position - closer.radii[:, None] * outward
-    apart = np.linalg.norm(spots[:, :, None] - spots[:, None], axis=-1) + np.diag(np.full(len(pads), np.inf))
+    spots = closer.centres(q) - closer.radii[:, None] * outward
+    apart = np.linalg.norm(spots[:, :, None] - spots[:, None], axis=-1) + np.diag(np.full(len(closer.pads), np.inf))
     return np.asarray((apart < SAME_SPOT).any(axis=(1, 2)))
 
 
