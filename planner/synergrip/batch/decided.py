@@ -36,13 +36,17 @@ class Decided(Value):
     """What verified of N tasks; what is neither feasible nor infeasible is for somebody else."""
 
     feasible: NDArray[np.bool_]
-    infeasible: NDArray[np.bool_]
     largest_margin: Array  # (N,) [N]; nan where it was not looked for, or did not verify
     dz_r: Array  # (N, n_z), nan where there is no plan
     forces: Array  # (N, n_l)
     margins: Array  # (N, n_c)
     clashes: NDArray[np.str_]
-    """(N,) the key of the limit that clashes most beside friction where there is none; else empty."""
+    """(N,) the key of the limit that clashes most beside friction where there is proven to be no plan; else empty."""
+
+    @property
+    def infeasible(self) -> NDArray[np.bool_]:
+        """(N,) whether it is proven that there is no plan."""
+        return np.asarray(self.clashes != "")
 
 
 def decided(stated: Stated, wrench: Array, solver: Solver) -> Decided:
@@ -150,4 +154,4 @@ def _told(
         name: np.where(feasible[:, None], np.nan if plans is None else getattr(plans, name), np.full((N, size), np.nan))
         for name, size in shapes.items()
     }
-    return Decided(feasible, clashing != "", largest, **arrays, clashes=clashing)
+    return Decided(feasible, largest, **arrays, clashes=clashing)
