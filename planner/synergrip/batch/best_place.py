@@ -10,6 +10,7 @@ from synergrip.batch.judged_places import JudgedPlaces
 from synergrip.batch.place_judge import PlaceJudge
 from synergrip.batch.placed_object import PlacedObject
 from synergrip.batch.planned_places import Candidate, first_that_holds
+from synergrip.batch.telling import Progress
 from synergrip.errors import InputError
 from synergrip.grasps.asked_grasp import AskedGrasp
 from synergrip.grasps.closing_at_many import Closer
@@ -33,7 +34,6 @@ PLANNED, FAR = 16, 0.5
 """At how many places it is planned at most, and how far they are from each other, of the distance of the places that
 were searched first: where no plan holds, hardly any does a millimetre beside it."""
 SEARCHING = "looking for the place of the object"
-Progress = Callable[[str, float], None]
 
 
 def best_place(

@@ -33,7 +33,7 @@ from synergrip.tasks.task import Task
 INSTANTS = 5
 """Knots of the task, from end to end, at which margins are looked at."""
 JUDGED = 150
-"""Places whose margins are worked out at a time, evenly chosen of those that touch."""
+"""Places whose margins are worked out at a time, most of them those of least doubt (`_some`)."""
 BEST = 5
 """Places around which is looked again, nearer."""
 DIGITS = (4, 5, 6, 7)
@@ -124,7 +124,7 @@ class PlaceJudge:
         grasp, task = _first(rounded, self._met)
         held = grasp.held
         assert held is not None
-        one = TouchingPlaces(held.body.position[None], held.q[None], np.ones(1, dtype=bool))
+        one = TouchingPlaces(held.body.position[None], held.q[None], np.zeros(1, dtype=int))
         return Candidate(grasp, task, float(self.margins(one)[0]))
 
     def _met(self, position: Array) -> tuple[Grasp, Task]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from synergrip.batch.best_place import Progress, best_place
+from synergrip.batch.best_place import best_place
 from synergrip.batch.placed_object import PlacedObject
-from synergrip.batch.telling import judge_progress
+from synergrip.batch.telling import Progress, judge_progress
 from synergrip.documents.judging import Arguments
 from synergrip.documents.naming import naming_arguments
 from synergrip.grasps.asked_grasp import asked_grasp, grasp_of

@@ -87,10 +87,8 @@ class StackedKinds(Value):
     @classmethod
     def of(cls, grasps: Sequence[Grasp]) -> StackedKinds:
         """Return those of grasps with as many contacts each."""
-        kinds, n_c = (
-            list(map(attrgetter("kind"), chain.from_iterable(map(attrgetter("contacts"), grasps)))),
-            grasps[0].n_c,
-        )
+        contacts, n_c = chain.from_iterable(map(attrgetter("contacts"), grasps)), grasps[0].n_c
+        kinds = list(map(attrgetter("kind"), contacts))
         return cls(tuple(KindsOfContact.of(kinds[contact::n_c]) for contact in range(n_c)))
 
     def __len__(self) -> int:
